@@ -1,0 +1,30 @@
+PYTHON := .venv/bin/python
+
+.PHONY: run test check slow bench models clean
+
+run: .venv/ready
+	$(PYTHON) -m mjsim.run --surface all
+
+test: .venv/ready
+	$(PYTHON) -m pytest
+
+# what .ci/run runs after `make test`
+check: .venv/ready
+	$(PYTHON) -m ruff check .
+	$(PYTHON) -m ruff format --check .
+	$(PYTHON) -m mypy
+	$(PYTHON) -m pytest -m slow
+
+bench: .venv/ready
+	$(PYTHON) -m pytest benchmarks --benchmark-only -o addopts="" --benchmark-columns=min,median,rounds
+
+# write models/ anew after a change of the generator or of the default robot
+models: .venv/ready
+	$(PYTHON) -m mjsim.export
+
+.venv/ready: pyproject.toml constraints.txt scripts/setup.sh
+	bash scripts/setup.sh
+	touch $@
+
+clean:
+	rm -rf .venv build dist

@@ -1,0 +1,74 @@
+"""The seed's friction law: constant at a tip, by area on a side, and who slides (section 2.2)."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from analytic.robot import Robot
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A ground as the pair {V_t, tau} of section 2.2, both in units of one force scale V0.
+
+    Args:
+        name: how commands and files call the surface.
+        tip: V_t, sliding resistance of an end in point contact [V0].
+        area: tau, sliding resistance of a side contact one segment long [V0]. The seed's area
+            q lambda is thus normalised by q times a segment's length, so that its
+            polyethylene (0.5, 1) has equal resistances where half a segment lies flat.
+
+    Raises:
+        ValueError: a resistance is negative or not finite.
+    """
+
+    name: str
+    tip: float
+    area: float
+
+    def __post_init__(self) -> None:
+        for key in ("tip", "area"):
+            value = getattr(self, key)
+            if not (math.isfinite(value) and value >= 0):
+                raise ValueError(f"{key} must be a finite number, at least 0, got {value!r}")
+
+    @property
+    def tip_to_area_ratio(self) -> float:
+        """V_t / (tau q L), the number that places a surface between gelatin (inf) and felt (0)."""
+        return math.inf if self.area == 0 else self.tip / (3 * self.area)
+
+
+SURFACES: dict[str, Surface] = {
+    surface.name: surface
+    for surface in (
+        Surface("felt", tip=0.0, area=1.0),  # seed, section 2.2
+        Surface("polyethylene", tip=0.5, area=1.0),  # seed, section 2.2
+        Surface("gelatin", tip=1.0, area=0.0),  # seed, section 2.2
+    )
+}
+
+
+def sliding_resistance(robot: Robot, surface: Surface, contact_length: ArrayLike) -> Array:
+    """Greatest shear force that an end can carry, in units of V0: V_t or V_s = tau A.
+
+    Args:
+        contact_length: lambda, length of side contact at that end [m]; 0 is tip contact.
+
+    Returns:
+        Same shape as contact_length [V0].
+    """
+    length = np.asarray(contact_length, dtype=float)
+    return np.where(length > 0, surface.area * length / robot.segment_length, surface.tip)
+
+
+def left_share(resistance_left: ArrayLike, resistance_right: ArrayLike) -> Array:
+    """Part of a change of separation that the left end takes up: 0, 1/2 or 1 (section 2.2).
+
+    The end with the larger resistance stays anchored; where both resist alike, they share.
+    """
+    left, right = np.asarray(resistance_left), np.asarray(resistance_right)
+    return np.where(left > right, 0.0, np.where(left < right, 1.0, 0.5))

@@ -1,0 +1,71 @@
+"""From a sequence of shapes and a surface to the way the robot goes (seed, section 2.2)."""
+
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.friction import Surface, left_share, sliding_resistance
+from analytic.shapes import Shapes
+
+Array = NDArray[np.float64]
+Direction = Literal["forward", "backward", "none"]
+
+STANDSTILL = 0.005  # |Delta|/L below which a cycle counts as no travel; chosen, 0.65 mm on 130 mm
+
+
+class Locomotion(NamedTuple):
+    """Displacements along a sequence of B states.
+
+    Attributes:
+        left: displacement of the left end since the first state, shape (B,) [m].
+        right: displacement of the right end since the first state, shape (B,) [m].
+        per_cycle: Delta, displacement of the left end per cycle [m]; NaN if a state has none.
+    """
+
+    left: Array
+    right: Array
+    per_cycle: float
+
+
+def locomotion(shapes: Shapes, surface: Surface, cycles: int = 1) -> Locomotion:
+    """Apply the anchor rule of section 2.2 to a sequence of states.
+
+    Each change of separation is taken up by the end that resists less, by both alike when they
+    resist alike. An increment uses the mean of the rule at its two states, so that the reversed
+    sequence gives exactly the opposite displacement.
+
+    Args:
+        shapes: states in order of time, evenly or unevenly spaced; finer is more accurate.
+        surface: the ground.
+        cycles: number of cycles that the sequence holds.
+
+    Raises:
+        ValueError: fewer than two states, or cycles below 1.
+    """
+    if len(shapes) < 2 or cycles < 1:
+        raise ValueError(
+            f"need at least two states and one cycle, got {len(shapes)} states, {cycles} cycles"
+        )
+    share = left_share(
+        sliding_resistance(shapes.robot, surface, shapes.contact_left),
+        sliding_resistance(shapes.robot, surface, shapes.contact_right),
+    )
+    change = np.diff(shapes.separation)
+    mean_share = 0.5 * (share[1:] + share[:-1])
+    left = np.concatenate([[0.0], np.cumsum(-mean_share * change)])
+    right = left + (shapes.separation - shapes.separation[0])
+    return Locomotion(left, right, float(left[-1] / cycles))
+
+
+def direction(displacement: float, length: float) -> Direction:
+    """Name the way a cycle went: "forward" is +x, "none" is below STANDSTILL of the length.
+
+    Raises:
+        ValueError: the displacement is NaN, so that there is nothing to name.
+    """
+    if np.isnan(displacement):
+        raise ValueError("the displacement is NaN: some state has no solution")
+    if abs(displacement) < STANDSTILL * length:
+        return "none"
+    return "forward" if displacement > 0 else "backward"

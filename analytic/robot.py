@@ -1,0 +1,43 @@
+"""The robot: a strip of three equal pneu-net segments, as plain data."""
+
+import math
+from dataclasses import dataclass, fields
+
+PSI = 6894.757293168  # Pa in a pound-force per square inch (NIST SP 811)
+SEGMENTS = 3  # seed, section 2.3
+
+
+@dataclass(frozen=True)
+class Robot:
+    """A planar strip of three equal segments, each one a pneu-net of the same design.
+
+    The defaults give an undulation of about a quarter of the length, the seed's optimum.
+
+    Raises:
+        ValueError: a value is not a positive finite number, or chamber_fraction exceeds 1.
+    """
+
+    length: float = 0.130  # L [m]; chosen
+    width: float = 0.040  # q, also the depth "w" of (1)-(9) [m]; chosen
+    modulus: float = 1.8e6  # E of the strain-limiting layer [Pa]; chosen (PDMS)
+    thickness: float = 4.0e-3  # t of the strain-limiting layer [m]; chosen
+    chamber_height: float = 4.1e-3  # H [m]; chosen
+    chamber_fraction: float = 0.7  # c/x, chamber width over the arclength it occupies [1]; chosen
+    weight_per_length: float = 2.0  # w of Appendix A [N/m]; chosen
+    peak_pressure: float = 7.0 * PSI  # p [Pa]; seed, section 3
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if not (isinstance(value, int | float) and math.isfinite(value) and value > 0):
+                raise ValueError(f"{field.name} must be a positive finite number, got {value!r}")
+        if self.chamber_fraction > 1:
+            raise ValueError(
+                f"chamber_fraction must lie in (0, 1], got {self.chamber_fraction!r}: "
+                "a chamber cannot be wider than the strip it sits on"
+            )
+
+    @property
+    def segment_length(self) -> float:
+        """Length of one segment [m]."""
+        return self.length / SEGMENTS

@@ -1,0 +1,56 @@
+"""Command lines from dataclasses: help that teaches, and bad input in one clear line."""
+
+import contextlib
+import io
+import re
+import sys
+from collections.abc import Sequence
+from typing import NoReturn, TypeVar
+
+import tyro
+
+Options = TypeVar("Options")
+
+BAD_INPUT, FAILED = 2, 3  # exit codes, beside 0
+
+
+def fail(program: str, message: str) -> NoReturn:
+    """Print one line on stderr and leave with the code for bad input."""
+    print(f"{program}: error: {' '.join(message.split())}", file=sys.stderr)
+    sys.exit(BAD_INPUT)
+
+
+def parse(kind: type[Options], program: str, argv: Sequence[str] | None) -> Options:
+    """Read options into a dataclass whose field comments are the help.
+
+    Exits with 0 after --help, and with 2 and one line for a word it cannot read.
+    """
+    said = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(said):
+            return tyro.cli(kind, prog=program, args=argv, config=(tyro.conf.FlagCreatePairsOff,))
+    except SystemExit as stop:
+        if stop.code == 0:
+            raise
+    fail(program, _first_message(said.getvalue()))
+
+
+def _first_message(text: str) -> str:
+    """The sentence at the top of tyro's box, in one line."""
+    words = re.sub(r"\x1b\[[0-9;]*m", "", text)
+    lines = [line.strip("│ ").strip() for line in words.splitlines() if line.startswith("│")]
+    body: list[str] = []
+    for line in lines:
+        if not line or set(line) <= {"─"}:
+            break
+        body.append(line)
+    return _plain(" ".join(body) or words)
+
+
+def _plain(message: str) -> str:
+    """What tyro says of a word that is no number, in the words of our own checks."""
+    number = re.fullmatch(r"Error parsing --(\S+): .*(int|float)\b.*: ('.*')", message)
+    if number is None:
+        return f"{message} (see --help)"
+    name, kind, word = number.groups()
+    return f"{name} must be a {'whole ' if kind == 'int' else ''}number, got {word}"

@@ -1,0 +1,90 @@
+"""What is simulated (Scene) and how (Numerics): plain data with checked values."""
+
+import math
+from dataclasses import dataclass, field, fields
+
+from analytic import GAITS, SURFACES, Gait, Robot, Surface, pneunet
+
+MIN_LINKS, MAX_LINKS = 6, 384
+BODIES = ("planar",)
+FRICTION_LAWS = ("paper",)
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A robot that walks a gait on a surface.
+
+    Raises:
+        ValueError: a value is out of its range; the message names it and the valid ones.
+    """
+
+    robot: Robot = field(default_factory=Robot)
+    gait: Gait = GAITS["wave"]
+    surface: Surface = SURFACES["felt"]
+    cycles: int = 1
+    body: str = "planar"
+    friction: str = "paper"
+    friction_number: float = 1.0  # Phi = V0 L^2 / D0 [1]; chosen, see README
+    gravity: float = 9.81  # m/s^2; only the mass w/g that the weight w per length has depends on it
+    settle_time: float = 0.5  # at rest before the first cycle [s]; chosen
+
+    def __post_init__(self) -> None:
+        _choose("body", self.body, BODIES)
+        _choose("friction", self.friction, FRICTION_LAWS)
+        if self.cycles < 1:
+            raise ValueError(f"cycles must be at least 1, got {self.cycles}")
+        for name in ("friction_number", "gravity", "settle_time"):
+            _positive(name, getattr(self, name))
+        limit = 2 * math.pi / (pneunet.curvature_per_pressure(self.robot) * self.robot.length)
+        if self.robot.peak_pressure >= limit:
+            raise ValueError(
+                f"pressure must be below {limit:.0f} Pa, where this strip would close into a "
+                f"circle, got {self.robot.peak_pressure:g}"
+            )
+
+    @property
+    def force_scale(self) -> float:
+        """V0, the force that the surface's V_t and tau are multiples of [N]."""
+        return self.friction_number * pneunet.base_rigidity(self.robot) / self.robot.length**2
+
+    @property
+    def duration(self) -> float:
+        """Simulated time, settling included [s]."""
+        return self.settle_time + self.cycles * self.gait.period
+
+
+@dataclass(frozen=True)
+class Numerics:
+    """How a planar chain is discretised and integrated.
+
+    Raises:
+        ValueError: a value is out of its range; the message names it and the valid ones.
+    """
+
+    links: int = 24
+    timestep: float = 0.010  # s; chosen
+    damping_time: float = 0.005  # joint damping over joint stiffness [s]; chosen
+    side_angle: float = 1e-3  # an end less steep than this lies on its side [rad]; chosen
+    pad_radius: float = 1e-3  # of the contact pads, centred on the neutral line [m]; chosen
+
+    def __post_init__(self) -> None:
+        links = self.links
+        if not (isinstance(links, int) and MIN_LINKS <= links <= MAX_LINKS):
+            raise ValueError(
+                f"links must be a whole number from {MIN_LINKS} to {MAX_LINKS}, got {links!r}"
+            )
+        for item in fields(self):
+            if item.name != "links":
+                _positive(item.name, getattr(self, item.name))
+        if self.timestep > 0.1:
+            raise ValueError(f"timestep must be at most 0.1 s, got {self.timestep!r}")
+
+
+def _choose(name: str, value: str, valid: tuple[str, ...]) -> None:
+    if value not in valid:
+        raise ValueError(f"{name} must be one of {', '.join(valid)}; got {value!r}")
+
+
+def _positive(name: str, value: float) -> None:
+    if not (math.isfinite(value) and value > 0):
+        raise ValueError(f"{name} must be a positive finite number, got {value!r}")

@@ -1,0 +1,42 @@
+"""Numbers of one walk: how far, which way, how high, and how much of it was slip."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from analytic import Direction, direction
+from mjsim.trajectory import Status, Trajectory
+
+
+class Measures(NamedTuple):
+    """Attributes, lengths over L: displacement of the left end per cycle; its direction; greatest
+    height; slip, the displacement per cycle that the anchor rule does not account for.
+    """
+
+    displacement: float
+    direction: Direction
+    amplitude: float
+    slip: float
+
+
+def measure(walk: Trajectory) -> Measures | None:
+    """Measures of a walk that ended well; None of one that did not, as it has none.
+
+    Slip is what inertia drags the anchored end along for want of friction. It vanishes as the gait
+    slows, and is a lower bound on the error of the displacement at finite speed.
+    """
+    if walk.status is not Status.OK:
+        return None
+    x, z = walk.nodes()
+    begin = int(np.flatnonzero(walk.time <= 1e-9 * walk.scene.gait.period)[-1])
+    length, cycles = walk.scene.robot.length, walk.scene.cycles
+    left = x[begin:, 0]
+    change = np.diff(x[begin:, -1] - left)
+    ruled = -float(walk.left_share[begin + 1 :] @ change)
+    travel = float(left[-1] - left[0])
+    return Measures(
+        displacement=travel / (cycles * length),
+        direction=direction(travel / cycles, length),
+        amplitude=float(z[begin:].max()) / length,
+        slip=(travel - ruled) / (cycles * length),
+    )

@@ -1,0 +1,63 @@
+"""What a result was made from: versions, commit, resolved configuration."""
+
+import platform
+import subprocess
+from dataclasses import asdict
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from analytic import Gait, Robot, Surface
+from mjsim.config import Numerics, Scene
+
+DISTRIBUTION = "undulator"
+_PACKAGES = (DISTRIBUTION, "mujoco", "dm_control", "numpy", "scipy")
+
+
+def provenance(scene: Scene, numerics: Numerics) -> dict[str, Any]:
+    """Plain data that says how to make a result again."""
+    return {
+        "versions": {"python": platform.python_version(), **_versions()},
+        "commit": _commit(),
+        "scene": asdict(scene),
+        "numerics": asdict(numerics),
+    }
+
+
+def configuration(origin: dict[str, Any]) -> tuple[Scene, Numerics]:
+    """The scene and numerics that `provenance` described.
+
+    Raises:
+        KeyError, TypeError, ValueError: `origin` is no such description.
+    """
+    scene = dict(origin["scene"])
+    stages = tuple(tuple(stage) for stage in scene["gait"]["stages"])
+    scene["gait"] = Gait(**{**scene["gait"], "stages": stages})
+    scene["robot"] = Robot(**scene["robot"])
+    scene["surface"] = Surface(**scene["surface"])
+    return Scene(**scene), Numerics(**origin["numerics"])
+
+
+def _versions() -> dict[str, str]:
+    found = {}
+    for name in _PACKAGES:
+        try:
+            found[name] = metadata.version(name)
+        except metadata.PackageNotFoundError:
+            found[name] = "not installed"
+    return found
+
+
+def _commit() -> str | None:
+    """Commit of the checkout this code runs from, with "+" if it was changed; None if none."""
+    top = Path(__file__).resolve().parent.parent
+    if not (top / ".git").exists():
+        return None
+    try:
+        run = subprocess.run(
+            ["git", "-C", str(top), "describe", "--always", "--dirty=+", "--exclude=*"],
+            capture_output=True, text=True, timeout=10, check=False,
+        )  # fmt: skip
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    return run.stdout.strip() or None

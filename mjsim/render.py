@@ -1,0 +1,79 @@
+"""Pictures of a walk: MuJoCo's renderer posed from a trajectory, no simulation in it."""
+
+from types import TracebackType
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.robot import SEGMENTS
+from mjsim.assembly import DARK, PALE, compile_model
+from mjsim.trajectory import Trajectory
+
+Frame = NDArray[np.uint8]
+
+_POINTER = (0.10, 0.30, 0.75, 1.0)  # the left end now, beside the red mark of its start
+
+
+class Camera:
+    """Draws one walk; close it, or use it in a `with`, as it holds an OpenGL context.
+
+    Args:
+        walk: what to draw.
+        width, height: of a frame, even [pixels]; at most 1280 x 720.
+        view: a camera of models/stage.xml, "side" for 16:9 or "band" for a wide strip.
+    """
+
+    def __init__(self, walk: Trajectory, width: int, height: int, view: str = "side") -> None:
+        self._walk, self._view = walk, view
+        self._model = compile_model(walk.scene, walk.numerics)
+        self._data = mujoco.MjData(self._model)
+        self._renderer = mujoco.Renderer(self._model, height, width)
+        self._options = mujoco.MjvOption()
+        mujoco.mjv_defaultOption(self._options)
+        self._options.geomgroup[3] = False  # contact pads
+        self._options.flags[mujoco.mjtVisFlag.mjVIS_TENDON] = False
+
+    def __enter__(self) -> "Camera":
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Free the OpenGL context."""
+        self._renderer.close()
+
+    def frame(self, step: int) -> Frame:
+        """The walk after a step, shape (height, width, 3)."""
+        walk, model, data = self._walk, self._model, self._data
+        data.qpos[:] = walk.coordinates[step]
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_camlight(model, data)
+        fraction = walk.pressure[step] / walk.scene.robot.peak_pressure
+        pale, dark = np.array([*PALE, 1.0]), np.array([*DARK, 1.0])
+        for segment in range(SEGMENTS):
+            model.skin_rgba[segment] = pale + fraction[segment] * (dark - pale)
+        self._renderer.update_scene(data, self._view, self._options)
+        self._point_at(float(walk.coordinates[step, 0]))
+        return self._renderer.render()
+
+    def _point_at(self, x: float) -> None:
+        """A thin blue line on the ground under the left end."""
+        scene = self._renderer.scene
+        geom = scene.geoms[scene.ngeom]
+        mujoco.mjv_initGeom(
+            geom,
+            mujoco.mjtGeom.mjGEOM_BOX,
+            np.array([0.0004, 0.0296, 0.0006]),
+            np.array([x, 0.0, 0.0006]),
+            np.eye(3).ravel(),
+            np.array(_POINTER, dtype=np.float32),
+        )
+        scene.ngeom += 1

@@ -1,0 +1,53 @@
+"""Make a video from a saved trajectory, of a run that failed too: `python -m mjsim.replay`."""
+
+import json
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import tyro
+
+from mjsim import gl
+from mjsim.cli import FAILED, fail, parse
+
+PROGRAM = "python -m mjsim.replay"
+
+
+@dataclass(frozen=True)
+class Options:
+    """Draw a trajectory that `python -m mjsim.run` saved, up to its last state.
+
+    Writes a video beside the file. Exit code 0: done; 2: bad input; 3: nothing here can render.
+    """
+
+    trajectory: Annotated[Path, tyro.conf.Positional]
+    """a .nc file of a run"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    options = parse(Options, PROGRAM, argv)
+    backend = gl.find_backend()
+    if backend is None:
+        print(f"{PROGRAM}: {gl.HELP}", file=sys.stderr)
+        return FAILED
+    os.environ[gl.VARIABLE] = backend
+
+    from mjsim.trajectory import load
+    from mjsim.video import write_video
+
+    try:
+        walk = load(options.trajectory)
+    except (OSError, KeyError, ValueError, json.JSONDecodeError) as error:
+        fail(PROGRAM, f"cannot read a trajectory from {str(options.trajectory)!r}: {error}")
+    video = options.trajectory.with_suffix(".mp4")
+    write_video([walk], video)
+    print(video)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,183 @@
+"""Simulate a walk in MuJoCo and set it beside the theory: `python -m mjsim.run`."""
+
+import json
+import os
+import sys
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tqdm import tqdm
+
+from analytic import GAITS, SURFACES, Robot
+from mjsim import gl
+from mjsim.cli import FAILED, fail, parse
+from mjsim.config import Numerics, Scene
+
+if TYPE_CHECKING:
+    from mjsim.trajectory import Trajectory
+
+PROGRAM = "python -m mjsim.run"
+ALL = "all"
+_PATIENCE = 2.0  # s before a progress bar shows
+
+
+@dataclass(frozen=True)
+class Options:
+    """Walk a pneumatic strip over a surface in MuJoCo and compare with the analytic theory.
+
+    The same gait takes the strip forward on felt, where flat sides hold, and backward on wet
+    gelatin, where tips dig in. Prints the direction and the displacement of the left end per
+    cycle over the strip's length beside the prediction, the error, and the time it took; writes a
+    video and the trajectory (netCDF). Exit code 0: done; 2: bad input; 3: the simulation failed.
+
+    Example: python -m mjsim.run --surface gelatin --cycles 2 --reverse
+    """
+
+    surface: str = "felt"
+    """felt, polyethylene, gelatin, or all: the three, and a video of them in step"""
+    gait: str = "wave"
+    """wave, full-wave or pulse: the order in which the segments inflate"""
+    reverse: bool = False
+    """run the gait's stages backwards"""
+    cycles: int = 1
+    """number of cycles"""
+    pressure: float = Robot().peak_pressure
+    """peak pressure of a segment [Pa]"""
+    body: str = "planar"
+    """model of the strip: planar, a chain of hinged links"""
+    friction: str = "paper"
+    """friction law: paper, constant at a tip and by area on a side"""
+    links: int = Numerics().links
+    """length of a link is the strip's over this; multiples of 6 are the most accurate"""
+    timestep: float = Numerics().timestep
+    """time step [s]"""
+    out: Path = Path("videos")
+    """folder for the video and the trajectory, made if need be"""
+    json: bool = False
+    """print one JSON object instead of the table"""
+    no_video: bool = False
+    """write no video"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    options = parse(Options, PROGRAM, argv)
+    try:
+        scenes, numerics = _scenes(options), Numerics(options.links, options.timestep)
+        _check_folder(options.out)
+    except ValueError as error:
+        fail(PROGRAM, str(error))
+
+    backend = None if options.no_video else gl.find_backend()
+    if backend:
+        os.environ[gl.VARIABLE] = backend
+    elif not options.no_video:
+        print(f"{PROGRAM}: {gl.HELP}", file=sys.stderr)
+
+    # mujoco reads the backend when it is imported
+    from mjsim.provenance import provenance
+    from mjsim.report import record, table
+
+    records: list[dict[str, Any]] = []
+    walks: list[Trajectory] = []
+    for scene in scenes:
+        walk = _simulate(scene, numerics)
+        origin = provenance(scene, numerics)
+        failed = walk.status != "ok"
+        name = _name(scene) + ("-failed" if failed else "")
+        path = options.out / f"{name}.nc"
+        walk.save(path, origin)
+        row = {**record(walk), "trajectory": str(path), "video": None, "provenance": origin}
+        if failed:
+            print(f"{PROGRAM}: {_obituary(walk, path)}", file=sys.stderr)
+        elif backend:
+            row["video"] = str(_film([walk], options.out / f"{name}.mp4"))
+            walks.append(walk)
+        records.append(row)
+    if len(walks) > 1:
+        _film(walks, options.out / f"{_name(scenes[0], ALL)}.mp4")
+
+    if options.json:
+        print(json.dumps({"runs": records} if options.surface == ALL else records[0]))
+    else:
+        print(table(records))
+        print(*(f"{row[key]}" for row in records for key in ("trajectory", "video") if row[key]))
+    return 0 if all(row["status"] == "ok" for row in records) else FAILED
+
+
+def _scenes(options: Options) -> list[Scene]:
+    if options.surface not in (*SURFACES, ALL):
+        raise ValueError(
+            f"surface must be one of {', '.join(SURFACES)}, {ALL}; got {options.surface!r}"
+        )
+    if options.gait not in GAITS:
+        raise ValueError(f"gait must be one of {', '.join(GAITS)}; got {options.gait!r}")
+    gait = GAITS[options.gait].reversed() if options.reverse else GAITS[options.gait]
+    chosen = SURFACES.values() if options.surface == ALL else [SURFACES[options.surface]]
+    if not options.pressure > 0:
+        raise ValueError(f"pressure must be a positive number of Pa, got {options.pressure:g}")
+    robot = replace(Robot(), peak_pressure=options.pressure)
+    return [
+        Scene(robot, gait, surface, options.cycles, options.body, options.friction)
+        for surface in chosen
+    ]
+
+
+def _check_folder(folder: Path) -> None:
+    """Make the output folder and try to write in it, before any work is done."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError as error:
+        raise ValueError(
+            f"out must be a folder that can be written, got {str(folder)!r}: {error.strerror}"
+        ) from error
+
+
+def _simulate(scene: Scene, numerics: Numerics) -> "Trajectory":
+    from mjsim.simulate import schedule, simulate
+
+    with _bar(f"simulating {scene.surface.name}", len(schedule(scene, numerics)[0])) as advance:
+        return simulate(scene, numerics, advance)
+
+
+def _film(walks: "list[Trajectory]", path: Path) -> Path:
+    from mjsim.video import frame_times, write_video
+
+    total = max(len(frame_times(walk)) for walk in walks)
+    with _bar(f"rendering {path.name}", total) as advance:
+        write_video(walks, path, advance)
+    return path
+
+
+@contextmanager
+def _bar(text: str, total: int) -> Iterator[Callable[[int], None]]:
+    """A progress bar on stderr for what takes long, where stderr is a terminal."""
+    with tqdm(total=total, desc=text, delay=_PATIENCE, leave=False, file=sys.stderr,
+              disable=not sys.stderr.isatty()) as bar:  # fmt: skip
+        yield lambda steps: (bar.update(steps), None)[1]
+
+
+def _name(scene: Scene, surface: str | None = None) -> str:
+    """File name of a run: the surface, and the gait where it is not the default."""
+    name = surface or scene.surface.name
+    return name if scene.gait.name == Options.gait else f"{name}-{scene.gait.name}"
+
+
+def _obituary(walk: "Trajectory", path: Path) -> str:
+    _, z = walk.nodes()
+    left, right = 1e3 * z[-1, [0, -1]]
+    kilopascals = "/".join(f"{1e-3 * p:.0f}" for p in walk.pressure[-1])
+    return (
+        f"{walk.scene.surface.name}: {walk.status} at t = {walk.time[-1]:.2f} s, at segment "
+        f"pressures {kilopascals} kPa, ends {left:+.1f} and {right:+.1f} mm off the ground; "
+        f"see the last states with python -m mjsim.replay {path}"
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,117 @@
+"""What a simulation returns, and its netCDF file."""
+
+import json
+import os
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from mjsim.config import Numerics, Scene
+from mjsim.layout import link_lengths
+from mjsim.provenance import configuration
+
+Array = NDArray[np.float64]
+
+
+class Status(StrEnum):
+    """How a simulation ended."""
+
+    OK = "ok"
+    DIVERGED = "diverged"  # a coordinate left the range that any walk can have, or is not finite
+    TOPPLED = "toppled"  # an end left the ground: the strip fell over or rolled up
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """One simulated walk, a row per time step, the settling before the first cycle included.
+
+    Attributes:
+        scene, numerics: what was simulated and how.
+        status: OK, or why it stopped; then the last rows lead up to the failure.
+        time: end of each step since the first cycle began, negative while settling, (T,) [s].
+        pressure: of the segments, left first, (T, 3) [Pa].
+        coordinates: x and z of the left end, slope of the first link, hinge angles, (T, N + 3)
+            [m, m, rad ...].
+        velocities: their rates, (T, N + 3).
+        contact_left, contact_right: length of side contact, 0 for a tip, (T,) [m].
+        left_share: part of a change of separation that the friction law gave to the left end, (T,).
+        wall_time: seconds the loop took, assembly and compilation excluded.
+    """
+
+    scene: Scene
+    numerics: Numerics
+    status: Status
+    time: Array
+    pressure: Array
+    coordinates: Array
+    velocities: Array
+    contact_left: Array
+    contact_right: Array
+    left_share: Array
+    wall_time: float
+
+    def nodes(self) -> tuple[Array, Array]:
+        """(x, z) of the chain's vertices, left end first, each (T, N + 2) [m]."""
+        lengths = link_lengths(self.scene.robot.length, self.numerics.links)
+        slope = np.cumsum(self.coordinates[:, 2:], axis=1)
+        start = self.coordinates[:, :2]
+        x = np.cumsum(np.column_stack([start[:, 0], lengths * np.cos(slope)]), axis=1)
+        z = np.cumsum(np.column_stack([start[:, 1], lengths * np.sin(slope)]), axis=1)
+        return x, z
+
+    def to_dataset(self, provenance: dict[str, Any]) -> xr.Dataset:
+        """The walk with units; `provenance` is kept as JSON in the attributes."""
+        x, z = self.nodes()
+        data = xr.Dataset(coords={"time": ("time", self.time, {"units": "s"})})
+        columns: dict[str, tuple[tuple[str, ...], Array, str, str]] = {
+            "pressure": (("time", "segment"), self.pressure, "Pa", "pressure, left segment first"),
+            "x_left": (("time",), x[:, 0], "m", "position of the left end"),
+            "x_right": (("time",), x[:, -1], "m", "position of the right end"),
+            "contact_left": (("time",), self.contact_left, "m", "side contact, 0 for a tip"),
+            "contact_right": (("time",), self.contact_right, "m", "side contact, 0 for a tip"),
+            "left_share": (("time",), self.left_share, "1", "left end's part of a change, by rule"),
+            "x": (("time", "node"), x, "m", "position of the chain's vertices"),
+            "height": (("time", "node"), z, "m", "height of the vertices over flat rest"),
+            "coordinates": (("time", "dof"), self.coordinates, "m, m, rad", "generalised"),
+            "velocities": (("time", "dof"), self.velocities, "m/s, m/s, rad/s", "generalised"),
+        }
+        for name, (dims, values, units, text) in columns.items():
+            data[name] = xr.Variable(dims, values, {"units": units, "long_name": text})
+        data["wall_time"] = xr.Variable((), self.wall_time, {"units": "s"})
+        data.attrs = {"status": str(self.status), "provenance": json.dumps(provenance)}
+        return data
+
+    def save(self, path: Path, provenance: dict[str, Any]) -> None:
+        """Write netCDF; the file appears under its name only when it is whole."""
+        part = path.with_name(f".{path.name}.part")
+        try:
+            self.to_dataset(provenance).to_netcdf(part, engine="h5netcdf")
+            os.replace(part, path)
+        finally:
+            part.unlink(missing_ok=True)
+
+
+def load(path: Path) -> Trajectory:
+    """Read a trajectory that `Trajectory.save` wrote.
+
+    Raises:
+        OSError: the file cannot be read.
+        KeyError, ValueError: it is not such a file.
+    """
+    with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as data:
+        scene, numerics = configuration(json.loads(data.attrs["provenance"]))
+        fields = ("pressure", "coordinates", "velocities", "contact_left", "contact_right",
+                  "left_share")  # fmt: skip
+        return Trajectory(
+            scene=scene,
+            numerics=numerics,
+            status=Status(data.attrs["status"]),
+            time=data["time"].values,
+            wall_time=float(data["wall_time"]),
+            **{name: data[name].values for name in fields},
+        )
