@@ -73,12 +73,17 @@ def _before(parts: Array) -> Array:
     return np.concatenate([np.zeros_like(sums[:, :1]), sums[:, :-1]], axis=1)
 
 
-def shortening(lifted: Lifted) -> Array:
-    """Arclength less horizontal length, int (y')^2 / 2 over the lifted part, shape (B,) (10)."""
-    total = np.zeros(len(lifted.a))
+def shortening(lifted: Lifted, s: Array) -> Array:
+    """Arclength less horizontal length from the left end to s, int_0^s (y')^2 / 2 (10).
+
+    For material points s of shape (S,), returns shape (B, S).
+    """
+    size = np.clip(s - lifted.start[..., None], 0.0, lifted.size[..., None])
+    quadratic = lifted.quadratic[..., None]
+    total = np.zeros((len(lifted.a), len(s)))
     for x, weight in zip(_GAUSS_X, _GAUSS_W, strict=True):
-        slope = lifted.slope + _integrals(lifted.quadratic, 0.5 * lifted.size * (1 + x))[0]
-        total += (0.25 * weight * lifted.size * slope**2).sum(axis=1)
+        slope = lifted.slope[..., None] + _integrals(quadratic, 0.5 * size * (1 + x))[0]
+        total += (0.25 * weight * size * slope**2).sum(axis=1)
     return total
 
 

@@ -19,7 +19,7 @@ def real_cubic_roots(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike) -> 
     p = c / a - 3 * shift**2
     q = 2 * shift**3 - shift * c / a + d / a
     discriminant = -4 * p**3 - 27 * q**2
-    with np.errstate(invalid="ignore", divide="ignore"):
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         # three real roots: x_k = 2 r cos(phi - 2 pi k / 3), r = sqrt(-p/3)
         r = np.sqrt(np.maximum(-p, 0) / 3)
         phi = np.arccos(np.clip(-0.5 * q / r**3, -1, 1)) / 3

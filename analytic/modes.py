@@ -11,6 +11,7 @@ from analytic.shapes import Mode, Shapes, Status
 Array = NDArray[np.float64]
 
 _TOLERANCE = 1e-9  # of slopes and of heights over L, far above rounding, far below interest
+_FLAT = 1e-12  # kappa L below which a strip is as good as flat: it lifts less than 1e-5 of L
 
 
 def solve_modes(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
@@ -18,7 +19,8 @@ def solve_modes(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
 
     An end lies flat if its slope in tip contact points into the ground; if both do, the steeper
     one. (The seed compares the magnitudes of the two slopes; that is the same where both point
-    into the ground, and where only one does, the sign has to decide.)
+    into the ground, and where only one does, the sign has to decide. If they are equal, the left
+    end is taken.)
 
     Args:
         robot: the strip.
@@ -47,6 +49,9 @@ def solve_modes(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
     up = mode != Mode.FLAT
     status |= np.where(up & sinking, Status.BOTH_FLAT, 0)
     status |= np.where(up & (lowest < -_TOLERANCE), Status.PENETRATES, 0)
+    on_ground = np.maximum(0.0, a[:, None] - beam.EDGES[:-1])
+    on_ground = np.maximum(on_ground, beam.EDGES[1:] - b[:, None]) > _TOLERANCE
+    status |= np.where(up & (on_ground & (k > _FLAT)).any(axis=1), Status.HELD_FLAT, 0)
 
     lost = (status & Status.NO_ROOT) != 0
     blank = np.where(lost, np.nan, 1.0)
@@ -54,7 +59,9 @@ def solve_modes(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
     length = robot.length
     return Shapes(
         robot=robot,
-        separation=length * blank * np.where(flat, 1.0, 1 - beam.shortening(lifted)),
+        separation=length
+        * blank
+        * np.where(flat, 1.0, 1 - beam.shortening(lifted, np.ones(1))[:, 0]),
         contact_left=length * blank * np.where(flat, 0.5, a),
         contact_right=length * blank * np.where(flat, 0.5, 1 - b),
         amplitude=length * blank * np.where(flat, 0.0, highest),
@@ -72,13 +79,13 @@ def _contact(k: Array, g: Array) -> tuple[Array, Array, NDArray[np.int_], NDArra
     mode = np.full(count, Mode.TIP, dtype=int)
     status = np.full(count, Status.OK, dtype=int)
 
-    flat = (k == 0).all(axis=1)
+    flat = (k <= _FLAT).all(axis=1)
     mode[flat] = Mode.FLAT
 
     tip = beam.lift(k, g, zero, one)
     into_left, into_right = -tip.slope[:, 0], tip.slope_b
     lies = (np.maximum(into_left, into_right) > 0) & ~flat
-    left = lies & (into_left >= into_right)
+    left = lies & (into_left >= into_right - _TOLERANCE)
     right = lies & ~left
     for side, first_mode in ((left, Mode.LEFT_1), (right, Mode.RIGHT_1)):
         rows = np.flatnonzero(side)
@@ -109,14 +116,8 @@ class _Curve:
 
     def __call__(self, s: Array) -> tuple[Array, Array]:
         u = np.asarray(s, dtype=float) / self._length
-        height, _, _ = beam.evaluate(self._lifted, u)
-        height = np.where(self._flat[:, None], 0.0, height)
-        x = np.stack([self._horizontal(point) for point in u], axis=1)
+        height = np.where(self._flat[:, None], 0.0, beam.evaluate(self._lifted, u)[0])
+        # x(s) = s - int_0^s (y')^2 / 2, exactly (10)
+        x = u - np.where(self._flat[:, None], 0.0, beam.shortening(self._lifted, u))
         scale = self._length * self._blank[:, None]
         return scale * x, scale * height
-
-    def _horizontal(self, u: float) -> Array:
-        """x(s) = s - int_0^s (y')^2 / 2, exactly: the shortening of the pieces cut off at s."""
-        size = np.clip(u - self._lifted.start, 0.0, self._lifted.size)
-        x = u - beam.shortening(self._lifted._replace(size=size))
-        return np.where(self._flat, u, x)

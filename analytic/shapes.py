@@ -33,6 +33,7 @@ class Status(IntFlag):
     SEVERAL_ROOTS = 2  # several lift-off points balance; the one with least contact was taken
     PENETRATES = 4  # the shape dips below the ground between its contacts
     BOTH_FLAT = 8  # the end in point contact slopes into the ground: both ends want to lie flat
+    HELD_FLAT = 16  # a part that lies flat is inflated: no moment in the seed's modes holds it so
 
 
 @dataclass(frozen=True)

@@ -36,14 +36,15 @@ def parse(kind: type[Options], program: str, argv: Sequence[str] | None) -> Opti
 
 
 def _first_message(text: str) -> str:
-    """The sentence at the top of tyro's box, in one line."""
+    """The sentence at the top of tyro's box, however it is drawn, in one line."""
     words = re.sub(r"\x1b\[[0-9;]*m", "", text)
-    lines = [line.strip("│ ").strip() for line in words.splitlines() if line.startswith("│")]
     body: list[str] = []
-    for line in lines:
-        if not line or set(line) <= {"─"}:
+    for line in words.splitlines()[1:]:  # the first is the box's title
+        inner = line.strip("│| \t")
+        if inner and not set(inner) <= set("─-╰╯+"):
+            body.append(inner)
+        elif body:
             break
-        body.append(line)
     return _plain(" ".join(body) or words)
 
 

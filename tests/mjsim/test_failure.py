@@ -1,0 +1,57 @@
+"""A run that fails says so, and leaves what is needed to see why."""
+
+import numpy as np
+import pytest
+from walks import walk
+
+import mjsim.simulate as simulation
+from mjsim.config import Numerics, Scene
+from mjsim.measures import measure
+from mjsim.report import record
+from mjsim.trajectory import Status, load
+
+TOO_MUCH = 72e3  # Pa; kappa L = 5.7
+
+
+def test_past_kappa_l_of_5_the_robot_topples():
+    result = walk("felt", pressure=TOO_MUCH)
+    assert result.status is Status.TOPPLED
+    assert 2.0 < result.time[-1] < 10.0
+    assert np.isfinite(result.coordinates).all()
+
+
+def test_a_toppled_robot_has_no_displacement():
+    result = walk("felt", pressure=TOO_MUCH)
+    assert measure(result) is None
+    row = record(result)
+    assert row["displacement_over_L"] is None
+    assert row["direction"] is None
+    assert row["status"] == "toppled"
+
+
+@pytest.mark.parametrize("poison", [np.nan, 1e6])
+def test_coordinates_that_run_away_are_called_diverged(monkeypatch, poison):
+    step = simulation.mujoco.mj_step
+
+    def broken(model, data):
+        step(model, data)
+        if data.time > 1.0:
+            data.qpos[1] = poison
+
+    monkeypatch.setattr(simulation.mujoco, "mj_step", broken)
+    result = simulation.simulate(Scene(), Numerics(links=6))
+    assert result.status is Status.DIVERGED
+    assert result.time[-1] == pytest.approx(0.5 + 0.01, abs=0.011)
+
+
+def test_a_saved_failure_can_be_loaded_and_shows_the_same_states(tmp_path):
+    result = walk("felt", pressure=TOO_MUCH)
+    from mjsim.provenance import provenance
+
+    path = tmp_path / "failed.nc"
+    result.save(path, provenance(result.scene, result.numerics))
+    again = load(path)
+    assert again.status is Status.TOPPLED
+    assert again.scene == result.scene
+    assert again.numerics == result.numerics
+    assert np.array_equal(again.coordinates, result.coordinates)

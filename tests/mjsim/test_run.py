@@ -1,0 +1,145 @@
+"""The command's contract: output, exit codes, bad input."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from analytic import SURFACES
+from mjsim import cli, gl, replay, run
+
+CONTRACT = {
+    "surface": str, "gait": str, "body": str, "friction": str, "cycles": int, "links": int,
+    "timestep_s": float, "displacement_over_L": float, "direction": str,
+    "predicted_displacement_over_L": float, "predicted_direction": str, "amplitude_over_L": float,
+    "sim_time_s": float, "wall_time_s": float, "realtime_factor": float, "status": str,
+}  # fmt: skip
+
+
+def call(*words, out):
+    return run.main([*words, "--no-video", "--links", "6", "--out", str(out)])
+
+
+def test_json_is_one_object_with_the_contract_s_keys(tmp_path, capsys):
+    assert call("--surface", "gelatin", "--json", out=tmp_path) == 0
+    said = capsys.readouterr()
+    row = json.loads(said.out)
+    assert said.err == ""
+    assert {key: type(row[key]) for key in CONTRACT} == CONTRACT
+    assert row["direction"] == row["predicted_direction"] == "backward"
+    assert row["sim_time_s"] / row["wall_time_s"] == pytest.approx(row["realtime_factor"])
+    assert row["provenance"]["numerics"]["links"] == 6
+    assert (tmp_path / "gelatin.nc").is_file()
+
+
+def test_all_surfaces_come_in_one_object(tmp_path, capsys):
+    assert call("--surface", "all", "--json", out=tmp_path) == 0
+    rows = json.loads(capsys.readouterr().out)["runs"]
+    assert [row["surface"] for row in rows] == list(SURFACES)
+
+
+def test_the_table_names_direction_displacement_and_prediction(tmp_path, capsys):
+    assert call("--reverse", "--cycles", "2", out=tmp_path) == 0
+    head, line, files = capsys.readouterr().out.strip().splitlines()
+    assert "theory" in head
+    assert line.startswith("felt          backward")
+    assert line.endswith("ok")
+    assert files == str(tmp_path / "felt-wave-reversed.nc")
+
+
+BAD = [
+    (["--surface", "ice"], "'ice'", "felt, polyethylene, gelatin, all"),
+    (["--gait", "gallop"], "'gallop'", "wave, full-wave, pulse"),
+    (["--pressure", "-3"], "-3", "positive"),
+    (["--pressure", "1e9"], "1e+09", "below 78863 Pa"),
+    (["--pressure", "nan"], "nan", "positive"),
+    (["--links", "5"], "5", "6 to 384"),
+    (["--links", "24.5"], "'24.5'", "whole number"),
+    (["--timestep", "0"], "0.0", "positive"),
+    (["--timestep", "nan"], "nan", "positive"),
+    (["--timestep", "1"], "1.0", "at most 0.1 s"),
+    (["--timestep", "soon"], "'soon'", "number"),
+    (["--cycles", "0"], "0", "at least 1"),
+    (["--friction", "wet"], "'wet'", "paper"),
+    (["--body", "snake"], "'snake'", "planar"),
+    (["--flavour", "x"], "--flavour", "--help"),
+    (["--cycles"], "--cycles", "--help"),
+]
+
+
+@pytest.mark.parametrize(("words", "named", "valid"), BAD, ids=[" ".join(b[0]) for b in BAD])
+def test_bad_input_gets_one_line_and_exit_2(tmp_path, capsys, words, named, valid):
+    with pytest.raises(SystemExit) as stop:
+        run.main([*words, "--no-video", "--out", str(tmp_path / "out")])
+    said = capsys.readouterr()
+    assert stop.value.code == cli.BAD_INPUT
+    assert said.out == ""
+    assert len(said.err.strip().splitlines()) == 1
+    assert named in said.err
+    assert valid in said.err
+    assert not list(tmp_path.rglob("*.*"))
+
+
+def test_a_folder_that_cannot_be_written_is_named_before_any_work(tmp_path, capsys):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(SystemExit) as stop:
+        call(out=tmp_path / "file" / "videos")
+    assert stop.value.code == cli.BAD_INPUT
+    assert str(tmp_path / "file" / "videos") in capsys.readouterr().err
+
+
+def test_a_toppled_robot_exits_3_and_leaves_its_states(tmp_path, capsys):
+    assert call("--surface", "felt", "--pressure", "76000", "--json", out=tmp_path) == cli.FAILED
+    said = capsys.readouterr()
+    row = json.loads(said.out)
+    assert row["status"] == "toppled"
+    assert row["displacement_over_L"] is None
+    assert "toppled at t =" in said.err
+    assert [path.name for path in tmp_path.iterdir()] == ["felt-failed.nc"]
+    assert str(tmp_path / "felt-failed.nc") in said.err
+
+
+def test_help_teaches(capsys):
+    with pytest.raises(SystemExit) as stop:
+        run.main(["--help"])
+    assert stop.value.code == 0
+    said = capsys.readouterr().out
+    assert "python -m mjsim.run --surface gelatin" in said
+    assert "[Pa]" in said
+
+
+def test_without_opengl_the_run_goes_on_without_video(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(gl, "find_backend", lambda: None)
+    assert run.main(["--links", "6", "--out", str(tmp_path)]) == 0
+    said = capsys.readouterr()
+    assert "libegl1" in said.err
+    assert [path.name for path in tmp_path.iterdir()] == ["felt.nc"]
+
+
+def test_a_backend_without_library_is_found_out_not_trusted(monkeypatch):
+    monkeypatch.setattr(gl, "works", lambda name: name == "osmesa")
+    monkeypatch.setenv(gl.VARIABLE, "egl")
+    assert gl.find_backend() == "osmesa"
+    monkeypatch.setattr(gl, "works", lambda name: False)
+    assert gl.find_backend() is None
+
+
+def test_a_file_that_is_no_trajectory_cannot_be_replayed(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(gl, "find_backend", lambda: "egl")
+    other = tmp_path / "other.nc"
+    other.write_text("nothing")
+    with pytest.raises(SystemExit) as stop:
+        replay.main([str(other)])
+    assert stop.value.code == cli.BAD_INPUT
+    assert len(capsys.readouterr().err.strip().splitlines()) == 1
+
+
+def test_the_command_runs_as_a_module_from_anywhere(tmp_path):
+    result = subprocess.run(
+        [sys.executable, "-m", "mjsim.run", "--no-video", "--links", "6", "--json"],
+        cwd=tmp_path, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert json.loads(result.stdout)["status"] == "ok"
+    assert (tmp_path / "videos" / "felt.nc").is_file()
+    assert result.stderr == ""

@@ -1,0 +1,57 @@
+"""The trajectory file: whole or absent, with units and provenance."""
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+from walks import walk
+
+from mjsim.provenance import provenance
+from mjsim.trajectory import load
+
+
+@pytest.fixture
+def saved(tmp_path):
+    result = walk("gelatin")
+    path = tmp_path / "gelatin.nc"
+    result.save(path, provenance(result.scene, result.numerics))
+    return result, path
+
+
+def test_a_saved_walk_loads_as_it_was(saved):
+    result, path = saved
+    again = load(path)
+    for name in ("time", "pressure", "coordinates", "velocities", "contact_left", "left_share"):
+        assert np.array_equal(getattr(again, name), getattr(result, name))
+    assert again.scene == result.scene
+
+
+def test_every_variable_has_a_unit_and_the_file_its_provenance(saved):
+    result, path = saved
+    with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as data:
+        assert all("units" in data[name].attrs for name in data.variables)
+        origin = json.loads(data.attrs["provenance"])
+        assert data["height"].shape == (len(result.time), result.numerics.links + 2)
+        left = data["x_left"].values
+    assert origin["versions"]["mujoco"].startswith("3.")
+    assert origin["scene"]["surface"]["name"] == "gelatin"
+    assert left[-1] < left[0]
+
+
+def test_a_write_that_fails_leaves_nothing(tmp_path, monkeypatch):
+    def broken(*args, **kwargs):
+        (tmp_path / ".gelatin.nc.part").write_text("half")
+        raise OSError("disk full")
+
+    monkeypatch.setattr(xr.Dataset, "to_netcdf", broken)
+    with pytest.raises(OSError, match="disk full"):
+        walk("gelatin").save(tmp_path / "gelatin.nc", {})
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_file_that_is_no_trajectory_is_refused(tmp_path):
+    other = tmp_path / "other.nc"
+    xr.Dataset({"a": ("x", [1.0])}).to_netcdf(other, engine="h5netcdf")
+    with pytest.raises(KeyError):
+        load(other)

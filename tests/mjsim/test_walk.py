@@ -1,0 +1,136 @@
+"""The robot walks: directions, distances and their convergence, against theory and identities."""
+
+import numpy as np
+import pytest
+from walks import measured, walk
+
+from analytic import GAITS, SURFACES, Robot, direction, locomotion, solve_modes
+
+THEORY_STATES = 200
+
+
+def predicted(surface, gait="wave", reverse=False):
+    stages = GAITS[gait].reversed() if reverse else GAITS[gait]
+    shapes = solve_modes(Robot(), stages.pressures(THEORY_STATES) * Robot().peak_pressure)
+    return locomotion(shapes, SURFACES[surface]).per_cycle / Robot().length
+
+
+@pytest.mark.parametrize("reverse", [False, True])
+@pytest.mark.parametrize("gait", list(GAITS))
+@pytest.mark.parametrize("surface", list(SURFACES))
+def test_the_direction_is_the_theory_s(surface, gait, reverse):
+    found = measured(surface, gait, reverse=reverse)
+    assert found.direction == direction(predicted(surface, gait, reverse), 1.0)
+
+
+@pytest.mark.parametrize("surface", ["felt", "gelatin"])
+def test_the_distance_is_the_small_slope_theory_s_within_5_percent(surface):
+    assert measured(surface).displacement == pytest.approx(predicted(surface), rel=0.05)
+
+
+def test_felt_and_gelatin_are_equal_and_opposite_within_3_percent():
+    felt, gelatin = measured("felt").displacement, measured("gelatin").displacement
+    assert abs(felt + gelatin) < 0.03 * min(abs(felt), abs(gelatin))
+
+
+def spread(values):
+    values = np.array(values)
+    return (values.max() - values.min()) / np.abs(values).min()
+
+
+@pytest.mark.parametrize("surface", ["felt", "gelatin"])
+def test_12_24_and_48_links_agree_within_3_percent(surface):
+    assert spread([measured(surface, links=n).displacement for n in (12, 24, 48)]) < 0.03
+
+
+@pytest.mark.parametrize("surface", ["felt", "gelatin"])
+def test_time_steps_of_2_and_10_ms_agree_within_3_percent(surface):
+    steps = (0.002, 0.005, 0.010)
+    assert spread([measured(surface, timestep=dt).displacement for dt in steps]) < 0.03
+
+
+@pytest.mark.parametrize("surface", ["felt", "gelatin"])
+def test_legs_of_2_and_4_s_agree_within_3_percent(surface):
+    assert spread([measured(surface, leg_time=leg).displacement for leg in (2.0, 4.0)]) < 0.03
+
+
+@pytest.mark.parametrize("surface", list(SURFACES))
+def test_slip_falls_as_the_gait_slows(surface):
+    slips = [abs(measured(surface, leg_time=leg).slip) for leg in (1.0, 2.0, 4.0)]
+    assert slips[2] < slips[0]
+    assert slips[1] < 0.001
+    assert slips[2] < 0.0005
+
+
+@pytest.mark.parametrize("surface", list(SURFACES))
+def test_the_reversed_gait_goes_the_opposite_way(surface):
+    there = measured(surface).displacement
+    back = measured(surface, reverse=True).displacement
+    assert there == pytest.approx(-back, abs=0.002)
+
+
+def test_every_cycle_travels_alike():
+    one, three = measured("gelatin"), measured("gelatin", cycles=3)
+    assert three.displacement == pytest.approx(one.displacement, abs=5e-4)
+
+
+def test_separation_follows_the_theory_along_the_cycle():
+    """At the end of each leg, where slopes are small to 0.003 L and at the high arch to 0.05 L."""
+    result = walk("gelatin", leg_time=4.0)
+    x, _ = result.nodes()
+    length = Robot().length
+    ends = [np.searchsorted(result.time, leg * 4.0 - 1e-6) for leg in (0.5, 1, 2, 3, 4, 4.5)]
+    found = (x[ends, -1] - x[ends, 0]) / length
+    shapes = solve_modes(Robot(), result.pressure[ends])
+    gap = np.abs(found - shapes.separation / length)
+    assert (gap[[0, 1, 4, 5]] < 0.003).all()
+    assert (gap[[2, 3]] < 0.05).all()  # slopes of 1 rad: what (10) leaves out
+
+
+def test_side_contact_follows_the_theory_along_the_cycle():
+    result = walk("gelatin", leg_time=4.0)
+    legs = np.array([0.25, 0.5, 0.75, 1.0, 1.2])
+    steps = np.searchsorted(result.time, legs * 4.0 - 1e-6)
+    shapes = solve_modes(Robot(), result.pressure[steps])
+    assert (result.contact_left[steps] == 0).all()
+    spacing = Robot().length / 24 * 4 / 3  # of the pads: the resolution of the contact
+    assert np.allclose(result.contact_right[steps], shapes.contact_right, atol=spacing)
+
+
+@pytest.mark.parametrize(("surface", "end"), [("gelatin", 0), ("felt", -1)])
+def test_the_anchored_end_does_not_creep(surface, end):
+    """On the first leg the left end is a tip and the right end lies flat."""
+    result = walk(surface)
+    x, _ = result.nodes()
+    first = (result.time > 0.1) & (result.time <= 2.0)
+    anchored = x[first][:, end]
+    sliding = x[first][:, -1 - end]
+    assert np.ptp(anchored) < 1e-4 * Robot().length
+    assert np.ptp(sliding) > 0.02 * Robot().length
+
+
+@pytest.mark.parametrize("surface", list(SURFACES))
+def test_a_strip_at_rest_stays_where_it_is(surface):
+    result = walk(surface)
+    settling = result.time <= 0
+    assert np.ptp(result.coordinates[settling, 0]) < 1e-9
+    assert np.abs(result.nodes()[1][settling]).max() < 1e-4 * Robot().length
+
+
+def test_nothing_sinks_into_the_ground():
+    _, z = walk("felt").nodes()
+    assert z.min() > -1e-3 * Robot().length
+
+
+def test_the_undulation_has_the_seed_s_optimal_amplitude():
+    assert measured("felt").amplitude == pytest.approx(0.25, abs=0.01)
+
+
+@pytest.mark.parametrize("surface", ["felt", "gelatin"])
+def test_equal_links_are_of_lower_order_but_converge_to_the_same(surface):
+    """Numbers of links that are no multiple of 6 fall back on half links at both ends."""
+    fine = measured(surface, links=48).displacement
+    errors = [abs(measured(surface, links=n).displacement / fine - 1) for n in (10, 20, 40)]
+    assert errors[0] > errors[1] > errors[2]
+    assert errors[0] < 0.12
+    assert errors[2] < 0.03

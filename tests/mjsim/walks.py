@@ -1,0 +1,39 @@
+"""Simulations that several tests look at, run once."""
+
+from dataclasses import replace
+from functools import cache
+
+from analytic import GAITS, SURFACES, Gait, Robot, Surface
+from mjsim.config import Numerics, Scene
+from mjsim.measures import Measures, measure
+from mjsim.simulate import simulate
+from mjsim.trajectory import Status, Trajectory
+
+
+@cache
+def walk(
+    surface: str | Surface = "felt",
+    gait: str = "wave",
+    leg_time: float = 2.0,
+    reverse: bool = False,
+    cycles: int = 1,
+    pressure: float = Robot().peak_pressure,
+    links: int = Numerics().links,
+    timestep: float = Numerics().timestep,
+) -> Trajectory:
+    stages = GAITS[gait].reversed() if reverse else GAITS[gait]
+    scene = Scene(
+        robot=replace(Robot(), peak_pressure=pressure),
+        gait=Gait(stages.name, stages.stages, leg_time),
+        surface=SURFACES[surface] if isinstance(surface, str) else surface,
+        cycles=cycles,
+    )
+    return simulate(scene, Numerics(links=links, timestep=timestep))
+
+
+def measured(*args, **kwargs) -> Measures:
+    result = walk(*args, **kwargs)
+    assert result.status is Status.OK
+    found = measure(result)
+    assert found is not None
+    return found
