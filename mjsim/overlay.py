@@ -37,7 +37,7 @@ class Overlay:
         time = max(0.0, float(walk.time[step]))
         pen.text((edge, top + 38 * u), f"gait {walk.scene.gait.name}   t = {time:4.1f} s",
                  font=self._small, fill=_INK)  # fmt: skip
-        self._pressures(pen, picture.width / 2, top, step)
+        self._pressures(pen, edge + 310 * u, top, step)
         moved = float(walk.coordinates[step, 0]) - self._start
         right = picture.width - edge
         share = moved / walk.scene.robot.length
@@ -49,11 +49,10 @@ class Overlay:
                  fill=_INK, anchor="ra")  # fmt: skip
         return np.asarray(picture)
 
-    def _pressures(self, pen: ImageDraw.ImageDraw, middle: float, top: float, step: int) -> None:
+    def _pressures(self, pen: ImageDraw.ImageDraw, left: float, top: float, step: int) -> None:
         """A bar a segment, filled as far as it is inflated, in the colour it has there."""
         u, walk = self._scale, self._walk
         width, gap, height = 92 * u, 14 * u, 22 * u
-        left = middle - 1.5 * width - gap
         for i, pressure in enumerate(walk.pressure[step]):
             fraction = float(pressure / walk.scene.robot.peak_pressure)
             x = left + i * (width + gap)

@@ -148,8 +148,7 @@ def _simulate(scene: Scene, numerics: Numerics) -> "Trajectory":
 def _film(walks: "list[Trajectory]", path: Path) -> Path:
     from mjsim.video import frame_times, write_video
 
-    total = max(len(frame_times(walk)) for walk in walks)
-    with _bar(f"rendering {path.name}", total) as advance:
+    with _bar(f"rendering {path.name}", len(frame_times(walks))) as advance:
         write_video(walks, path, advance)
     return path
 

@@ -9,10 +9,13 @@ from pathlib import Path
 import imageio_ffmpeg
 import mediapy
 import numpy as np
+from numpy.typing import NDArray
 
 from mjsim.overlay import Overlay
 from mjsim.render import Camera, Frame
 from mjsim.trajectory import Trajectory
+
+Times = NDArray[np.float64]
 
 WIDTH, HEIGHT, FPS = 1280, 720, 30
 LEAD, TAIL = 0.5, 1.0  # s of stillness before and after the walk
@@ -21,26 +24,30 @@ _QUALITY = 27  # x264's constant rate factor: a surface's 11.5 s stay under 500 
 mediapy.set_ffmpeg(imageio_ffmpeg.get_ffmpeg_exe())
 
 
-def frame_times(walk: Trajectory) -> np.ndarray:
-    """Times of the frames, shape (F,) [s]."""
-    return np.arange(-LEAD, float(walk.time[-1]) + TAIL, 1 / FPS)
+def frame_times(walks: list[Trajectory]) -> Times:
+    """Times of the frames, up to the end of the longest walk and a little more, (F,) [s]."""
+    last = max(float(walk.time[-1]) for walk in walks)
+    return np.arange(-LEAD, last + TAIL, 1 / FPS)
 
 
-def frames(walks: list[Trajectory]) -> Iterator[Frame]:
-    """Frames of one walk, or of several above each other, all at the same time."""
-    height = HEIGHT // len(walks) // 2 * 2
-    view = "side" if len(walks) == 1 else "band"
-    scale = 1.0 if len(walks) == 1 else 0.72
-    longest = max(walks, key=lambda walk: float(walk.time[-1]))
+def bands(walks: list[Trajectory], times: Times) -> Iterator[Frame]:
+    """Pictures of one walk, or of several above each other, at each of the times."""
+    height = _height(len(walks))
+    view, scale = ("side", 1.0) if len(walks) == 1 else ("band", 0.72)
     with ExitStack() as stack:
         cameras = [stack.enter_context(Camera(walk, WIDTH, height, view)) for walk in walks]
         overlays = [Overlay(walk, scale) for walk in walks]
-        for time in frame_times(longest):
-            bands = []
+        for time in times:
+            pictures = []
             for walk, camera, overlay in zip(walks, cameras, overlays, strict=True):
                 step = int(np.clip(np.searchsorted(walk.time, time), 0, len(walk.time) - 1))
-                bands.append(overlay.draw(camera.frame(step), step))
-            yield np.concatenate(bands)
+                pictures.append(overlay.draw(camera.frame(step), step))
+            yield np.concatenate(pictures)
+
+
+def _height(count: int) -> int:
+    """Lines of one of `count` pictures above each other, even."""
+    return HEIGHT // count // 2 * 2
 
 
 def write_video(
@@ -55,13 +62,13 @@ def write_video(
         The number of frames.
     """
     part = path.with_name(f".{path.stem}.part{path.suffix}")
-    shape = (HEIGHT // len(walks) // 2 * 2 * len(walks), WIDTH)
+    shape = (_height(len(walks)) * len(walks), WIDTH)
     count = 0
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ResourceWarning)  # mediapy leaves ffmpeg's pipes
             with mediapy.VideoWriter(part, shape, fps=FPS, crf=_QUALITY) as writer:
-                for frame in frames(walks):
+                for frame in bands(walks, frame_times(walks)):
                     writer.add_image(frame)
                     count += 1
                     if progress:

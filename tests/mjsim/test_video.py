@@ -106,11 +106,11 @@ def test_the_file_plays_with_the_right_number_of_frames(tmp_path, monkeypatch, c
 
 
 def test_a_video_that_fails_leaves_nothing(tmp_path, monkeypatch):
-    def broken(walks):
+    def broken(walks, times):
         yield np.zeros((720, 1280, 3), np.uint8)
         raise RuntimeError("lost the context")
 
-    monkeypatch.setattr(video, "frames", broken)
+    monkeypatch.setattr(video, "bands", broken)
     with pytest.raises(RuntimeError, match="lost the context"):
         video.write_video([walk("felt")], tmp_path / "walk.mp4")
     assert list(tmp_path.iterdir()) == []
