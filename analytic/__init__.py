@@ -6,16 +6,19 @@ soft robot undulation", Int. J. Robotics Research 32 (2013). SI units throughout
 from the left end, y points up, and a positive displacement is towards the right ("forward").
 """
 
+from analytic.elastica import solve_elastica
 from analytic.friction import SURFACES, Surface
 from analytic.gait import GAITS, Gait
 from analytic.locomotion import Direction, Locomotion, direction, locomotion
 from analytic.modes import solve_modes
+from analytic.obstacle import solve_obstacle
 from analytic.robot import Robot
-from analytic.shapes import Mode, Shapes, Status
+from analytic.shapes import ContactShapes, Mode, Shapes, Status
 
 __all__ = [
     "GAITS",
     "SURFACES",
+    "ContactShapes",
     "Direction",
     "Gait",
     "Locomotion",
@@ -26,5 +29,7 @@ __all__ = [
     "Surface",
     "direction",
     "locomotion",
+    "solve_elastica",
     "solve_modes",
+    "solve_obstacle",
 ]

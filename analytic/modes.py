@@ -5,6 +5,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from analytic import beam, pneunet
 from analytic.liftoff import lift_off
+from analytic.pressures import check_pressures
 from analytic.robot import SEGMENTS, Robot
 from analytic.shapes import Mode, Shapes, Status
 
@@ -32,12 +33,7 @@ def solve_modes(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
     Raises:
         ValueError: the shape is wrong, or a pressure is negative or not finite.
     """
-    p = np.atleast_2d(np.asarray(pressures_pa, dtype=float))
-    if p.ndim != 2 or p.shape[1] != SEGMENTS:
-        raise ValueError(f"pressures_pa must have shape (B, 3), got {np.shape(pressures_pa)}")
-    if not (np.isfinite(p) & (p >= 0)).all():
-        raise ValueError(f"pressures must be finite and at least 0 Pa, got {p.min()} to {p.max()}")
-
+    p = check_pressures(pressures_pa)
     k = pneunet.natural_curvature(robot, p) * robot.length
     g = robot.weight_per_length * robot.length**3 / pneunet.rigidity(robot, p)
     a, b, mode, status = _contact(k, g)

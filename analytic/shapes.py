@@ -23,10 +23,14 @@ class Mode(IntEnum):
     RIGHT_2 = 5  # (v)
     RIGHT_3 = 6  # (vi)
     FLAT = 7  # the whole strip lies on the ground
+    BOTH = 8  # both ends lie flat; the seed's modes do not know it
 
 
 class Status(IntFlag):
-    """How far a state can be trusted; flags add up. Values are NaN only with NO_ROOT."""
+    """How far a state can be trusted; flags add up.
+
+    Values are NaN with NO_ROOT, NOT_CONVERGED and BRANCH_END, and numbers with all others.
+    """
 
     OK = 0
     NO_ROOT = 1  # no lift-off point exists with one end flat: no equilibrium of the assumed kind
@@ -34,6 +38,8 @@ class Status(IntFlag):
     PENETRATES = 4  # the shape dips below the ground between its contacts
     BOTH_FLAT = 8  # the end in point contact slopes into the ground: both ends want to lie flat
     HELD_FLAT = 16  # a part that lies flat is inflated: no moment in the seed's modes holds it so
+    NOT_CONVERGED = 32  # the iteration gave up
+    BRANCH_END = 64  # the stable equilibrium that the sequence followed ended before this state
 
 
 @dataclass(frozen=True)
@@ -63,3 +69,19 @@ class Shapes:
 
     def __len__(self) -> int:
         return len(self.separation)
+
+
+@dataclass(frozen=True)
+class ContactShapes(Shapes):
+    """Equilibria of a solver with unilateral contact at nodes.
+
+    Attributes:
+        nodes: arclength of the nodes, shape (S,) [m].
+        force: of the ground on each node, upwards, shape (B, S) [N].
+        residual: largest violation of the conditions of contact and balance, with heights over L
+            and forces over the strip's weight, shape (B,) [1].
+    """
+
+    nodes: Array
+    force: Array
+    residual: Array

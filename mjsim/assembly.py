@@ -15,10 +15,10 @@ import mujoco
 import numpy as np
 from dm_control import mjcf
 
+from analytic.chain import joint_springs, link_lengths
 from analytic.robot import SEGMENTS
 from mjsim.assets import MODELS
 from mjsim.config import Numerics, Scene
-from mjsim.layout import joint_springs, link_lengths
 from mjsim.skin import segment_skin
 
 PALE, DARK = (0.86, 0.82, 0.72), (0.16, 0.17, 0.20)  # passive and inflated, as in Figure 4

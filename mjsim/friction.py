@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic import Surface
+from analytic.chain import node_positions
 from mjsim.config import Numerics, Scene
-from mjsim.layout import node_positions
 
 Array = NDArray[np.float64]
 

@@ -7,10 +7,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.chain import joint_springs, link_lengths
 from mjsim.assembly import TENDONS, compile_model
 from mjsim.config import Numerics, Scene
 from mjsim.friction import PaperLaw
-from mjsim.layout import joint_springs, link_lengths
 from mjsim.trajectory import Status, Trajectory
 
 Array = NDArray[np.float64]

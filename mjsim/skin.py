@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic import Robot
-from mjsim.layout import link_lengths, node_positions
+from analytic.chain import link_lengths, node_positions
 
 Array = NDArray[np.float64]
 

@@ -11,8 +11,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from analytic.chain import link_lengths
 from mjsim.config import Numerics, Scene
-from mjsim.layout import link_lengths
 from mjsim.provenance import configuration
 
 Array = NDArray[np.float64]

@@ -6,10 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from strategies import surfaces
 
+from analytic.chain import node_positions
 from analytic.friction import left_share, sliding_resistance
 from mjsim.config import Numerics, Scene
 from mjsim.friction import PaperLaw
-from mjsim.layout import node_positions
 
 slopes = st.floats(-0.01, 1.0)
 

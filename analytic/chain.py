@@ -14,8 +14,8 @@ elements in each segment, since curvature jumps where segments meet.
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic import Robot, pneunet
-from analytic.robot import SEGMENTS
+from analytic import pneunet
+from analytic.robot import SEGMENTS, Robot
 
 Array = NDArray[np.float64]
 

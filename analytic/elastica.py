@@ -1,0 +1,132 @@
+"""The strip with finite rotations and unilateral contact, followed quasi-statically.
+
+States are a path: each starts from the last, in smaller steps of pressure where a step fails, and
+every one is tested for stability. So the branch of equilibria that begins with the strip lying flat
+is followed as far as it is stable, and no other is ever returned.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from analytic.chain import joint_springs, link_lengths, node_positions
+from analytic.equilibrium import Chain, ChainState
+from analytic.pressures import check_pressures
+from analytic.robot import Robot
+from analytic.shapes import ContactShapes, Status
+from analytic.touching import contact_mode, side_contact
+
+Array = NDArray[np.float64]
+
+_LEAST_STEP = 1e-4  # of the way between two states, below which the branch is taken to end
+
+
+def solve_elastica(robot: Robot, pressures_pa: ArrayLike, links: int = 60) -> ContactShapes:
+    """Equilibria along a path of pressures that starts with the strip flat and without pressure.
+
+    Args:
+        robot: the strip.
+        pressures_pa: segment pressures along the path, left first, (B, 3) or (3,) [Pa], at least 0.
+        links: of the chain; multiples of 6 are the most accurate. The error falls with its square.
+
+    Returns:
+        Shapes of B states. From where the stable branch ends (the strip rolls up, topples or
+        snaps) the states are NaN with BRANCH_END; the last one before tells the pressure.
+
+    Raises:
+        ValueError: the pressures are bad, or links is below 6.
+    """
+    p = check_pressures(pressures_pa)
+    if links < 6:
+        raise ValueError(f"links must be at least 6, got {links}")
+    chain = Chain(robot, links)
+    count = len(p)
+    y, theta = np.full((count, links + 2), np.nan), np.full((count, links + 1), np.nan)
+    force = np.full((count, links + 2), np.nan)
+    residual = np.full(count, np.nan)
+    status = np.full(count, int(Status.BRANCH_END))
+
+    stiffness, rest = joint_springs(robot, links, p)
+    state, last, here = chain.flat(), None, np.zeros(3)
+    for i in range(count):
+        chain.load(stiffness[i], rest[i])
+        guess = state if last is None else _extrapolate(last, state, p, i)
+        found = chain.equilibrium(guess)
+        if found is None:
+            found = _in_smaller_steps(chain, state, here, p[i])
+        if found is None:
+            break
+        last, state, here = state, found, p[i]
+        y[i], theta[i], status[i] = found.y, found.theta, Status.OK
+        force[i] = chain.ground_force(found)
+        residual[i] = chain.residual(found)
+
+    nodes = node_positions(robot.length, links)
+    newtons = force * chain.force_unit
+    left, right = side_contact(robot, nodes, newtons, y * robot.length)
+    lengths = link_lengths(robot.length, links)
+    return ContactShapes(
+        robot=robot,
+        separation=np.cos(theta) @ lengths,
+        contact_left=left,
+        contact_right=right,
+        amplitude=y.max(axis=1) * robot.length,
+        mode=contact_mode(robot, np.nan_to_num(left), np.nan_to_num(right)),
+        status=status,
+        curve=_Curve(nodes, lengths, theta, y * robot.length),
+        nodes=nodes,
+        force=newtons,
+        residual=residual,
+    )
+
+
+def _extrapolate(before: ChainState, now: ChainState, p: Array, i: int) -> ChainState:
+    """Linear prediction where the path goes on in the same direction, else the last state."""
+    if i < 2:
+        return now
+    step, previous = p[i] - p[i - 1], p[i - 1] - p[i - 2]
+    size = float(previous @ previous)
+    if size == 0:
+        return now
+    ratio = float(step @ previous) / size
+    if np.abs(step - ratio * previous).max() > 1e-6 * np.abs(step).max() or not 0 < ratio <= 2:
+        return now
+    return now._replace(
+        theta=now.theta + ratio * (now.theta - before.theta),
+        shear=now.shear + ratio * (now.shear - before.shear),
+    )
+
+
+def _in_smaller_steps(
+    chain: Chain, start: ChainState, from_p: Array, to_p: Array
+) -> ChainState | None:
+    """Go from one state to the next by continuation; None if the branch ends on the way."""
+    done, step, state = 0.0, 0.25, start
+    while done < 1.0:
+        step = min(step, 1.0 - done)
+        chain.load_at(from_p + (done + step) * (to_p - from_p))
+        found = chain.equilibrium(state)
+        if found is None:
+            step *= 0.5
+            if step < _LEAST_STEP:
+                return None
+        else:
+            state, done, step = found, done + step, 2 * step
+    return state
+
+
+class _Curve:
+    """Material points on the links, on demand (see Shapes.curve)."""
+
+    def __init__(self, nodes: Array, lengths: Array, theta: Array, y: Array) -> None:
+        self._nodes = nodes
+        x = np.cumsum(lengths * np.cos(theta), axis=1)
+        self._x = np.concatenate([np.zeros_like(x[:, :1]), x], axis=1)
+        self._y = y
+
+    def __call__(self, s: Array) -> tuple[Array, Array]:
+        index = np.clip(np.searchsorted(self._nodes, s) - 1, 0, len(self._nodes) - 2)
+        part = (np.asarray(s) - self._nodes[index]) / np.diff(self._nodes)[index]
+        return tuple(  # type: ignore[return-value]
+            (1 - part) * values[:, index] + part * values[:, index + 1]
+            for values in (self._x, self._y)
+        )

@@ -1,0 +1,55 @@
+"""From the contact forces on nodes to contact lengths and modes, for one or many states."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.robot import SEGMENTS, Robot
+from analytic.shapes import Mode
+
+Array = NDArray[np.float64]
+
+_IN_THE_AIR = 1e-4  # height over L; where a flat stretch ends its nodes ripple by less
+
+
+def side_contact(robot: Robot, nodes: Array, force: Array, height: Array) -> tuple[Array, Array]:
+    """Length of side contact at the left and the right end.
+
+    On a flat stretch the ground carries the weight, w per length, and where the strip lifts off a
+    concentrated force R besides. So an end's nodes, up to the next that is clearly in the air,
+    carry F = w xi + R with the moment M = w xi^2 / 2 + R xi about that end, and xi follows from
+    these sums: finer than the distance of the nodes, and exactly 0 if the end alone touches.
+
+    Args:
+        nodes: arclength of the nodes, shape (S,) [m].
+        force: of the ground on each, 0 where it does not touch, shape (B, S) [N].
+        height: of each, shape (B, S) [m].
+
+    Returns:
+        Two arrays of shape (B,) [m]; half the length each where no node is in the air.
+    """
+    up = height > _IN_THE_AIR * robot.length
+    left = _from_left(robot, nodes, force, up)
+    right = _from_left(robot, nodes[-1] - nodes[::-1], force[:, ::-1], up[:, ::-1])
+    flat = ~up.any(axis=1)
+    half = 0.5 * robot.length
+    return np.where(flat, half, left), np.where(flat, half, right)
+
+
+def _from_left(robot: Robot, nodes: Array, force: Array, up: NDArray[np.bool_]) -> Array:
+    begun = np.cumsum(force > 0, axis=1) > 0  # the outermost node may hover by a rounding of h
+    held = force * (np.cumsum(begun & up, axis=1) == 0)
+    total, moment = held.sum(axis=1), held @ nodes
+    w = robot.weight_per_length
+    return (total - np.sqrt(np.maximum(total**2 - 2 * w * moment, 0.0))) / w
+
+
+def contact_mode(robot: Robot, left: Array, right: Array) -> NDArray[np.int_]:
+    """Mode by the ends' contact lengths, shape (B,); BOTH where both lie flat."""
+    reach = robot.length * (1 + 1e-9)  # lengths come with rounding
+    in_left = np.clip((left / reach * SEGMENTS).astype(int), 0, SEGMENTS - 1)
+    in_right = np.clip(((robot.length - right) / reach * SEGMENTS).astype(int), 0, SEGMENTS - 1)
+    mode = np.full(len(left), int(Mode.TIP))
+    mode = np.where(left > 0, Mode.LEFT_1 + in_left, mode)
+    mode = np.where(right > 0, Mode.RIGHT_1 + in_right, mode)
+    mode = np.where((left > 0) & (right > 0), Mode.BOTH, mode)
+    return np.where(left + right >= robot.length * (1 - 1e-9), Mode.FLAT, mode)
