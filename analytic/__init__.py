@@ -12,23 +12,27 @@ from analytic.gait import GAITS, Gait
 from analytic.locomotion import Direction, Locomotion, direction, locomotion
 from analytic.modes import solve_modes
 from analytic.obstacle import solve_obstacle
+from analytic.prediction import RUNGS, Prediction, predict
 from analytic.robot import Robot
 from analytic.shapes import ContactShapes, Mode, Shapes, Status
 
 __all__ = [
     "GAITS",
+    "RUNGS",
     "SURFACES",
     "ContactShapes",
     "Direction",
     "Gait",
     "Locomotion",
     "Mode",
+    "Prediction",
     "Robot",
     "Shapes",
     "Status",
     "Surface",
     "direction",
     "locomotion",
+    "predict",
     "solve_elastica",
     "solve_modes",
     "solve_obstacle",

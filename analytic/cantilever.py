@@ -13,20 +13,23 @@ Array = NDArray[np.float64]
 _STEPS = 20  # of weight and pressure on the way from the straight strip
 
 
-def solve_cantilever(robot: Robot, pressure_pa: ArrayLike, links: int = 60) -> tuple[Array, Array]:
+def solve_cantilever(
+    robot: Robot, pressure_pa: ArrayLike, links: int = 60, sealed: bool = False
+) -> tuple[Array, Array]:
     """Nodes (x, y) of the strip held horizontally at its left end, each (N + 2,) [m].
 
     Args:
         robot: the strip.
         pressure_pa: of the segments, shape (3,) [Pa].
         links: of the chain; the error falls with its square.
+        sealed: bend by (6), the valves closed, instead of (9).
 
     Raises:
         ValueError: the pressure is bad.
         ArithmeticError: no stable equilibrium was found on the way from the straight strip.
     """
     (pressure,) = check_pressures(pressure_pa)
-    chain = Chain(robot, links, clamped=True)
+    chain = Chain(robot, links, sealed, clamped=True)
     weight, state = chain.weight, chain.flat()
     for part in np.linspace(0, 1, _STEPS + 1)[1:]:
         chain.weight = part * weight

@@ -8,10 +8,12 @@ is followed as far as it is stable, and no other is ever returned.
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.chain import joint_springs, link_lengths, node_positions
+from analytic.chain import link_lengths, node_positions
+from analytic.drag import Drag
 from analytic.equilibrium import Chain, ChainState
+from analytic.friction import Surface
 from analytic.pressures import check_pressures
-from analytic.robot import Robot
+from analytic.robot import SEGMENTS, Robot
 from analytic.shapes import ContactShapes, Status
 from analytic.touching import contact_mode, side_contact
 
@@ -20,39 +22,54 @@ Array = NDArray[np.float64]
 _LEAST_STEP = 1e-4  # of the way between two states, below which the branch is taken to end
 
 
-def solve_elastica(robot: Robot, pressures_pa: ArrayLike, links: int = 60) -> ContactShapes:
+def solve_elastica(
+    robot: Robot,
+    pressures_pa: ArrayLike,
+    links: int = 60,
+    sealed: bool = False,
+    surface: Surface | None = None,
+    friction_number: float = 0.0,
+) -> ContactShapes:
     """Equilibria along a path of pressures that starts with the strip flat and without pressure.
 
     Args:
         robot: the strip.
         pressures_pa: segment pressures along the path, left first, (B, 3) or (3,) [Pa], at least 0.
         links: of the chain; multiples of 6 are the most accurate. The error falls with its square.
+        sealed: bend by the exact law of pneu-nets whose valves close at these pressures (6), not
+            by the affine law (9).
+        surface, friction_number: let friction bend the strip, with V0 = Phi D0 / L^2; see
+            analytic.drag. Without them no shear acts, the limit of section 2.2.
 
     Returns:
         Shapes of B states. From where the stable branch ends (the strip rolls up, topples or
         snaps) the states are NaN with BRANCH_END; the last one before tells the pressure.
 
     Raises:
-        ValueError: the pressures are bad, or links is below 6.
+        ValueError: the pressures are bad, links is below 6, or sealed chambers do not fit links.
     """
     p = check_pressures(pressures_pa)
     if links < 6:
         raise ValueError(f"links must be at least 6, got {links}")
-    chain = Chain(robot, links)
+    if sealed and links % SEGMENTS:
+        raise ValueError(f"links must be a multiple of 3 for sealed pneu-nets, got {links}")
+    chain = Chain(robot, links, sealed)
+    drag = Drag(chain, surface, friction_number) if surface and friction_number else None
     count = len(p)
     y, theta = np.full((count, links + 2), np.nan), np.full((count, links + 1), np.nan)
     force = np.full((count, links + 2), np.nan)
     residual = np.full(count, np.nan)
     status = np.full(count, int(Status.BRANCH_END))
 
-    stiffness, rest = joint_springs(robot, links, p)
-    state, last, here = chain.flat(), None, np.zeros(3)
+    state, last, here = chain.flat(), None, np.zeros(SEGMENTS)
     for i in range(count):
-        chain.load(stiffness[i], rest[i])
+        chain.load_at(p[i])
         guess = state if last is None else _extrapolate(last, state, p, i)
         found = chain.equilibrium(guess)
         if found is None:
             found = _in_smaller_steps(chain, state, here, p[i])
+        if found is not None and drag is not None:
+            found = drag.apply(state, found)
         if found is None:
             break
         last, state, here = state, found, p[i]

@@ -23,7 +23,7 @@ from scipy.linalg.lapack import dgbsv
 
 from analytic import pneunet
 from analytic.chain import joint_springs, link_lengths
-from analytic.robot import Robot
+from analytic.robot import SEGMENTS, Robot
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -50,12 +50,16 @@ class Chain:
     Args:
         robot: the strip.
         links: N.
+        sealed: take the exact moment law of a sealed pneu-net (6) for the affine one (9).
         clamped: hold the first node and the direction of the first link, which is that of the
             strip's end, and take the ground away: a heavy cantilever, to verify the rest by.
     """
 
-    def __init__(self, robot: Robot, links: int, clamped: bool = False) -> None:
-        self.robot, self.links, self.clamped = robot, links, clamped
+    def __init__(
+        self, robot: Robot, links: int, sealed: bool = False, clamped: bool = False
+    ) -> None:
+        self.robot, self.links = robot, links
+        self.sealed, self.clamped = sealed, clamped
         self._d0 = pneunet.base_rigidity(robot)
         self.force_unit = self._d0 / robot.length**2
         self.length = link_lengths(1.0, links)
@@ -73,15 +77,22 @@ class Chain:
         held[1:] = not self.clamped
         return ChainState(np.zeros(n + 2), np.zeros(n + 1), np.zeros(n + 1), held)
 
-    def load(self, stiffness: Array, rest: Array) -> None:
-        """Set the hinges: stiffness [N m/rad] and rest angle [rad], each of shape (N,)."""
-        self.stiffness = stiffness * (self.robot.length / self._d0)
-        self.rest = rest
-
     def load_at(self, pressure: Array) -> None:
         """Set the hinges from segment pressures, shape (3,) [Pa]."""
         stiffness, rest = joint_springs(self.robot, self.links, pressure[None, :])
-        self.load(stiffness[0], rest[0])
+        self.stiffness, self.rest = stiffness[0] * (self.robot.length / self._d0), rest[0]
+        self._pressure = np.repeat(pressure, self.links // SEGMENTS)
+
+    def _hinges(self, theta: Array) -> tuple[Array, Array]:
+        """Stiffness and rest angle of the hinges' springs, or of the tangents to a gas law."""
+        if not self.sealed:
+            return self.stiffness, self.rest
+        turn = np.diff(theta)
+        element = self.robot.length / self.links
+        curvature = -turn / element  # arching is positive
+        moment = -pneunet.sealed_moment(self.robot, self._pressure, curvature)
+        tangent = pneunet.sealed_rigidity(self.robot, self._pressure, curvature) / element
+        return tangent * (self.robot.length / self._d0), turn - moment / tangent
 
     def equilibrium(self, guess: ChainState) -> ChainState | None:
         """The stable equilibrium that Newton's method finds from a guess, or None."""
@@ -109,10 +120,11 @@ class Chain:
         n, l = self.links + 1, self.length  # noqa: E741
         size = 3 * n + 1
         cosine, sine = l * np.cos(state.theta), l * np.sin(state.theta)
+        stiffness, rest = self._hinges(state.theta)
         bend = np.zeros(n + 1)
-        bend[1:-1] = self.stiffness
+        bend[1:-1] = stiffness
         turn = np.zeros(n + 1)
-        turn[1:-1] = self.stiffness * self.rest
+        turn[1:-1] = stiffness * rest
         geometric = state.shear * sine + self.tension * cosine
         # general band storage: entry (i, j) at [kl + ku + i - j, j], kl = ku = 3
         band = np.zeros((10, size))
@@ -140,6 +152,10 @@ class Chain:
         if info != 0:
             return None
         return state._replace(y=x[0::3], theta=x[1::3], shear=x[2::3])
+
+    def separation(self, state: ChainState) -> float:
+        """Horizontal distance of the two ends over L."""
+        return float(self.length @ np.cos(state.theta))
 
     def ground_force(self, state: ChainState) -> Array:
         """Force of the ground on each node, shape (N + 2,)."""
@@ -170,7 +186,7 @@ class Chain:
         n = self.links + 1
         cosine = self.length * np.cos(state.theta)
         bend = np.zeros(n + 1)
-        bend[1:-1] = self.stiffness
+        bend[1:-1] = self._hinges(state.theta)[0]
         band = np.zeros((3, 2 * n + 1))  # upper, unknowns y_0, theta_0, y_1, ...
         band[2, 0::2] = _PENALTY * state.active
         band[2, 0:-1:2] += _PENALTY
@@ -193,7 +209,8 @@ class Chain:
         total = self.weight.sum()
         force = self.ground_force(state) / total
         moment = np.zeros(self.links + 2)
-        moment[1:-1] = self.stiffness * (np.diff(state.theta) - self.rest)
+        stiffness, rest = self._hinges(state.theta)
+        moment[1:-1] = stiffness * (np.diff(state.theta) - rest)
         cosine, sine = self.length * np.cos(state.theta), self.length * np.sin(state.theta)
         torque = moment[:-1] - moment[1:] - state.shear * cosine + self.tension * sine
         kinematic = np.diff(state.y) - sine

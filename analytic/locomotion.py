@@ -6,11 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction import Surface, left_share, sliding_resistance
-from analytic.shapes import Shapes
+from analytic.shapes import ContactShapes, Shapes
 
 Array = NDArray[np.float64]
 Direction = Literal["forward", "backward", "none"]
 
+LAWS = ("paper", "coulomb")
 STANDSTILL = 0.005  # |Delta|/L below which a cycle counts as no travel; chosen, 0.65 mm on 130 mm
 
 
@@ -28,7 +29,7 @@ class Locomotion(NamedTuple):
     per_cycle: float
 
 
-def locomotion(shapes: Shapes, surface: Surface, cycles: int = 1) -> Locomotion:
+def locomotion(shapes: Shapes, surface: Surface, cycles: int = 1, law: str = "paper") -> Locomotion:
     """Apply the anchor rule of section 2.2 to a sequence of states.
 
     Each change of separation is taken up by the end that resists less, by both alike when they
@@ -39,23 +40,48 @@ def locomotion(shapes: Shapes, surface: Surface, cycles: int = 1) -> Locomotion:
         shapes: states in order of time, evenly or unevenly spaced; finer is more accurate.
         surface: the ground.
         cycles: number of cycles that the sequence holds.
+        law: "paper", resistances V_t and tau A; or "coulomb", see `anchor_share`.
 
     Raises:
-        ValueError: fewer than two states, or cycles below 1.
+        ValueError: fewer than two states, cycles below 1, no such law, or a law that needs contact
+            forces for shapes that have none.
     """
     if len(shapes) < 2 or cycles < 1:
         raise ValueError(
             f"need at least two states and one cycle, got {len(shapes)} states, {cycles} cycles"
         )
-    share = left_share(
-        sliding_resistance(shapes.robot, surface, shapes.contact_left),
-        sliding_resistance(shapes.robot, surface, shapes.contact_right),
-    )
+    share = anchor_share(shapes, surface, law)
     change = np.diff(shapes.separation)
     mean_share = 0.5 * (share[1:] + share[:-1])
     left = np.concatenate([[0.0], np.cumsum(-mean_share * change)])
     right = left + (shapes.separation - shapes.separation[0])
     return Locomotion(left, right, float(left[-1] / cycles))
+
+
+def anchor_share(shapes: Shapes, surface: Surface, law: str = "paper") -> Array:
+    """Part of a change of separation that the left end takes up at each state, (B,): 0, 1/2, 1.
+
+    Under "paper" an end resists by V_t or tau A. Under "coulomb" it resists by mu N, with N the
+    ground's force on its half of the strip (either side of the highest node) and mu the surface's
+    `tip` or `area` number, read as coefficients of friction of a tip and of a side.
+    """
+    if law not in LAWS:
+        raise ValueError(f"law must be one of {', '.join(LAWS)}; got {law!r}")
+    ends = shapes.contact_left, shapes.contact_right
+    if law == "paper":
+        return left_share(*(sliding_resistance(shapes.robot, surface, end) for end in ends))
+    if not isinstance(shapes, ContactShapes):
+        raise ValueError("law 'coulomb' needs contact forces, which the modes do not give")
+    _, y = shapes.curve(shapes.nodes)
+    first_half = np.arange(len(shapes.nodes)) <= np.argmax(np.nan_to_num(y), axis=1)[:, None]
+    loads = [np.where(half, shapes.force, 0).sum(axis=1) for half in (first_half, ~first_half)]
+    hold = [
+        load * np.where(end > 0, surface.area, surface.tip)
+        for load, end in zip(loads, ends, strict=True)
+    ]
+    # an end that carries less by rounding only is no weaker
+    even = np.isclose(hold[0], hold[1], rtol=1e-9, atol=0)
+    return np.where(even, 0.5, left_share(hold[0], hold[1]))
 
 
 def direction(displacement: float, length: float) -> Direction:

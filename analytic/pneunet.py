@@ -80,6 +80,15 @@ def sealed_moment(robot: Robot, pressure: ArrayLike, curvature: ArrayLike) -> Ar
     return base_rigidity(robot) * k - p * filled_volume(robot, p) * d_log_volume
 
 
+def sealed_rigidity(robot: Robot, pressure: ArrayLike, curvature: ArrayLike) -> Array:
+    """dM/dk of a sealed pneu-net at a curvature [N m^2]; at the natural one it is (8)."""
+    k = np.asarray(curvature, dtype=float)
+    height = robot.chamber_height
+    d_log_volume = 0.5 * height / (1 + 0.5 * k * height)
+    gas = np.asarray(pressure, dtype=float) * filled_volume(robot, pressure)
+    return base_rigidity(robot) + gas * d_log_volume**2
+
+
 def sealed_curvature(robot: Robot, pressure: ArrayLike, moment: ArrayLike) -> Array:
     """k(M) of a sealed pneu-net [1/m]: the root of sealed_moment = M with k > -2/H.
 

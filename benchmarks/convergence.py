@@ -1,15 +1,14 @@
 """Print how the distance depends on each knob of the planar model: `make numbers`.
 
-One knob is turned at a time from the default; the theory's value stands at the top. The last
+One knob is turned at a time from the default; the quasi-static rungs stand at the top. The last
 columns give the sum of felt and gelatin over their size, and the steps and speed.
 """
 
 from dataclasses import replace
 
-from analytic import SURFACES, Gait
+from analytic import RUNGS, SURFACES, Gait, predict
 from mjsim.config import Numerics, Scene
 from mjsim.measures import measure
-from mjsim.report import predict
 from mjsim.simulate import simulate
 from mjsim.trajectory import Trajectory
 
@@ -41,8 +40,10 @@ def line(label: str, **changes: float) -> None:
 def main() -> None:
     print(f"{'displacement/L':<24}{''.join(f'{name:>14}' for name in SURFACES)}"
           f"{'F + G':>11}{'speed':>11}")  # fmt: skip
-    theory = [predict(replace(DEFAULT, surface=surface))[0] for surface in SURFACES.values()]
-    print(f"{'theory (modes)':<24}{''.join(f'{value:>+14.4f}' for value in theory)}")
+    for rung in RUNGS:
+        walks = [predict(DEFAULT.robot, DEFAULT.gait, s, rung) for s in SURFACES.values()]
+        theory = [walk.locomotion.per_cycle / DEFAULT.robot.length for walk in walks]
+        print(f"{rung:<24}{''.join(f'{value:>+14.4f}' for value in theory)}")
     line("default")
     for links in (6, 10, 12, 20, 24, 48, 96):
         line(f"links {links}", links=links)

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from analytic import GAITS, Robot, solve_modes
+from analytic import GAITS, Robot, solve_elastica, solve_modes, solve_obstacle
 from mjsim.assembly import compile_model
 from mjsim.config import Numerics, Scene
 from mjsim.simulate import simulate
@@ -14,6 +14,19 @@ def test_modes_along_a_gait(benchmark):
     states = np.tile(GAITS["wave"].pressures(200), (20, 1)) * Robot().peak_pressure
     benchmark.extra_info["states"] = len(states)
     benchmark(solve_modes, Robot(), states)
+
+
+@pytest.mark.parametrize("links", [12, 24, 60, 120])
+def test_elastica_along_a_gait(benchmark, links):
+    states = GAITS["wave"].pressures(100) * Robot().peak_pressure
+    benchmark.extra_info["states"] = len(states)
+    benchmark.pedantic(solve_elastica, (Robot(), states, links), rounds=7, warmup_rounds=1)
+
+
+def test_obstacle_along_a_gait(benchmark):
+    states = GAITS["wave"].pressures(100) * Robot().peak_pressure
+    benchmark.extra_info["states"] = len(states)
+    benchmark.pedantic(solve_obstacle, (Robot(), states), rounds=7, warmup_rounds=1)
 
 
 @pytest.mark.parametrize("links", [12, 24, 48])

@@ -2,33 +2,18 @@
 
 from typing import Any
 
-from analytic import Status as StateStatus
-from analytic import direction, locomotion, solve_modes
-from mjsim.config import Scene
+from analytic import direction, predict
 from mjsim.measures import measure
 from mjsim.trajectory import Trajectory
 
-_STATES_PER_LEG = 400  # of the prediction; its increment error is then below 1e-4 of L
-
-
-def predict(scene: Scene) -> tuple[float, StateStatus]:
-    """Displacement per cycle over L by the seed's modes, and the flags met along the gait.
-
-    NaN where a state of the gait has no solution.
-    """
-    states = scene.robot.peak_pressure * scene.gait.pressures(_STATES_PER_LEG)
-    shapes = solve_modes(scene.robot, states)
-    flags = StateStatus.OK
-    for flag in StateStatus:
-        if (shapes.status & flag).any():
-            flags |= flag
-    return locomotion(shapes, scene.surface).per_cycle / scene.robot.length, flags
+REFERENCE = "elastica"
 
 
 def record(walk: Trajectory) -> dict[str, Any]:
     """The run as plain data; quantities that do not exist are None, never a number."""
     scene, numerics = walk.scene, walk.numerics
-    predicted, flags = predict(scene)
+    prediction = predict(scene.robot, scene.gait, scene.surface, REFERENCE)
+    predicted = prediction.locomotion.per_cycle / scene.robot.length
     known = predicted == predicted  # not NaN
     measured = measure(walk)
     simulated = float(len(walk.time) * numerics.timestep)
@@ -43,9 +28,10 @@ def record(walk: Trajectory) -> dict[str, Any]:
         "peak_pressure_Pa": scene.robot.peak_pressure,
         "displacement_over_L": measured and measured.displacement,
         "direction": measured and measured.direction,
+        "predicted_by": REFERENCE,
         "predicted_displacement_over_L": predicted if known else None,
         "predicted_direction": direction(predicted, 1.0) if known else None,
-        "prediction_flags": [flag.name for flag in flags],
+        "prediction_flags": [flag.name for flag in prediction.flags],
         "error_over_L": measured.displacement - predicted if measured and known else None,
         "slip_over_L": measured and measured.slip,
         "amplitude_over_L": measured and measured.amplitude,
@@ -59,7 +45,7 @@ def record(walk: Trajectory) -> dict[str, Any]:
 def table(records: list[dict[str, Any]]) -> str:
     """One line a run: direction and displacement beside the prediction, and what it cost."""
     head = (
-        f"{'surface':<14}{'direction':<11}{'Δ/L':>9}{'theory':>9}{'error':>9}{'slip':>9}"
+        f"{'surface':<14}{'direction':<11}{'Δ/L':>9}{REFERENCE:>9}{'error':>9}{'slip':>9}"
         f"{'height/L':>10}{'sim s':>8}{'wall s':>8}{'× real':>8}  status"
     )
     return "\n".join([head, *(_line(row) for row in records)])

@@ -62,6 +62,17 @@ def test_tangent_rigidity_8_is_the_curvature_of_energy_6_at_no_moment(robot, pre
     )
 
 
+@given(robots, pressures, st.floats(0.3, 2.0))
+def test_sealed_rigidity_is_the_slope_of_the_sealed_moment(robot, pressure, part):
+    kappa = float(pneunet.natural_curvature(robot, pressure))
+    found = slope(
+        lambda k: float(pneunet.sealed_moment(robot, pressure, k)), part * kappa, 1e-2 * kappa
+    )
+    assert found == pytest.approx(
+        float(pneunet.sealed_rigidity(robot, pressure, part * kappa)), rel=1e-6
+    )
+
+
 @given(robots)
 def test_affine_rigidity_9_differs_from_8_at_second_order_in_pressure(robot):
     p = robot.peak_pressure * np.array([1e-2, 5e-3])

@@ -42,7 +42,7 @@ def test_all_surfaces_come_in_one_object(tmp_path, capsys):
 def test_the_table_names_direction_displacement_and_prediction(tmp_path, capsys):
     assert call("--reverse", "--cycles", "2", out=tmp_path) == 0
     head, line, files = capsys.readouterr().out.strip().splitlines()
-    assert "theory" in head
+    assert "elastica" in head
     assert line.startswith("felt          backward")
     assert line.endswith("ok")
     assert files == str(tmp_path / "felt-wave-reversed.nc")

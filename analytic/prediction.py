@@ -1,0 +1,75 @@
+"""How far a robot goes in a cycle, by any rung, with the changes of anchor resolved."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from analytic.elastica import solve_elastica
+from analytic.friction import Surface
+from analytic.gait import Gait
+from analytic.locomotion import Locomotion, anchor_share, locomotion
+from analytic.modes import solve_modes
+from analytic.obstacle import solve_obstacle
+from analytic.robot import Robot
+from analytic.shapes import Shapes, Status
+
+Array = NDArray[np.float64]
+
+RUNGS: dict[str, Callable[[Robot, ArrayLike], Shapes]] = {
+    "modes": solve_modes,  # the seed's: small slopes, one flat end, closed form
+    "obstacle": solve_obstacle,  # small slopes, exact contact
+    "elastica": solve_elastica,  # finite rotations, exact contact: the reference
+}
+
+
+class Prediction(NamedTuple):
+    """One cycle by one rung.
+
+    Attributes:
+        pressures: states of the cycle, shape (B, 3) [Pa], denser where the anchor changes.
+        shapes: their equilibria.
+        locomotion: displacements along them.
+        flags: every flag that a state carries.
+    """
+
+    pressures: Array
+    shapes: Shapes
+    locomotion: Locomotion
+    flags: Status
+
+
+def predict(
+    robot: Robot,
+    gait: Gait,
+    surface: Surface,
+    rung: str = "elastica",
+    n_per_leg: int = 50,
+    refinement: int = 32,
+) -> Prediction:
+    """Walk one cycle quasi-statically.
+
+    The anchor rule is right but for the increments in which the anchor changes: those are found in
+    a first pass and divided into `refinement` parts in a second.
+
+    Raises:
+        ValueError: there is no such rung, or the gait is divided into no states.
+    """
+    if rung not in RUNGS:
+        raise ValueError(f"rung must be one of {', '.join(RUNGS)}; got {rung!r}")
+    path = robot.peak_pressure * gait.pressures(n_per_leg)
+    shapes = RUNGS[rung](robot, path)
+    changes = np.flatnonzero(np.diff(anchor_share(shapes, surface)))
+    if len(changes) and refinement > 1:
+        part = np.linspace(0, 1, refinement + 1)[1:-1, None]
+        between = [path[i] + part * (path[i + 1] - path[i]) for i in changes]
+        path = np.insert(
+            path, np.repeat(changes + 1, refinement - 1), np.concatenate(between), axis=0
+        )
+        shapes = RUNGS[rung](robot, path)
+    flags = Status.OK
+    for flag in Status:
+        if (shapes.status & flag).any():
+            flags |= flag
+    return Prediction(path, shapes, locomotion(shapes, surface), flags)

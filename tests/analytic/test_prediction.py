@@ -1,0 +1,41 @@
+"""A cycle's distance by any rung, resolved where the anchor changes."""
+
+import pytest
+
+from analytic import GAITS, RUNGS, SURFACES, Robot, Status, predict
+
+
+def distance(rung, surface="felt", **options):
+    walked = predict(Robot(), GAITS["wave"], SURFACES[surface], rung, **options)
+    return walked.locomotion.per_cycle / Robot().length
+
+
+@pytest.mark.parametrize("rung", list(RUNGS))
+def test_refining_the_changes_of_anchor_is_as_good_as_refining_everything(rung):
+    fine = distance(rung, n_per_leg=800, refinement=1)
+    assert distance(rung, n_per_leg=25) == pytest.approx(fine, abs=1e-4)
+    assert abs(distance(rung, n_per_leg=25, refinement=1) - fine) > 1e-4  # else for nothing
+
+
+@pytest.mark.parametrize("rung", list(RUNGS))
+def test_felt_and_gelatin_are_equal_and_opposite_on_every_rung(rung):
+    assert distance(rung) == pytest.approx(-distance(rung, "gelatin"), abs=1e-4)
+
+
+def test_the_rungs_agree_on_the_distance_as_far_as_small_slopes_go():
+    modes, obstacle, elastica = (distance(rung) for rung in RUNGS)
+    assert modes == pytest.approx(obstacle, abs=2e-4)
+    assert modes == pytest.approx(elastica, rel=0.05)
+    assert 0.0414 < elastica < 0.0422
+
+
+def test_flags_tell_what_was_met_on_the_way():
+    heavy = Robot(peak_pressure=70e3)
+    walked = predict(heavy, GAITS["wave"], SURFACES["felt"])
+    assert walked.flags == Status.BRANCH_END
+    assert walked.locomotion.per_cycle != walked.locomotion.per_cycle  # NaN
+
+
+def test_an_unknown_rung_is_refused_by_name():
+    with pytest.raises(ValueError, match="modes, obstacle, elastica"):
+        predict(Robot(), GAITS["wave"], SURFACES["felt"], "ladder")
