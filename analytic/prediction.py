@@ -17,7 +17,9 @@ from analytic.shapes import Shapes, Status
 
 Array = NDArray[np.float64]
 
-RUNGS: dict[str, Callable[[Robot, ArrayLike], Shapes]] = {
+Solver = Callable[[Robot, ArrayLike], Shapes]
+
+RUNGS: dict[str, Solver] = {
     "modes": solve_modes,  # the seed's: small slopes, one flat end, closed form
     "obstacle": solve_obstacle,  # small slopes, exact contact
     "elastica": solve_elastica,  # finite rotations, exact contact: the reference
@@ -47,19 +49,28 @@ def predict(
     rung: str = "elastica",
     n_per_leg: int = 50,
     refinement: int = 32,
+    solver: Solver | None = None,
 ) -> Prediction:
     """Walk one cycle quasi-statically.
 
     The anchor rule is right but for the increments in which the anchor changes: those are found in
     a first pass and divided into `refinement` parts in a second.
 
+    Args:
+        robot, gait, surface: the scene.
+        rung: a name of RUNGS.
+        n_per_leg: states per ramp of the gait in the first pass.
+        refinement: parts of an increment in which the anchor changes.
+        solver: used instead of the rung's own, for instance with more links.
+
     Raises:
         ValueError: there is no such rung, or the gait is divided into no states.
     """
     if rung not in RUNGS:
         raise ValueError(f"rung must be one of {', '.join(RUNGS)}; got {rung!r}")
+    solve = solver or RUNGS[rung]
     path = robot.peak_pressure * gait.pressures(n_per_leg)
-    shapes = RUNGS[rung](robot, path)
+    shapes = solve(robot, path)
     changes = np.flatnonzero(np.diff(anchor_share(shapes, surface)))
     if len(changes) and refinement > 1:
         part = np.linspace(0, 1, refinement + 1)[1:-1, None]
@@ -67,7 +78,7 @@ def predict(
         path = np.insert(
             path, np.repeat(changes + 1, refinement - 1), np.concatenate(between), axis=0
         )
-        shapes = RUNGS[rung](robot, path)
+        shapes = solve(robot, path)
     flags = Status.OK
     for flag in Status:
         if (shapes.status & flag).any():

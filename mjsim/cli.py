@@ -4,20 +4,51 @@ import contextlib
 import io
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NoReturn, TypeVar
 
 import tyro
+from tqdm import tqdm
 
 Options = TypeVar("Options")
 
 BAD_INPUT, FAILED = 2, 3  # exit codes, beside 0
+ALL = "all"
+_PATIENCE = 2.0  # s before a progress bar shows
 
 
 def fail(program: str, message: str) -> NoReturn:
     """Print one line on stderr and leave with the code for bad input."""
     print(f"{program}: error: {' '.join(message.split())}", file=sys.stderr)
     sys.exit(BAD_INPUT)
+
+
+def choose(name: str, text: str, valid: Iterable[str]) -> list[str]:
+    """Names from a comma-separated list, or every one for "all".
+
+    Raises:
+        ValueError: a name is not among the valid ones.
+    """
+    known = list(valid)
+    chosen = known if text == ALL else text.split(",")
+    for word in chosen:
+        if word not in known:
+            raise ValueError(f"{name} must be one of {', '.join(known)}, {ALL}; got {word!r}")
+    return chosen
+
+
+@contextlib.contextmanager
+def bar(text: str, total: int) -> Iterator[Callable[[int], None]]:
+    """A progress bar on stderr for what takes long, where stderr is a terminal."""
+    with tqdm(
+        total=total,
+        desc=text,
+        delay=_PATIENCE,
+        leave=False,
+        file=sys.stderr,
+        disable=not sys.stderr.isatty(),
+    ) as shown:
+        yield lambda steps: (shown.update(steps), None)[1]
 
 
 def parse(kind: type[Options], program: str, argv: Sequence[str] | None) -> Options:

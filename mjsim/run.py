@@ -4,25 +4,20 @@ import json
 import os
 import sys
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tqdm import tqdm
-
 from analytic import GAITS, SURFACES, Robot
 from mjsim import gl
-from mjsim.cli import FAILED, fail, parse
+from mjsim.cli import ALL, FAILED, bar, choose, fail, parse
 from mjsim.config import Numerics, Scene
 
 if TYPE_CHECKING:
     from mjsim.trajectory import Trajectory
 
 PROGRAM = "python -m mjsim.run"
-ALL = "all"
-_PATIENCE = 2.0  # s before a progress bar shows
 
 
 @dataclass(frozen=True)
@@ -102,7 +97,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         _film(walks, options.out / f"{_name(scenes[0], ALL)}.mp4")
 
     if options.json:
-        print(json.dumps({"runs": records} if options.surface == ALL else records[0]))
+        print(json.dumps({"runs": records} if len(records) > 1 else records[0]))
     else:
         print(table(records))
         print(*(f"{row[key]}" for row in records for key in ("trajectory", "video") if row[key]))
@@ -110,20 +105,16 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _scenes(options: Options) -> list[Scene]:
-    if options.surface not in (*SURFACES, ALL):
-        raise ValueError(
-            f"surface must be one of {', '.join(SURFACES)}, {ALL}; got {options.surface!r}"
-        )
+    surfaces = choose("surface", options.surface, SURFACES)
     if options.gait not in GAITS:
         raise ValueError(f"gait must be one of {', '.join(GAITS)}; got {options.gait!r}")
     gait = GAITS[options.gait].reversed() if options.reverse else GAITS[options.gait]
-    chosen = SURFACES.values() if options.surface == ALL else [SURFACES[options.surface]]
     if not options.pressure > 0:
         raise ValueError(f"pressure must be a positive number of Pa, got {options.pressure:g}")
     robot = replace(Robot(), peak_pressure=options.pressure)
     return [
-        Scene(robot, gait, surface, options.cycles, options.body, options.friction)
-        for surface in chosen
+        Scene(robot, gait, SURFACES[name], options.cycles, options.body, options.friction)
+        for name in surfaces
     ]
 
 
@@ -141,24 +132,16 @@ def _check_folder(folder: Path) -> None:
 def _simulate(scene: Scene, numerics: Numerics) -> "Trajectory":
     from mjsim.simulate import schedule, simulate
 
-    with _bar(f"simulating {scene.surface.name}", len(schedule(scene, numerics)[0])) as advance:
+    with bar(f"simulating {scene.surface.name}", len(schedule(scene, numerics)[0])) as advance:
         return simulate(scene, numerics, advance)
 
 
 def _film(walks: "list[Trajectory]", path: Path) -> Path:
     from mjsim.video import frame_times, write_video
 
-    with _bar(f"rendering {path.name}", len(frame_times(walks))) as advance:
+    with bar(f"rendering {path.name}", len(frame_times(walks))) as advance:
         write_video(walks, path, advance)
     return path
-
-
-@contextmanager
-def _bar(text: str, total: int) -> Iterator[Callable[[int], None]]:
-    """A progress bar on stderr for what takes long, where stderr is a terminal."""
-    with tqdm(total=total, desc=text, delay=_PATIENCE, leave=False, file=sys.stderr,
-              disable=not sys.stderr.isatty()) as bar:  # fmt: skip
-        yield lambda steps: (bar.update(steps), None)[1]
 
 
 def _name(scene: Scene, surface: str | None = None) -> str:

@@ -1,0 +1,176 @@
+"""Every rung on the same scenes in one table: `python -m mjsim.compare`."""
+
+import json
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from analytic import GAITS, RUNGS, SURFACES, Gait, Robot, Surface, direction, predict
+from analytic.elastica import solve_elastica
+from mjsim.cli import bar, choose, fail, parse
+from mjsim.config import BODIES, Scene
+from mjsim.measures import measure
+from mjsim.simulate import simulate
+
+PROGRAM = "python -m mjsim.compare"
+REFERENCE = "elastica"
+LADDER = (*RUNGS, *BODIES)  # cheapest theory first, then MuJoCo
+
+
+@dataclass(frozen=True)
+class Options:
+    """Compare the quasi-static rungs and MuJoCo on one cycle of each gait on each surface.
+
+    The reference is elastica; +- is the half-links estimate of its own error. Lists are
+    comma-separated. Exit code 0: done, also where a rung has no answer (its status says why);
+    2: bad input.
+
+    Example: python -m mjsim.compare --surface felt,gelatin --gait wave --rung modes,planar
+    """
+
+    surface: str = "all"
+    """felt, polyethylene, gelatin, or all"""
+    gait: str = "all"
+    """wave, full-wave, pulse, or all"""
+    rung: str = "all"
+    """modes, obstacle, elastica, planar, or all"""
+    reverse: bool = False
+    """run the gaits backwards too"""
+    pressure: float = Robot().peak_pressure
+    """peak pressure of a segment [Pa]"""
+    json: bool = False
+    """print one JSON object instead of the table"""
+
+
+class Row(NamedTuple):
+    """One rung on one scene; what does not exist is None."""
+
+    surface: str
+    gait: str
+    rung: str
+    displacement_over_L: float | None  # noqa: N815 - the contract's name
+    uncertainty_over_L: float | None  # noqa: N815
+    difference_over_L: float | None  # noqa: N815
+    direction: str | None
+    amplitude_over_L: float | None  # noqa: N815
+    status: str
+
+
+def compare(robot: Robot, gait: Gait, surface: Surface, rungs: Sequence[str]) -> list[Row]:
+    """Rows of the rungs asked for, each beside the reference."""
+    reference = _quasi_static(robot, gait, surface, REFERENCE)
+    rows = []
+    for rung in rungs:
+        if rung == REFERENCE:
+            row = reference._replace(uncertainty_over_L=_uncertainty(robot, gait, surface))
+        elif rung in RUNGS:
+            row = _quasi_static(robot, gait, surface, rung)
+        else:
+            row = _simulated(Scene(robot, gait, surface, body=rung))
+        exact, found = reference.displacement_over_L, row.displacement_over_L
+        if exact is not None and found is not None:
+            row = row._replace(difference_over_L=found - exact)
+        rows.append(row)
+    return rows
+
+
+def _quasi_static(robot: Robot, gait: Gait, surface: Surface, rung: str) -> Row:
+    found = predict(robot, gait, surface, rung)
+    shift = found.locomotion.per_cycle / robot.length
+    known = bool(np.isfinite(shift))
+    flags = "+".join(flag.name.lower() for flag in found.flags if flag.name) or "ok"
+    return Row(
+        surface.name,
+        gait.name,
+        rung,
+        displacement_over_L=shift if known else None,
+        uncertainty_over_L=None,
+        difference_over_L=None,
+        direction=direction(shift, 1.0) if known else None,
+        amplitude_over_L=float(found.shapes.amplitude.max()) / robot.length if known else None,
+        status=flags,
+    )
+
+
+def _uncertainty(robot: Robot, gait: Gait, surface: Surface) -> float | None:
+    """What half the links and half the states would change in the reference, over L."""
+    fine = predict(robot, gait, surface)
+    coarse = predict(
+        robot, gait, surface, n_per_leg=25, solver=lambda r, p: solve_elastica(r, p, links=30)
+    )
+    gap = abs(fine.locomotion.per_cycle - coarse.locomotion.per_cycle) / robot.length
+    return gap if np.isfinite(gap) else None
+
+
+def _simulated(scene: Scene) -> Row:
+    walk = simulate(scene)
+    found = measure(walk)
+    return Row(
+        scene.surface.name,
+        scene.gait.name,
+        scene.body,
+        displacement_over_L=found and found.displacement,
+        uncertainty_over_L=found and abs(found.slip),
+        difference_over_L=None,
+        direction=found and found.direction,
+        amplitude_over_L=found and found.amplitude,
+        status=str(walk.status),
+    )
+
+
+def table(rows: Sequence[Row]) -> str:
+    """The rows as text, a blank line between scenes."""
+    lines = [
+        f"{'surface':<14}{'gait':<19}{'rung':<10}{'direction':<11}{'Δ/L':>9}{'+-':>8}"
+        f"{'- ref':>9}{'height/L':>10}  status"
+    ]
+    scene = None
+    for row in rows:
+        if scene not in (None, (row.surface, row.gait)):
+            lines.append("")
+        scene = (row.surface, row.gait)
+        lines.append(
+            f"{row.surface:<14}{row.gait:<19}{row.rung:<10}{row.direction or '-':<11}"
+            f"{_number(row.displacement_over_L, 9, '+.4f')}"
+            f"{_number(row.uncertainty_over_L, 8, '.4f')}"
+            f"{_number(row.difference_over_L, 9, '+.4f')}"
+            f"{_number(row.amplitude_over_L, 10, '.3f')}  {row.status}"
+        )
+    return "\n".join(lines)
+
+
+def _number(value: float | None, width: int, kind: str) -> str:
+    return f"{'-' if value is None else format(value, kind):>{width}}"
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    options = parse(Options, PROGRAM, argv)
+    try:
+        surfaces = choose("surface", options.surface, SURFACES)
+        gaits = [GAITS[name] for name in choose("gait", options.gait, GAITS)]
+        rungs = choose("rung", options.rung, LADDER)
+        robot = replace(Robot(), peak_pressure=options.pressure)
+        Scene(robot)  # says whether the pressure is absurd
+    except ValueError as error:
+        fail(PROGRAM, str(error))
+    if options.reverse:
+        gaits = [way for gait in gaits for way in (gait, gait.reversed())]
+    rows: list[Row] = []
+    with bar("comparing", len(surfaces) * len(gaits)) as advance:
+        for gait in gaits:
+            for name in surfaces:
+                rows += compare(robot, gait, SURFACES[name], rungs)
+                advance(1)
+    if options.json:
+        print(json.dumps({"reference": REFERENCE, "rows": [row._asdict() for row in rows]}))
+    else:
+        print(table(rows))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,61 @@
+"""MuJoCo against the analytic direction predictions, and the command that tabulates both."""
+
+import json
+from dataclasses import replace
+
+import pytest
+
+from analytic import GAITS, SURFACES, Robot
+from mjsim import cli
+from mjsim.compare import LADDER, Row, compare, main
+
+STANDSTILL = 0.005  # of L; less is no travel, see analytic.locomotion
+
+
+@pytest.mark.parametrize("part", [0.6, 0.8, 1.0])
+@pytest.mark.parametrize("reverse", [False, True])
+@pytest.mark.parametrize("gait", list(GAITS))
+@pytest.mark.parametrize("surface", list(SURFACES))
+def test_mujoco_goes_the_way_the_elastica_predicts(surface, gait, reverse, part):
+    """Wherever the predicted distance exceeds its own uncertainty and a stand-still."""
+    robot = replace(Robot(), peak_pressure=part * Robot().peak_pressure)
+    stages = GAITS[gait].reversed() if reverse else GAITS[gait]
+    theory, planar = compare(robot, stages, SURFACES[surface], ["elastica", "planar"])
+    assert theory.status == planar.status == "ok"
+    assert planar.difference_over_L == pytest.approx(0, abs=0.005)
+    if abs(theory.displacement_over_L) > STANDSTILL + theory.uncertainty_over_L:
+        assert planar.displacement_over_L * theory.displacement_over_L > 0
+
+
+def test_a_row_a_rung_with_its_difference_from_the_reference(capsys):
+    assert main(["--surface", "felt", "--gait", "wave", "--json"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert said["reference"] == "elastica"
+    assert [row["rung"] for row in said["rows"]] == list(LADDER)
+    assert set(said["rows"][0]) == set(Row._fields)
+    by_rung = {row["rung"]: row for row in said["rows"]}
+    assert by_rung["elastica"]["difference_over_L"] == 0
+    assert by_rung["elastica"]["uncertainty_over_L"] < 1e-3
+    assert all(abs(row["difference_over_L"]) < 0.002 for row in said["rows"])
+
+
+def test_a_rung_without_an_answer_says_why(capsys):
+    assert main(["--surface", "felt", "--gait", "wave", "--pressure", "72000"]) == 0
+    said = capsys.readouterr().out
+    assert "branch_end" in said
+    assert "toppled" in said
+
+
+@pytest.mark.parametrize(
+    ("words", "valid"),
+    [(["--surface", "ice"], "felt"), (["--gait", "wave,trot"], "pulse"),
+     (["--rung", "cable"], "planar"), (["--pressure", "1e9"], "78863"),
+     (["--pressure", "-1"], "positive")],
+)  # fmt: skip
+def test_bad_input_gets_one_line_and_exit_2(capsys, words, valid):
+    with pytest.raises(SystemExit) as stop:
+        main(words)
+    said = capsys.readouterr()
+    assert stop.value.code == cli.BAD_INPUT
+    assert len(said.err.strip().splitlines()) == 1
+    assert valid in said.err
