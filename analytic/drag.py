@@ -65,7 +65,8 @@ class Drag:
         chain = self._chain
         robot = chain.robot
         force = chain.ground_force(state)[None, :] * chain.force_unit
-        ends = side_contact(robot, self._nodes, force, state.y[None, :] * robot.length)
+        height = state.y[None, :] * robot.length
+        ends = side_contact(robot, self._nodes, force, height, chain.pressure[None, :])
         return self._number * min(
             float(sliding_resistance(robot, self._surface, end)[0]) for end in ends
         )

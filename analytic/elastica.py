@@ -20,6 +20,8 @@ from analytic.touching import contact_mode, side_contact
 Array = NDArray[np.float64]
 
 _LEAST_STEP = 1e-4  # of the way between two states, below which the branch is taken to end
+_CURLED = 0.02  # slope that an end in flat contact does not have, even where it lifts off [rad]
+_LEAP = 0.3  # change of a direction in one step that may be a leap to another branch [rad]
 
 
 def solve_elastica(
@@ -43,7 +45,8 @@ def solve_elastica(
 
     Returns:
         Shapes of B states. From where the stable branch ends (the strip rolls up, topples or
-        snaps) the states are NaN with BRANCH_END; the last one before tells the pressure.
+        snaps) the states are NaN with BRANCH_END, and where an end curls up off the ground, with
+        ROLLED_UP; the last one before tells the pressure.
 
     Raises:
         ValueError: the pressures are bad, links is below 6, or sealed chambers do not fit links.
@@ -65,7 +68,7 @@ def solve_elastica(
     for i in range(count):
         chain.load_at(p[i])
         guess = state if last is None else _extrapolate(last, state, p, i)
-        found = chain.equilibrium(guess)
+        found = _unless_it_leaps(state, chain.equilibrium(guess))
         if found is None:
             found = _in_smaller_steps(chain, state, here, p[i])
         if found is not None and drag is not None:
@@ -73,13 +76,16 @@ def solve_elastica(
         if found is None:
             break
         last, state, here = state, found, p[i]
+        if _rolled_up(found):
+            status[i] = Status.ROLLED_UP
+            continue
         y[i], theta[i], status[i] = found.y, found.theta, Status.OK
         force[i] = chain.ground_force(found)
         residual[i] = chain.residual(found)
 
     nodes = node_positions(robot.length, links)
     newtons = force * chain.force_unit
-    left, right = side_contact(robot, nodes, newtons, y * robot.length)
+    left, right = side_contact(robot, nodes, newtons, y * robot.length, p)
     lengths = link_lengths(robot.length, links)
     return ContactShapes(
         robot=robot,
@@ -113,6 +119,19 @@ def _extrapolate(before: ChainState, now: ChainState, p: Array, i: int) -> Chain
     )
 
 
+def _rolled_up(state: ChainState) -> bool:
+    """Whether an end is off the ground and not for lying nearly flat."""
+    ends = ((state.y[0], state.theta[0]), (state.y[-1], state.theta[-1]))
+    return any(y > 1e-9 and abs(theta) > _CURLED for y, theta in ends)
+
+
+def _unless_it_leaps(before: ChainState, found: ChainState | None) -> ChainState | None:
+    """An equilibrium near the last one, or None: one far away may lie on another branch."""
+    if found is None or np.abs(found.theta - before.theta).max() > _LEAP:
+        return None
+    return found
+
+
 def _in_smaller_steps(
     chain: Chain, start: ChainState, from_p: Array, to_p: Array
 ) -> ChainState | None:
@@ -121,7 +140,7 @@ def _in_smaller_steps(
     while done < 1.0:
         step = min(step, 1.0 - done)
         chain.load_at(from_p + (done + step) * (to_p - from_p))
-        found = chain.equilibrium(state)
+        found = _unless_it_leaps(state, chain.equilibrium(state))
         if found is None:
             step *= 0.5
             if step < _LEAST_STEP:

@@ -68,7 +68,7 @@ class Chain:
         self.weight[:-1] += half
         self.weight[1:] += half
         self.stiffness, self.rest = np.zeros(links), np.zeros(links)
-        self.tension = 0.0
+        self.pressure, self.tension = np.zeros(SEGMENTS), 0.0
 
     def flat(self) -> ChainState:
         """The strip without pressure on the ground, or sticking out from the wall."""
@@ -81,7 +81,8 @@ class Chain:
         """Set the hinges from segment pressures, shape (3,) [Pa]."""
         stiffness, rest = joint_springs(self.robot, self.links, pressure[None, :])
         self.stiffness, self.rest = stiffness[0] * (self.robot.length / self._d0), rest[0]
-        self._pressure = np.repeat(pressure, self.links // SEGMENTS)
+        self.pressure = pressure
+        self._chambers = np.repeat(pressure, self.links // SEGMENTS)
 
     def _hinges(self, theta: Array) -> tuple[Array, Array]:
         """Stiffness and rest angle of the hinges' springs, or of the tangents to a gas law."""
@@ -90,8 +91,8 @@ class Chain:
         turn = np.diff(theta)
         element = self.robot.length / self.links
         curvature = -turn / element  # arching is positive
-        moment = -pneunet.sealed_moment(self.robot, self._pressure, curvature)
-        tangent = pneunet.sealed_rigidity(self.robot, self._pressure, curvature) / element
+        moment = -pneunet.sealed_moment(self.robot, self._chambers, curvature)
+        tangent = pneunet.sealed_rigidity(self.robot, self._chambers, curvature) / element
         return tangent * (self.robot.length / self._d0), turn - moment / tangent
 
     def equilibrium(self, guess: ChainState) -> ChainState | None:

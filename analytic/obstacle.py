@@ -62,7 +62,7 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
     nodes = np.linspace(0.0, robot.length, elements + 1)
     newtons = force * d0 / robot.length**2
     height = values[..., 0] * robot.length
-    left, right = side_contact(robot, nodes, newtons, height)
+    left, right = side_contact(robot, nodes, newtons, height, p)
     curve = _Curve(robot.length, values, load / rigidity)
     lost = status != Status.OK
     blank = np.where(lost, np.nan, 1.0)

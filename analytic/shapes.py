@@ -29,7 +29,7 @@ class Mode(IntEnum):
 class Status(IntFlag):
     """How far a state can be trusted; flags add up.
 
-    Values are NaN with NO_ROOT, NOT_CONVERGED and BRANCH_END, and numbers with all others.
+    Values are NaN with NO_ROOT, NOT_CONVERGED, BRANCH_END and ROLLED_UP, else numbers.
     """
 
     OK = 0
@@ -40,6 +40,7 @@ class Status(IntFlag):
     HELD_FLAT = 16  # a part that lies flat is inflated: no moment in the seed's modes holds it so
     NOT_CONVERGED = 32  # the iteration gave up
     BRANCH_END = 64  # the stable equilibrium that the sequence followed ended before this state
+    ROLLED_UP = 128  # an end curls up off the ground: neither tip nor side, so no law of friction
 
 
 @dataclass(frozen=True)

@@ -3,36 +3,47 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic import pneunet
 from analytic.robot import SEGMENTS, Robot
 from analytic.shapes import Mode
 
 Array = NDArray[np.float64]
 
-_IN_THE_AIR = 1e-4  # height over L; where a flat stretch ends its nodes ripple by less
+_RIPPLE = 0.2  # of w L h^3 / D0: how high a flat stretch ripples between nodes, bounded; measured
 
 
-def side_contact(robot: Robot, nodes: Array, force: Array, height: Array) -> tuple[Array, Array]:
+def side_contact(
+    robot: Robot, nodes: Array, force: Array, height: Array, pressures: Array
+) -> tuple[Array, Array]:
     """Length of side contact at the left and the right end.
+
+    An end whose segment is inflated is a tip: to lie flat it would need the moment D kappa, and an
+    end has none.
 
     On a flat stretch the ground carries the weight, w per length, and where the strip lifts off a
     concentrated force R besides. So an end's nodes, up to the next that is clearly in the air,
     carry F = w xi + R with the moment M = w xi^2 / 2 + R xi about that end, and xi follows from
     these sums: finer than the distance of the nodes, and exactly 0 if the end alone touches.
+    Between nodes that push, a flat stretch ripples; what rises higher than that is in the air.
 
     Args:
         nodes: arclength of the nodes, shape (S,) [m].
         force: of the ground on each, 0 where it does not touch, shape (B, S) [N].
         height: of each, shape (B, S) [m].
+        pressures: of the segments, shape (B, 3) [Pa].
 
     Returns:
         Two arrays of shape (B,) [m]; half the length each where no node is in the air.
     """
-    up = height > _IN_THE_AIR * robot.length
+    spacing = float(np.diff(nodes).max())
+    ripple = robot.weight_per_length * robot.length * spacing**3 / pneunet.base_rigidity(robot)
+    up = height > _RIPPLE * ripple
     left = _from_left(robot, nodes, force, up)
     right = _from_left(robot, nodes[-1] - nodes[::-1], force[:, ::-1], up[:, ::-1])
     flat = ~up.any(axis=1)
     half = 0.5 * robot.length
-    return np.where(flat, half, left), np.where(flat, half, right)
+    left, right = np.where(flat, half, left), np.where(flat, half, right)
+    return np.where(pressures[:, 0] > 0, 0.0, left), np.where(pressures[:, -1] > 0, 0.0, right)
 
 
 def _from_left(robot: Robot, nodes: Array, force: Array, up: NDArray[np.bool_]) -> Array:

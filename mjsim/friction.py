@@ -1,7 +1,8 @@
 """The seed's friction law as bounds on what holds the two ends (section 2.2).
 
-An end whose first link is steeper than `side_angle` is a tip, whatever its link's length; else it
-lies on its side as far as the pads touch the ground. Each end is then held along x by a dry
+An end is a tip if its segment is inflated, since to lie flat it would need a moment that an end has
+not, or if its first link is steeper than `side_angle`, whatever that link's length; else it lies on
+its side as far as the pads touch the ground. Each end is then held along x by a dry
 friction of its own bound, V0 V_t or V0 tau lambda / L_segment, and the physics lets the weaker one
 slide. Where both bounds are equal that would leave undecided who slides: the seed's answer, both
 alike, is a dry friction on the mean position of the ends, of the same bound and in place of both.
@@ -48,16 +49,18 @@ class PaperLaw:
         self._nodes = node_positions(scene.robot.length, numerics.links)
         self._length = scene.robot.length
 
-    def ends(self, angle_left: float, angle_right: float, height: Array) -> Ends:
+    def ends(self, angle_left: float, angle_right: float, height: Array, pressure: Array) -> Ends:
         """Bounds for the next step.
 
         Args:
             angle_left, angle_right: slope of the first and last link, positive where the strip
                 rises from its end [rad].
             height: of the vertices above their resting place on the ground, shape (N + 2,) [m].
+            pressure: of the segments, shape (3,) [Pa].
         """
         left = right = 0.0
-        side_left, side_right = angle_left <= self._angle, angle_right <= self._angle
+        side_left = angle_left <= self._angle and pressure[0] == 0
+        side_right = angle_right <= self._angle and pressure[-1] == 0
         if side_left or side_right:
             nodes = self._nodes
             lifted = height > 0

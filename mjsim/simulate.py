@@ -74,7 +74,7 @@ def simulate(
     started = clock.perf_counter()
     for step in range(steps):
         spring_k[:], spring_rest[:] = stiffness[step], rest[step]
-        ends = law.ends(slope[0], -slope[-1], height)
+        ends = law.ends(slope[0], -slope[-1], height, pressure[step])
         bounds[left] = ends.bound_left + _LEAST_BOUND
         bounds[right] = ends.bound_right + _LEAST_BOUND
         bounds[both] = ends.bound_both + _LEAST_BOUND

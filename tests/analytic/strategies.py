@@ -45,7 +45,8 @@ robots = st.builds(
 # steps of 1/64: a pressure of 1e-200 Pa is no case of interest
 fractions = st.tuples(*[st.integers(0, 64).map(lambda i: i / 64)] * 3)
 batches = st.lists(fractions, min_size=1, max_size=30).map(np.array)
-surfaces = st.builds(Surface, st.just("any"), tip=st.floats(0, 2), area=st.floats(0, 2))
+resistances = st.integers(0, 64).map(lambda i: i / 32)
+surfaces = st.builds(Surface, st.just("any"), tip=resistances, area=resistances)
 gaits = st.lists(st.tuples(*[st.sampled_from([0.0, 0.5, 1.0])] * 3), min_size=1, max_size=5).map(
     lambda middle: Gait("any", ((0, 0, 0), *middle, (0, 0, 0)))
 )

@@ -1,0 +1,75 @@
+"""Make the figures: `python -m mjsim.figures`."""
+
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib
+import xarray as xr
+
+from mjsim.cli import bar, choose, fail, parse
+from mjsim.figures import amplitude, contact, regime, sequence
+from mjsim.figures.style import FONT
+
+PROGRAM = "python -m mjsim.figures"
+FIGURES = {module.NAME: module for module in (sequence, amplitude, contact, regime)}
+
+
+@dataclass(frozen=True)
+class Options:
+    """Make the seed's Figures 4, 5 and 6 anew on every rung, and the regime map.
+
+    Each one is written as data (netCDF), picture (PNG) and text (what agrees with the seed and
+    what does not). Exit code 0: done; 2: bad input.
+
+    Example: python -m mjsim.figures --figure figure5,regime
+    """
+
+    figure: str = "all"
+    """figure4, figure5, figure6, regime, or all; comma-separated"""
+    out: Path = Path("figures")
+    """folder for them, made if need be"""
+    redraw: bool = False
+    """draw from the data that is already there"""
+
+
+def make(name: str, folder: Path, redraw: bool = False) -> Path:
+    """Write one figure's data, picture and text; each appears only when it is whole.
+
+    Raises:
+        OSError: there is no data to draw again, or the folder cannot be written.
+    """
+    module = FIGURES[name]
+    source, picture = folder / f"{name}.nc", folder / f"{name}.png"
+    if not redraw:
+        part = folder / f".{name}.nc.part"
+        module.make().to_netcdf(part, engine="h5netcdf")
+        os.replace(part, source)
+    with xr.open_dataset(source, engine="h5netcdf", decode_times=False) as data:
+        with matplotlib.rc_context(FONT):
+            part = folder / f".{name}.part.png"
+            module.draw(data).savefig(part, dpi=110)
+        os.replace(part, picture)
+    (folder / f"{name}.txt").write_text(module.CAPTION)
+    return picture
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    options = parse(Options, PROGRAM, argv)
+    try:
+        names = choose("figure", options.figure, FIGURES)
+        options.out.mkdir(parents=True, exist_ok=True)
+        with bar("drawing", len(names)) as advance:
+            for name in names:
+                print(make(name, options.out, options.redraw))
+                advance(1)
+    except (ValueError, OSError) as error:
+        fail(PROGRAM, str(error))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
