@@ -1,6 +1,6 @@
 PY := .venv/bin/python
 
-.PHONY: run test check numbers bench models gallery clean
+.PHONY: run test check numbers bench models gallery figures clean
 
 run: .venv/ready
 	$(PY) -m mjsim.run --surface all
@@ -24,6 +24,10 @@ bench: .venv/ready
 # write models/ anew after a change of the generator or of the default robot
 models: .venv/ready
 	$(PY) -m mjsim.export
+
+# the seed's figures, as docs/figures.md shows them
+figures: .venv/ready
+	$(PY) -m mjsim.figures --out docs
 
 # the videos and the picture of the README
 gallery: .venv/ready

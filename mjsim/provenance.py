@@ -14,28 +14,35 @@ DISTRIBUTION = "undulator"
 _PACKAGES = (DISTRIBUTION, "mujoco", "dm_control", "numpy", "scipy")
 
 
-def provenance(scene: Scene, numerics: Numerics) -> dict[str, Any]:
-    """Plain data that says how to make a result again."""
+def origin() -> dict[str, Any]:
+    """The versions and the commit that a result was made with."""
     return {
         "versions": {"python": platform.python_version(), **_versions()},
         "commit": _commit(),
+    }
+
+
+def provenance(scene: Scene, numerics: Numerics) -> dict[str, Any]:
+    """Plain data that says how to make a result again."""
+    return {
+        **origin(),
         "scene": asdict(scene),
         "numerics": asdict(numerics),
     }
 
 
-def configuration(origin: dict[str, Any]) -> tuple[Scene, Numerics]:
+def configuration(described: dict[str, Any]) -> tuple[Scene, Numerics]:
     """The scene and numerics that `provenance` described.
 
     Raises:
-        KeyError, TypeError, ValueError: `origin` is no such description.
+        KeyError, TypeError, ValueError: `described` is no such description.
     """
-    scene = dict(origin["scene"])
+    scene = dict(described["scene"])
     stages = tuple(tuple(stage) for stage in scene["gait"]["stages"])
     scene["gait"] = Gait(**{**scene["gait"], "stages": stages})
     scene["robot"] = Robot(**scene["robot"])
     scene["surface"] = Surface(**scene["surface"])
-    return Scene(**scene), Numerics(**origin["numerics"])
+    return Scene(**scene), Numerics(**described["numerics"])
 
 
 def _versions() -> dict[str, str]:

@@ -57,8 +57,14 @@ def _line(row: dict[str, Any]) -> str:
         f"{_signed(row['displacement_over_L'])}{_signed(row['predicted_displacement_over_L'])}"
         f"{_signed(row['error_over_L'])}{_signed(row['slip_over_L'])}"
         f"{_plain(row['amplitude_over_L'])}{row['sim_time_s']:>8.1f}{row['wall_time_s']:>8.2f}"
-        f"{row['realtime_factor']:>8.0f}  {row['status']}"
+        f"{row['realtime_factor']:>8.0f}  {row['status']}{_flags(row)}"
     )
+
+
+def _flags(row: dict[str, Any]) -> str:
+    """What the reference met on its way, where it met anything."""
+    met = ", ".join(flag.lower() for flag in row["prediction_flags"])
+    return f" ({row['predicted_by']}: {met})" if met else ""
 
 
 def _signed(value: float | None) -> str:

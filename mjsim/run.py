@@ -81,12 +81,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     walks: list[Trajectory] = []
     for scene in scenes:
         walk = _simulate(scene, numerics)
-        origin = provenance(scene, numerics)
+        made_from = provenance(scene, numerics)
         failed = walk.status != "ok"
         name = _name(scene) + ("-failed" if failed else "")
         path = options.out / f"{name}.nc"
-        walk.save(path, origin)
-        row = {**record(walk), "trajectory": str(path), "video": None, "provenance": origin}
+        walk.save(path, made_from)
+        row = {**record(walk), "trajectory": str(path), "video": None, "provenance": made_from}
         if failed:
             print(f"{PROGRAM}: {_obituary(walk, path)}", file=sys.stderr)
         elif backend:

@@ -1,5 +1,6 @@
 """Make the figures: `python -m mjsim.figures`."""
 
+import json
 import os
 import sys
 from collections.abc import Sequence
@@ -12,6 +13,7 @@ import xarray as xr
 from mjsim.cli import bar, choose, fail, parse
 from mjsim.figures import amplitude, contact, regime, sequence
 from mjsim.figures.style import FONT
+from mjsim.provenance import origin
 
 PROGRAM = "python -m mjsim.figures"
 FIGURES = {module.NAME: module for module in (sequence, amplitude, contact, regime)}
@@ -21,8 +23,8 @@ FIGURES = {module.NAME: module for module in (sequence, amplitude, contact, regi
 class Options:
     """Make the seed's Figures 4, 5 and 6 anew on every rung, and the regime map.
 
-    Each one is written as data (netCDF), picture (PNG) and text (what agrees with the seed and
-    what does not). Exit code 0: done; 2: bad input.
+    Each one is written as data (netCDF) and picture (PNG), and a page, figures.md, shows those
+    asked for and says what agrees with the seed and what does not. Exit code 0: done; 2: bad input.
 
     Example: python -m mjsim.figures --figure figure5,regime
     """
@@ -36,7 +38,7 @@ class Options:
 
 
 def make(name: str, folder: Path, redraw: bool = False) -> Path:
-    """Write one figure's data, picture and text; each appears only when it is whole.
+    """Write one figure's data and picture; each appears only when it is whole.
 
     Raises:
         OSError: there is no data to draw again, or the folder cannot be written.
@@ -45,15 +47,21 @@ def make(name: str, folder: Path, redraw: bool = False) -> Path:
     source, picture = folder / f"{name}.nc", folder / f"{name}.png"
     if not redraw:
         part = folder / f".{name}.nc.part"
-        module.make().to_netcdf(part, engine="h5netcdf")
+        made = module.make().assign_attrs(provenance=json.dumps(origin()))
+        made.to_netcdf(part, engine="h5netcdf")
         os.replace(part, source)
     with xr.open_dataset(source, engine="h5netcdf", decode_times=False) as data:
         with matplotlib.rc_context(FONT):
             part = folder / f".{name}.part.png"
             module.draw(data).savefig(part, dpi=110)
         os.replace(part, picture)
-    (folder / f"{name}.txt").write_text(module.CAPTION)
     return picture
+
+
+def page(names: Sequence[str]) -> str:
+    """The figures with their captions, as Markdown."""
+    parts = [f"![{name}]({name}.png)\n\n{FIGURES[name].CAPTION}" for name in names]
+    return "\n".join(["# The seed's figures, on every rung\n", *parts])
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -66,6 +74,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             for name in names:
                 print(make(name, options.out, options.redraw))
                 advance(1)
+        (options.out / "figures.md").write_text(page(names))
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
     return 0

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from analytic import (
     GAITS,
@@ -30,7 +29,7 @@ Figure 5. Displacement on felt (gelatin: the same, backward) against the greates
 cycle, as the peak pressure rises. (a) Every rung with fine increments, for the default robot
 (Gamma = 11.4) and a lighter one (Gamma = 4); crosses end the stable branch. (b) The seed's modes
 for the default robot with few increments of pressure a leg, the friction rule applied as it stands
-after each; triangles mark the greatest displacement below a height of 0.4.
+after each.
 Agrees with the seed: hardly any travel at small amplitude, and for a light robot nothing gained by
 more than about 25 % (Gamma = 4: a plateau from 0.23 on). Differs: there is no peak. With fine
 increments the distance is the shortening 1 - Lambda/L at the instant when both ends become tips;
@@ -103,11 +102,6 @@ def make() -> xr.Dataset:
     )  # fmt: skip
 
 
-def peak(height: NDArray[np.float64], shift: NDArray[np.float64]) -> int:
-    """Index of the greatest displacement at a height below 0.4."""
-    return int(np.argmax(np.where(height < 0.4, np.nan_to_num(shift, nan=-1.0), -1.0)))
-
-
 def draw(data: xr.Dataset) -> Figure:
     """The figure of that data."""
     figure = Figure(figsize=(10, 4.3), layout="constrained")
@@ -134,8 +128,6 @@ def draw(data: xr.Dataset) -> Figure:
         y, x = data["coarse"].sel(increments=count).values
         known = np.isfinite(y)
         right.plot(x[known], y[known], color=str(shade), label=f"{count} a leg")
-        at = peak(x, y)
-        right.plot(x[at], y[at], "v", color=str(shade), markersize=6, clip_on=False)
     right.axvline(0.25, color=SIMULATED, linewidth=0.8, dashes=(4, 2))
     right.text(0.255, 0.11, "seed's peak", color=SIMULATED)
     right.set_title("(b) modes, Γ = 11.4, increments of pressure", loc="left", fontsize=9)

@@ -63,7 +63,7 @@ def draw(data: xr.Dataset) -> Figure:
         ax.set_facecolor("0.85")
         ax.pcolormesh(ratio, pressure, shift, cmap=colours, shading="nearest",
                               norm=norm, rasterized=True)  # fmt: skip
-        ax.contour(ratio, pressure, np.nan_to_num(shift, nan=1.0), levels=[0.0], colors="black",
+        ax.contour(ratio, pressure, np.ma.masked_invalid(shift), levels=[0.0], colors="black",
                    linewidths=1.4)  # fmt: skip
         ax.axvline(SURFACES["polyethylene"].tip_to_area_ratio, color="0.2", dashes=(4, 2), lw=1)
         ax.set_xscale("log")

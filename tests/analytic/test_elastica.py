@@ -19,6 +19,7 @@ from analytic import (
     solve_obstacle,
 )
 from analytic.cantilever import solve_cantilever
+from analytic.chain import joint_springs, link_lengths
 
 
 def along(gait, robot=None, n=50, links=60):
@@ -159,6 +160,32 @@ def test_the_lift_off_point_is_the_closed_form_s_at_small_slopes():
     assert (exact.contact_right > 0).all()
     assert np.abs(found.contact_right - exact.contact_right).max() < 0.003 * robot.length
     assert (found.contact_left == 0).all()
+
+
+@pytest.mark.parametrize("fraction", [(1, 0, 0), (1, 1, 0), (0.5, 1, 0.5), (0, 0.4, 0), (1, 0, 1)])
+def test_no_feasible_shape_nearby_has_less_energy(fraction):
+    robot, links = Robot(), 30
+    path = np.linspace(0, 1, 30)[1:, None] * np.array(fraction) * robot.peak_pressure
+    shape = solve_elastica(robot, path, links)
+    stiffness, rest = joint_springs(robot, links, path[-1:])
+    lengths = link_lengths(robot.length, links)
+    x, y = (values[-1] for values in shape.curve(shape.nodes))
+    theta = np.arctan2(np.diff(y), np.diff(x))
+    rng = np.random.default_rng(5)
+
+    def energy(theta):
+        height = np.concatenate([[0.0], np.cumsum(lengths * np.sin(theta))])
+        height -= height.min()  # the lowest that the ground allows
+        bending = 0.5 * stiffness[0] @ (np.diff(theta) - rest[0]) ** 2
+        middle = 0.5 * (height[1:] + height[:-1])
+        return bending + robot.weight_per_length * lengths @ middle
+
+    least = energy(theta)
+    for size in (1e-1, 1e-2, 1e-3):
+        smooth = np.cos(np.pi * np.arange(6)[:, None] * np.linspace(0, 1, links + 1))
+        for _ in range(50):
+            for change in (rng.normal(size=6) @ smooth, rng.normal(size=links + 1)):
+                assert energy(theta + size * change) >= least * (1 - 1e-9)
 
 
 def test_past_its_stable_branch_it_says_so_and_gives_no_number():
