@@ -5,7 +5,7 @@ not, or if its first link is steeper than `side_angle`, whatever that link's len
 its side as far as the pads touch the ground. Each end is then held along x by a dry
 friction of its own bound, V0 V_t or V0 tau lambda / L_segment, and the physics lets the weaker one
 slide. Where both bounds are equal that would leave undecided who slides: the seed's answer, both
-alike, is a dry friction on the mean position of the ends, of the same bound and in place of both.
+alike, is a dry friction on the mean position of the ends, of bound V0 and in place of both.
 """
 
 from typing import NamedTuple
@@ -71,7 +71,8 @@ class PaperLaw:
                 left = float(nodes[first]) if side_left else 0.0
                 right = float(self._length - nodes[last]) if side_right else 0.0
             else:
-                left = right = 0.5 * self._length
+                left = 0.5 * self._length if side_left else 0.0
+                right = 0.5 * self._length if side_right else 0.0
         hold_left, hold_right = self._resistance(left), self._resistance(right)
         if hold_left == hold_right:
             return Ends(left, right, 0.0, 0.0, self._scale, 0.5)
