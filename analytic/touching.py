@@ -1,7 +1,7 @@
 """From the contact forces on nodes to contact lengths and modes, for one or many states."""
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from analytic import pneunet
 from analytic.robot import SEGMENTS, Robot
@@ -18,13 +18,11 @@ def side_contact(
     """Length of side contact at the left and the right end.
 
     An end whose segment is inflated is a tip: to lie flat it would need the moment D kappa, and an
-    end has none.
-
-    On a flat stretch the ground carries the weight, w per length, and where the strip lifts off a
-    concentrated force R besides. So an end's nodes, up to the next that is clearly in the air,
-    carry F = w xi + R with the moment M = w xi^2 / 2 + R xi about that end, and xi follows from
-    these sums: finer than the distance of the nodes, and exactly 0 if the end alone touches.
-    Between nodes that push, a flat stretch ripples; what rises higher than that is in the air.
+    end has none. Else the ground carries the weight of a flat stretch, w per length, and where the
+    strip lifts off a concentrated force R besides. So the length follows from the sum and the
+    moment of the forces on an end's nodes (see `flat_length`): finer than the distance of the
+    nodes, and exactly 0 if the end alone touches. An end's nodes reach to the next that is in the
+    air, higher than a flat stretch ripples between the nodes that push it.
 
     Args:
         nodes: arclength of the nodes, shape (S,) [m].
@@ -49,9 +47,19 @@ def side_contact(
 def _from_left(robot: Robot, nodes: Array, force: Array, up: NDArray[np.bool_]) -> Array:
     begun = np.cumsum(force > 0, axis=1) > 0  # the outermost node may hover by a rounding of h
     held = force * (np.cumsum(begun & up, axis=1) == 0)
-    total, moment = held.sum(axis=1), held @ nodes
-    w = robot.weight_per_length
-    return (total - np.sqrt(np.maximum(total**2 - 2 * w * moment, 0.0))) / w
+    return flat_length(robot.weight_per_length, held.sum(axis=1), held @ nodes)
+
+
+def flat_length(weight: float, total: ArrayLike, moment: ArrayLike) -> Array:
+    """xi of a flat end that carries F = w xi + R with the moment M = w xi^2 / 2 + R xi [m].
+
+    Args:
+        weight: w [N/m].
+        total: F [N].
+        moment: M about the end [N m], of the shape of F.
+    """
+    f = np.asarray(total)
+    return (f - np.sqrt(np.maximum(f * f - 2 * weight * np.asarray(moment), 0.0))) / weight
 
 
 def contact_mode(robot: Robot, left: Array, right: Array) -> NDArray[np.int_]:

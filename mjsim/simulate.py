@@ -66,6 +66,7 @@ def simulate(
     left, right, both = (model.tendon(f"robot/{name}").id for name in TENDONS)
     qpos, qvel, angles, rates = data.qpos, data.qvel, data.qpos[2:], data.qvel[2:]
     accumulate, step_model = np.add.accumulate, mujoco.mj_step
+    first_pad, force = model.geom("robot/pad_0").id, np.zeros(links + 2)
     height, slope, work = np.zeros(links + 2), np.zeros(links + 1), np.zeros(links + 1)
     rise, starts = height[1:], height[:-1]
     reach = float(lengths.sum())
@@ -74,12 +75,15 @@ def simulate(
     started = clock.perf_counter()
     for step in range(steps):
         spring_k[:], spring_rest[:] = stiffness[step], rest[step]
-        ends = law.ends(slope[0], -slope[-1], height, pressure[step])
+        ends = law.ends(slope[0], -slope[-1], height, force, pressure[step])
         bounds[left] = ends.bound_left + _LEAST_BOUND
         bounds[right] = ends.bound_right + _LEAST_BOUND
         bounds[both] = ends.bound_both + _LEAST_BOUND
 
         step_model(model, data)
+        # rows of the constraint solver: the friction of the tendons, then one for each contact
+        force[:] = 0.0
+        force[data.contact.geom2 - first_pad] = data.efc_force[len(TENDONS) :]
 
         # The left end's x is a coordinate, integrated exactly; the right end's is integrated to
         # first order only, since a turning hinge moves it on a circle. The excess over dt times
