@@ -9,15 +9,16 @@ from mjsim.figures.style import SIMULATED, draw_ground, draw_strip
 
 NAME = "figure6"
 CAPTION = """\
-Figure 6. The six contact modes as the seed's boundary conditions give them (thick; the flat part
-thin, the lift-off marked) and the elastica at the same pressures (red dashes), heights magnified
-where noted. Agrees with the seed: all six occur, mirror images of each other in pairs. Differs: in
+Figure 6. The six contact modes as the seed's boundary conditions give them (thick, the
+lift-off marked) and the elastica at the same pressures (red dashes), heights magnified where noted.
+Agrees with the seed: all six occur, mirror images of each other in pairs. Differs: in
 modes (iii) and (iv) the whole lifted part is one inflated segment, and then
 y = -kappa s^2/2 (1 - s/l)^2: balanced, but below the ground. With exact contact the tip of such a
 segment carries, and the strip rises behind it.
 """
 
 _POINTS = 181
+_MAGNIFIED = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 # pressures over the peak at which each mode occurs, found by solving
 _STATES = {
     Mode.LEFT_1: (0.0, 0.2, 1.0),
@@ -66,8 +67,8 @@ def draw(data: xr.Dataset) -> Figure:
         part = data.sel(mode=numeral)
         x, y = part["modes"].values
         u, v = part["elastica"].values
-        height = max(np.abs(y).max(), np.abs(v).max())
-        scale = 10.0 ** max(0, np.floor(np.log10(0.2 / height)))
+        room = min(0.29 / max(y.max(), v.max()), 0.15 / max(-y.min(), 1e-9))
+        scale = max(step for step in _MAGNIFIED if step <= room)
         draw_ground(ax, -0.05, 1.05)
         inflated = np.where(part["fraction"].values > 0, 1.0, 0.0)
         draw_strip(ax, x, scale * y, inflated, linewidth=3)
