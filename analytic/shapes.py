@@ -53,7 +53,7 @@ class Shapes:
         contact_left: length of side contact at the left end, 0 for a tip, shape (B,) [m].
         contact_right: the same at the right end, shape (B,) [m].
         amplitude: greatest height of the strip, shape (B,) [m].
-        mode: contact mode, shape (B,), values of Mode.
+        mode: contact mode, shape (B,), values of Mode; without meaning where the rest is NaN.
         status: shape (B,), values of Status.
         curve: material points s of shape (S,) [m] -> (x, y), each of shape (B, S) [m], with x
             measured from the left end.

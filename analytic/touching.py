@@ -31,7 +31,8 @@ def side_contact(
         pressures: of the segments, shape (B, 3) [Pa].
 
     Returns:
-        Two arrays of shape (B,) [m]; half the length each where no node is in the air.
+        Two arrays of shape (B,) [m]; half the length each where no node is in the air, NaN where
+        a force is.
     """
     spacing = float(np.diff(nodes).max())
     ripple = robot.weight_per_length * robot.length * spacing**3 / pneunet.base_rigidity(robot)
@@ -40,8 +41,10 @@ def side_contact(
     right = _from_left(robot, nodes[-1] - nodes[::-1], force[:, ::-1], up[:, ::-1])
     flat = ~up.any(axis=1)
     half = 0.5 * robot.length
-    left, right = np.where(flat, half, left), np.where(flat, half, right)
-    return np.where(pressures[:, 0] > 0, 0.0, left), np.where(pressures[:, -1] > 0, 0.0, right)
+    blank = np.where(np.isfinite(force).all(axis=1), 1.0, np.nan)
+    left = np.where(pressures[:, 0] > 0, 0.0, np.where(flat, half, left))
+    right = np.where(pressures[:, -1] > 0, 0.0, np.where(flat, half, right))
+    return blank * left, blank * right
 
 
 def _from_left(robot: Robot, nodes: Array, force: Array, up: NDArray[np.bool_]) -> Array:

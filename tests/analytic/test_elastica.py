@@ -195,9 +195,19 @@ def test_past_its_stable_branch_it_says_so_and_gives_no_number():
     first = int(np.argmax(lost))
     assert 50 < first < 150  # on the second leg, as the middle segment inflates
     assert lost[first:].all()
-    assert np.isnan(shapes.separation[first:]).all()
+    for values in (shapes.separation, shapes.contact_left, shapes.contact_right, shapes.amplitude):
+        assert np.isnan(values[first:]).all()
     assert np.isfinite(shapes.separation[:first]).all()
     assert np.isnan(locomotion(shapes, SURFACES["felt"]).per_cycle)
+
+
+def test_an_end_that_curls_off_the_ground_is_called_rolled_up():
+    robot = Robot(peak_pressure=75e3, weight_per_length=2 / 3)
+    shapes = along("wave", robot)
+    rolled = shapes.status == Status.ROLLED_UP
+    assert rolled.any()
+    assert np.isnan(shapes.separation[rolled]).all()
+    assert np.isfinite(shapes.separation[shapes.status == Status.OK]).all()
 
 
 def test_the_branch_ends_at_a_pressure_that_does_not_depend_on_steps_or_links():
