@@ -1,6 +1,6 @@
 PY := .venv/bin/python
 
-.PHONY: run test check numbers bench models gallery figures clean
+.PHONY: run test check numbers scenes bench models gallery figures clean
 
 run: .venv/ready
 	$(PY) -m mjsim.run --surface all
@@ -17,6 +17,9 @@ check: .venv/ready
 
 numbers: .venv/ready
 	$(PY) benchmarks/convergence.py
+
+scenes: .venv/ready
+	$(PY) benchmarks/scenes.py
 
 bench: .venv/ready
 	$(PY) -m pytest benchmarks --benchmark-only -o addopts="" --benchmark-columns=min,median,rounds

@@ -1,0 +1,86 @@
+"""Print how far MuJoCo is from the elastica over random scenes: `make scenes`.
+
+Robots with Gamma from 4 to 40, every gait, both directions, ratios V_t / (tau q L) from 0 to 1 and
+pressures that keep the height between 0.05 and 0.35 L, from a fixed seed. `sens` is what 5 % of the
+ratio changes in the reference, the measure of how far it can be trusted itself.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from analytic import GAITS, Gait, Robot, Surface, pneunet, predict
+from mjsim.config import Numerics, Scene
+from mjsim.measures import measure
+from mjsim.simulate import simulate
+
+COUNT, WORST, SEED = 40, 8, 11
+
+
+class Case(NamedTuple):
+    robot: Robot
+    gait: Gait
+    surface: Surface
+    gamma: float
+    height: float
+    reference: float
+    sensitivity: float
+
+
+def reference(robot: Robot, gait: Gait, surface: Surface) -> float:
+    return predict(robot, gait, surface).locomotion.per_cycle / robot.length
+
+
+def cases() -> list[Case]:
+    rng = np.random.default_rng(SEED)
+    base = Robot()
+    unit = pneunet.base_rigidity(base) / base.length**3
+    found: list[Case] = []
+    while len(found) < COUNT:
+        gamma = float(np.exp(rng.uniform(np.log(4), np.log(40))))
+        gait = GAITS[str(rng.choice(list(GAITS)))]
+        gait = gait.reversed() if rng.random() < 0.5 else gait
+        robot = Robot(weight_per_length=gamma * unit, peak_pressure=float(rng.uniform(15e3, 70e3)))
+        tip = float(3 * rng.uniform(0, 1))
+        walked = predict(robot, gait, Surface("any", tip, 1.0))
+        height = walked.shapes.amplitude.max() / robot.length
+        if walked.flags or not 0.05 < height < 0.35:
+            continue
+        exact = walked.locomotion.per_cycle / robot.length
+        near = [reference(robot, gait, Surface("any", f * tip, 1.0)) for f in (0.95, 1.05)]
+        sensitivity = max(abs(value - exact) for value in near)
+        surface = Surface("any", tip, 1.0)
+        found.append(Case(robot, gait, surface, gamma, height, exact, sensitivity))
+    return found
+
+
+def report(all_cases: list[Case], leg: float, numerics: Numerics) -> None:
+    rows = []
+    for case in all_cases:
+        gait = Gait(case.gait.name, case.gait.stages, leg)
+        found = measure(simulate(Scene(case.robot, gait, case.surface), numerics))
+        shift = found.displacement if found else float("nan")
+        rows.append((abs(shift - case.reference), shift, found.slip if found else 0.0, case))
+    error = np.array([row[0] for row in rows])
+    part = error / np.abs([case.reference for case in all_cases])
+    print(
+        f"\n{numerics.links} links, {1e3 * numerics.timestep:g} ms, {leg:g} s a leg: error over "
+        f"|distance| median {np.nanmedian(part):.1%}, 95 % {np.nanquantile(part, 0.95):.1%}; over "
+        f"L median {np.nanmedian(error):.5f}, 95 % {np.nanquantile(error, 0.95):.5f}"
+    )
+    for _, shift, slip, case in sorted(rows, key=lambda row: -row[0])[:WORST]:
+        print(
+            f"  Γ {case.gamma:5.1f}  {case.gait.name:<19} ratio {case.surface.tip / 3:.2f}  "
+            f"height {case.height:.2f}  elastica {case.reference:+.4f}  MuJoCo {shift:+.4f}  "
+            f"slip {slip:+.4f}  sens {case.sensitivity:.4f}"
+        )
+
+
+def main() -> None:
+    drawn = cases()
+    for leg, timestep in ((2.0, 0.010), (4.0, 0.005), (8.0, 0.005)):
+        report(drawn, leg, Numerics(timestep=timestep))
+
+
+if __name__ == "__main__":
+    main()
