@@ -12,12 +12,13 @@ from analytic.gait import GAITS, Gait
 from analytic.locomotion import Direction, Locomotion, direction, locomotion
 from analytic.modes import solve_modes
 from analytic.obstacle import solve_obstacle
-from analytic.prediction import RUNGS, Prediction, predict
+from analytic.prediction import REFERENCE, RUNGS, Prediction, predict
 from analytic.robot import Robot
 from analytic.shapes import ContactShapes, Mode, Shapes, Status
 
 __all__ = [
     "GAITS",
+    "REFERENCE",
     "RUNGS",
     "SURFACES",
     "ContactShapes",

@@ -94,25 +94,18 @@ def extremes(lifted: Lifted) -> tuple[Array, Array]:
     inside = (t > 0) & (t < lifted.size[..., None])
     t = np.where(inside, t, 0.0)
     turn = _integrals(lifted.quadratic[..., None], t)[1]
-    heights = lifted.height[..., None] + lifted.slope[..., None] * t + turn
-    flat = heights.reshape(len(heights), -1)
+    at_turns = lifted.height[..., None] + lifted.slope[..., None] * t + turn
+    flat = at_turns.reshape(len(at_turns), -1)
     return np.minimum(flat.min(axis=1), 0.0), np.maximum(flat.max(axis=1), 0.0)
 
 
-def evaluate(lifted: Lifted, s: Array) -> tuple[Array, Array, Array]:
-    """Height, slope and curvature at material points, s of shape (S,) -> each (B, S)."""
-    shape = (len(lifted.a), len(s))
-    height, slope, curvature = np.zeros(shape), np.zeros(shape), np.zeros(shape)
-    last = np.count_nonzero(lifted.size > 0, axis=1)
+def heights(lifted: Lifted, s: Array) -> Array:
+    """Height at material points s of shape (S,), 0 off the lifted part, shape (B, S)."""
+    found = np.zeros((len(lifted.a), len(s)))
     for j in range(SEGMENTS):
-        begin, size = lifted.start[:, j, None], lifted.size[:, j, None]
-        t = s - begin
-        closed = (t == size) & (np.cumsum(lifted.size > 0, axis=1)[:, j, None] == last[:, None])
-        here = (t >= 0) & ((t < size) | closed) & (size > 0)
-        quadratic = lifted.quadratic[:, :, j, None]
-        bend, turn = _integrals(quadratic, t)
-        height = np.where(here, lifted.height[:, j, None] + lifted.slope[:, j, None] * t + turn,
-                          height)  # fmt: skip
-        slope = np.where(here, lifted.slope[:, j, None] + bend, slope)
-        curvature = np.where(here, quadratic[0] + t * (quadratic[1] + t * quadratic[2]), curvature)
-    return height, slope, curvature
+        t = s - lifted.start[:, j, None]
+        here = (t >= 0) & (t < lifted.size[:, j, None])
+        _, turn = _integrals(lifted.quadratic[:, :, j, None], t)
+        rise = lifted.height[:, j, None] + lifted.slope[:, j, None] * t + turn
+        found = np.where(here, rise, found)
+    return found

@@ -11,6 +11,8 @@ chord by h^2 kappa^2 / 12 too much; Simpson's weights h/3, 4h/3, 2h/3, ..., h/3 
 elements in each segment, since curvature jumps where segments meet.
 """
 
+from functools import cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -35,13 +37,19 @@ def node_positions(length: float, links: int) -> Array:
     return np.concatenate([[0.0], np.cumsum(link_lengths(length, links))])
 
 
+@cache
 def segment_shares(links: int) -> Array:
-    """Part of each hinge's element that lies in each segment, shape (N, 3); rows sum to 1."""
+    """Part of each hinge's element that lies in each segment, shape (N, 3); rows sum to 1.
+
+    Computed once for each N, and read-only.
+    """
     edge = np.linspace(0.0, 1.0, links + 1)
     border = np.linspace(0.0, 1.0, SEGMENTS + 1)
     low = np.maximum(edge[:-1, None], border[None, :-1])
     high = np.minimum(edge[1:, None], border[None, 1:])
-    return np.maximum(high - low, 0.0) * links
+    shares = np.maximum(high - low, 0.0) * links
+    shares.flags.writeable = False
+    return shares
 
 
 def joint_springs(robot: Robot, links: int, pressures_pa: Array) -> tuple[Array, Array]:

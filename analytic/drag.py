@@ -40,11 +40,13 @@ class Drag:
         None if the branch ends on the way.
         """
         bound = self._bound(found)
+        if bound == 0:
+            return self._pulled(found, 0.0)
         held = self._chain.separation(before)
         low, high = self._pulled(found, -bound), self._pulled(found, bound)
         if low is None or high is None:
             return None
-        if bound == 0 or held >= self._chain.separation(high):
+        if held >= self._chain.separation(high):
             return high
         if held <= self._chain.separation(low):
             return self._pulled(low, -bound)

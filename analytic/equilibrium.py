@@ -82,17 +82,17 @@ class Chain:
         stiffness, rest = joint_springs(self.robot, self.links, pressure[None, :])
         self.stiffness, self.rest = stiffness[0] * (self.robot.length / self._d0), rest[0]
         self.pressure = pressure
-        self._chambers = np.repeat(pressure, self.links // SEGMENTS)
 
     def _hinges(self, theta: Array) -> tuple[Array, Array]:
         """Stiffness and rest angle of the hinges' springs, or of the tangents to a gas law."""
         if not self.sealed:
             return self.stiffness, self.rest
+        chambers = np.repeat(self.pressure, self.links // SEGMENTS)
         turn = np.diff(theta)
         element = self.robot.length / self.links
         curvature = -turn / element  # arching is positive
-        moment = -pneunet.sealed_moment(self.robot, self._chambers, curvature)
-        tangent = pneunet.sealed_rigidity(self.robot, self._chambers, curvature) / element
+        moment = -pneunet.sealed_moment(self.robot, chambers, curvature)
+        tangent = pneunet.sealed_rigidity(self.robot, chambers, curvature) / element
         return tangent * (self.robot.length / self._d0), turn - moment / tangent
 
     def equilibrium(self, guess: ChainState) -> ChainState | None:

@@ -112,7 +112,7 @@ class _Curve:
 
     def __call__(self, s: Array) -> tuple[Array, Array]:
         u = np.asarray(s, dtype=float) / self._length
-        height = np.where(self._flat[:, None], 0.0, beam.evaluate(self._lifted, u)[0])
+        height = np.where(self._flat[:, None], 0.0, beam.heights(self._lifted, u))
         # x(s) = s - int_0^s (y')^2 / 2, exactly (10)
         x = u - np.where(self._flat[:, None], 0.0, beam.shortening(self._lifted, u))
         scale = self._length * self._blank[:, None]

@@ -24,6 +24,7 @@ RUNGS: dict[str, Solver] = {
     "obstacle": solve_obstacle,  # small slopes, exact contact
     "elastica": solve_elastica,  # finite rotations, exact contact: the reference
 }
+REFERENCE = "elastica"
 
 
 class Prediction(NamedTuple):
@@ -46,7 +47,7 @@ def predict(
     robot: Robot,
     gait: Gait,
     surface: Surface,
-    rung: str = "elastica",
+    rung: str = REFERENCE,
     n_per_leg: int = 50,
     refinement: int = 32,
     solver: Solver | None = None,
@@ -79,8 +80,5 @@ def predict(
             path, np.repeat(changes + 1, refinement - 1), np.concatenate(between), axis=0
         )
         shapes = solve(robot, path)
-    flags = Status.OK
-    for flag in Status:
-        if (shapes.status & flag).any():
-            flags |= flag
+    flags = Status(int(np.bitwise_or.reduce(shapes.status)))
     return Prediction(path, shapes, locomotion(shapes, surface), flags)

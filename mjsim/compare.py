@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic import GAITS, RUNGS, SURFACES, Gait, Robot, Surface, direction, predict
+from analytic import GAITS, REFERENCE, RUNGS, SURFACES, Gait, Robot, Surface, direction, predict
 from analytic.elastica import solve_elastica
 from mjsim.cli import bar, choose, fail, parse
 from mjsim.config import BODIES, Scene
@@ -16,7 +16,6 @@ from mjsim.measures import measure
 from mjsim.simulate import simulate
 
 PROGRAM = "python -m mjsim.compare"
-REFERENCE = "elastica"
 LADDER = (*RUNGS, *BODIES)  # cheapest theory first, then MuJoCo
 
 
@@ -65,7 +64,9 @@ def compare(robot: Robot, gait: Gait, surface: Surface, rungs: Sequence[str]) ->
     rows = []
     for rung in rungs:
         if rung == REFERENCE:
-            row = reference._replace(uncertainty_over_L=_uncertainty(robot, gait, surface))
+            row = reference._replace(
+                uncertainty_over_L=_uncertainty(robot, gait, surface, reference)
+            )
         elif rung in RUNGS:
             row = _quasi_static(robot, gait, surface, rung)
         else:
@@ -95,13 +96,14 @@ def _quasi_static(robot: Robot, gait: Gait, surface: Surface, rung: str) -> Row:
     )
 
 
-def _uncertainty(robot: Robot, gait: Gait, surface: Surface) -> float | None:
+def _uncertainty(robot: Robot, gait: Gait, surface: Surface, fine: Row) -> float | None:
     """What half the links and half the states would change in the reference, over L."""
-    fine = predict(robot, gait, surface)
+    if fine.displacement_over_L is None:
+        return None
     coarse = predict(
         robot, gait, surface, n_per_leg=25, solver=lambda r, p: solve_elastica(r, p, links=30)
     )
-    gap = abs(fine.locomotion.per_cycle - coarse.locomotion.per_cycle) / robot.length
+    gap = abs(fine.displacement_over_L - coarse.locomotion.per_cycle / robot.length)
     return gap if np.isfinite(gap) else None
 
 

@@ -1,6 +1,5 @@
 """Make the videos and the picture that the README shows: `python -m mjsim.gallery`."""
 
-import os
 import sys
 from pathlib import Path
 
@@ -17,11 +16,9 @@ MOMENT = 4.0  # s; two segments inflated, the arch at its steepest
 
 def main() -> int:
     """Walk one cycle on each surface and film it."""
-    backend = gl.find_backend()
-    if backend is None:
+    if gl.use_backend() is None:
         print(gl.HELP, file=sys.stderr)
         return 1
-    os.environ[gl.VARIABLE] = backend
 
     from mjsim.simulate import simulate
     from mjsim.video import bands, write_video

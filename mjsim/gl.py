@@ -52,8 +52,16 @@ def works(backend: str) -> bool:
 def find_backend() -> str | None:
     """First backend that renders: the one in MUJOCO_GL, then EGL, then OSMesa; None if none does.
 
-    Call it before mujoco is imported and put the answer into MUJOCO_GL.
+    See `use_backend`.
     """
     chosen = os.environ.get(VARIABLE, NONE)
     candidates = [chosen, *_LIBRARIES] if chosen != NONE else [*_LIBRARIES]
     return next((name for name in dict.fromkeys(candidates) if works(name)), None)
+
+
+def use_backend() -> str | None:
+    """Set MUJOCO_GL to the backend that renders and return it; call before mujoco is imported."""
+    backend = find_backend()
+    if backend:
+        os.environ[VARIABLE] = backend
+    return backend

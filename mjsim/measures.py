@@ -28,7 +28,7 @@ def measure(walk: Trajectory) -> Measures | None:
     if walk.status is not Status.OK:
         return None
     x, z = walk.nodes()
-    begin = int(np.flatnonzero(walk.time <= 1e-9 * walk.scene.gait.period)[-1])
+    begin = walk.start
     length, cycles = walk.scene.robot.length, walk.scene.cycles
     left = x[begin:, 0]
     change = np.diff(x[begin:, -1] - left)

@@ -24,8 +24,7 @@ class Overlay:
         self._walk, self._scale = walk, scale
         self._big = ImageFont.load_default(round(30 * scale))
         self._small = ImageFont.load_default(round(21 * scale))
-        begin = int(np.flatnonzero(walk.time <= 0)[-1])
-        self._start = float(walk.coordinates[begin, 0])
+        self._start = float(walk.coordinates[walk.start, 0])
 
     def draw(self, frame: Frame, step: int) -> Frame:
         """A copy of the frame with the state after a step written on it."""

@@ -1,7 +1,6 @@
 """Make a video from a saved trajectory, of a run that failed too: `python -m mjsim.replay`."""
 
 import json
-import os
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -30,11 +29,9 @@ class Options:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv)
-    backend = gl.find_backend()
-    if backend is None:
+    if gl.use_backend() is None:
         print(f"{PROGRAM}: {gl.HELP}", file=sys.stderr)
         return FAILED
-    os.environ[gl.VARIABLE] = backend
 
     from mjsim.trajectory import load
     from mjsim.video import write_video

@@ -2,11 +2,9 @@
 
 from typing import Any
 
-from analytic import direction, predict
+from analytic import REFERENCE, direction, predict
 from mjsim.measures import measure
 from mjsim.trajectory import Trajectory
-
-REFERENCE = "elastica"
 
 
 def record(walk: Trajectory) -> dict[str, Any]:

@@ -1,7 +1,6 @@
 """Simulate a walk in MuJoCo and set it beside the theory: `python -m mjsim.run`."""
 
 import json
-import os
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -67,10 +66,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     except ValueError as error:
         fail(PROGRAM, str(error))
 
-    backend = None if options.no_video else gl.find_backend()
-    if backend:
-        os.environ[gl.VARIABLE] = backend
-    elif not options.no_video:
+    backend = None if options.no_video else gl.use_backend()
+    if not (backend or options.no_video):
         print(f"{PROGRAM}: {gl.HELP}", file=sys.stderr)
 
     # mujoco reads the backend when it is imported

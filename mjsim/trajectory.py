@@ -1,7 +1,6 @@
 """What a simulation returns, and its netCDF file."""
 
 import json
-import os
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from analytic.chain import link_lengths
 from mjsim.config import Numerics, Scene
+from mjsim.files import whole
 from mjsim.provenance import configuration
 
 Array = NDArray[np.float64]
@@ -55,6 +55,11 @@ class Trajectory:
     left_share: Array
     wall_time: float
 
+    @property
+    def start(self) -> int:
+        """Index of the state in which the first cycle begins; the last one if it never did."""
+        return int(np.searchsorted(self.time, 0.0, side="right")) - 1
+
     def nodes(self) -> tuple[Array, Array]:
         """(x, z) of the chain's vertices, left end first, each (T, N + 2) [m]."""
         lengths = link_lengths(self.scene.robot.length, self.numerics.links)
@@ -88,12 +93,8 @@ class Trajectory:
 
     def save(self, path: Path, provenance: dict[str, Any]) -> None:
         """Write netCDF; the file appears under its name only when it is whole."""
-        part = path.with_name(f".{path.name}.part")
-        try:
+        with whole(path) as part:
             self.to_dataset(provenance).to_netcdf(part, engine="h5netcdf")
-            os.replace(part, path)
-        finally:
-            part.unlink(missing_ok=True)
 
 
 def load(path: Path) -> Trajectory:

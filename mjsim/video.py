@@ -1,6 +1,5 @@
 """Videos of walks: one at a time, or several stacked in step."""
 
-import os
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
@@ -11,6 +10,7 @@ import mediapy
 import numpy as np
 from numpy.typing import NDArray
 
+from mjsim.files import whole
 from mjsim.overlay import Overlay
 from mjsim.render import Camera, Frame
 from mjsim.trajectory import Trajectory
@@ -61,19 +61,14 @@ def write_video(
     Returns:
         The number of frames.
     """
-    part = path.with_name(f".{path.stem}.part{path.suffix}")
     shape = (_height(len(walks)) * len(walks), WIDTH)
     count = 0
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", ResourceWarning)  # mediapy leaves ffmpeg's pipes
-            with mediapy.VideoWriter(part, shape, fps=FPS, crf=_QUALITY) as writer:
-                for frame in bands(walks, frame_times(walks)):
-                    writer.add_image(frame)
-                    count += 1
-                    if progress:
-                        progress(1)
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
+    with whole(path) as part, warnings.catch_warnings():
+        warnings.simplefilter("ignore", ResourceWarning)  # mediapy leaves ffmpeg's pipes
+        with mediapy.VideoWriter(part, shape, fps=FPS, crf=_QUALITY) as writer:
+            for frame in bands(walks, frame_times(walks)):
+                writer.add_image(frame)
+                count += 1
+                if progress:
+                    progress(1)
     return count

@@ -1,7 +1,6 @@
 """Make the figures: `python -m mjsim.figures`."""
 
 import json
-import os
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ import xarray as xr
 from mjsim.cli import bar, choose, fail, parse
 from mjsim.figures import amplitude, contact, regime, sequence
 from mjsim.figures.style import FONT
+from mjsim.files import whole
 from mjsim.provenance import origin
 
 PROGRAM = "python -m mjsim.figures"
@@ -46,15 +46,15 @@ def make(name: str, folder: Path, redraw: bool = False) -> Path:
     module = FIGURES[name]
     source, picture = folder / f"{name}.nc", folder / f"{name}.png"
     if not redraw:
-        part = folder / f".{name}.nc.part"
         made = module.make().assign_attrs(provenance=json.dumps(origin()))
-        made.to_netcdf(part, engine="h5netcdf")
-        os.replace(part, source)
-    with xr.open_dataset(source, engine="h5netcdf", decode_times=False) as data:
-        with matplotlib.rc_context(FONT):
-            part = folder / f".{name}.part.png"
-            module.draw(data).savefig(part, dpi=110)
-        os.replace(part, picture)
+        with whole(source) as part:
+            made.to_netcdf(part, engine="h5netcdf")
+    with (
+        xr.open_dataset(source, engine="h5netcdf", decode_times=False) as data,
+        matplotlib.rc_context(FONT),
+        whole(picture) as part,
+    ):
+        module.draw(data).savefig(part, dpi=110)
     return picture
 
 
@@ -74,7 +74,8 @@ def main(argv: Sequence[str] | None = None) -> int:
             for name in names:
                 print(make(name, options.out, options.redraw))
                 advance(1)
-        (options.out / "figures.md").write_text(page(names))
+        with whole(options.out / "figures.md") as part:
+            part.write_text(page(names))
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
     return 0

@@ -57,6 +57,7 @@ def draw(data: xr.Dataset) -> Figure:
     ratio[0] = 0.5 * ratio[1]  # 0 has no place on a logarithmic axis: felt sits at the left edge
     pressure = 1e-3 * data["pressure"].values
     limit = 0.08
+    polyethylene = SURFACES["polyethylene"].tip_to_area_ratio
     norm, colours = TwoSlopeNorm(0, -limit, limit), "RdBu"
     for ax, load in zip(axes, data["load"].values, strict=True):
         shift = data["displacement"].sel(load=load).values
@@ -65,11 +66,11 @@ def draw(data: xr.Dataset) -> Figure:
                               norm=norm, rasterized=True)  # fmt: skip
         ax.contour(ratio, pressure, np.ma.masked_invalid(shift), levels=[0.0], colors="black",
                    linewidths=1.4)  # fmt: skip
-        ax.axvline(SURFACES["polyethylene"].tip_to_area_ratio, color="0.2", dashes=(4, 2), lw=1)
+        ax.axvline(polyethylene, color="0.2", dashes=(4, 2), lw=1)
         ax.set_xscale("log")
         ax.set_xlabel(r"$V_t / (\tau q L)$")
         ax.set_title(f"{load:.3g} × the default weight", fontsize=9, pad=16)
-        for x, name in ((ratio[0], "felt"), (1 / 6, "polyethylene"), (ratio[-1], "gelatin")):
+        for x, name in ((ratio[0], "felt"), (polyethylene, "polyethylene"), (ratio[-1], "gelatin")):
             ax.annotate(name, (x, pressure[-1]), xytext=(0, 3), textcoords="offset points",
                         ha="center", fontsize=FONT["font.size"] - 2)  # fmt: skip
     axes[0].set_ylabel("peak pressure [kPa]")

@@ -40,8 +40,8 @@ def test_every_variable_has_a_unit_and_the_file_its_provenance(saved):
 
 
 def test_a_write_that_fails_leaves_nothing(tmp_path, monkeypatch):
-    def broken(*args, **kwargs):
-        (tmp_path / ".gelatin.nc.part").write_text("half")
+    def broken(dataset, path, **kwargs):
+        path.write_text("half")
         raise OSError("disk full")
 
     monkeypatch.setattr(xr.Dataset, "to_netcdf", broken)
