@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.cubic import real_cubic_roots
-from analytic.robot import SEGMENTS
+from analytic.robot import THREE_EQUAL
 
 Array = NDArray[np.float64]
 
+SEGMENTS = len(THREE_EQUAL)
 EDGES = np.linspace(0.0, 1.0, SEGMENTS + 1)
 _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(4)  # exact to degree 7; (y')^2 has 6
 

@@ -20,7 +20,7 @@ def solve_cantilever(
 
     Args:
         robot: the strip.
-        pressure_pa: of the segments, shape (3,) [Pa].
+        pressure_pa: of the segments, shape (S,) [Pa].
         links: of the chain; the error falls with its square.
         sealed: bend by (6), the valves closed, instead of (9).
 
@@ -28,7 +28,7 @@ def solve_cantilever(
         ValueError: the pressure is bad.
         ArithmeticError: no stable equilibrium was found on the way from the straight strip.
     """
-    (pressure,) = check_pressures(pressure_pa)
+    (pressure,) = check_pressures(robot, pressure_pa)
     chain = Chain(robot, links, sealed, clamped=True)
     weight, state = chain.weight, chain.flat()
     for part in np.linspace(0, 1, _STEPS + 1)[1:]:
@@ -38,5 +38,5 @@ def solve_cantilever(
         if found is None:
             raise ArithmeticError(f"no stable equilibrium at {part:.0%} of weight and pressure")
         state = found
-    x = np.concatenate([[0.0], np.cumsum(link_lengths(robot.length, links) * np.cos(state.theta))])
+    x = np.concatenate([[0.0], np.cumsum(link_lengths(robot, links) * np.cos(state.theta))])
     return x, robot.length * state.y

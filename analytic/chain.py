@@ -7,8 +7,8 @@ first and last link have those of the two ends: what decides between tip and sid
 The lengths of the links are then the weights of a quadrature of (cos, sin) of that direction over
 s. Equal links with half links at both ends are the trapezoidal rule, and shorten a circular arc's
 chord by h^2 kappa^2 / 12 too much; Simpson's weights h/3, 4h/3, 2h/3, ..., h/3 place the hinges at
-1/6 and 5/6 of each pair of elements and are exact to fourth order. They need an even number of
-elements in each segment, since curvature jumps where segments meet.
+1/6 and 5/6 of each pair of elements and are exact to fourth order. They need segments of even
+numbers of elements, since curvature jumps where segments meet.
 """
 
 from functools import cache
@@ -17,43 +17,50 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic import pneunet
-from analytic.robot import SEGMENTS, Robot
+from analytic.robot import Robot
 
 Array = NDArray[np.float64]
 
 
-def link_lengths(length: float, links: int) -> Array:
-    """Lengths of the N + 1 rigid links of a strip, shape (N + 1,) [m]; they sum to length."""
+def link_lengths(robot: Robot, links: int) -> Array:
+    """Lengths of the N + 1 rigid links of a strip, shape (N + 1,) [m]; they sum to its length."""
     weights = np.ones(links + 1)
-    if links % (2 * SEGMENTS) == 0:
+    if segments_fit(robot, links / 2):
         weights[1:-1:2], weights[2:-1:2] = 4, 2
     else:
         weights[1:-1] = 2
-    return length * weights / weights.sum()
+    return robot.length * weights / weights.sum()
 
 
-def node_positions(length: float, links: int) -> Array:
+def node_positions(robot: Robot, links: int) -> Array:
     """Arclength of the chain's vertices: left end, hinges, right end, shape (N + 2,) [m]."""
-    return np.concatenate([[0.0], np.cumsum(link_lengths(length, links))])
+    return np.concatenate([[0.0], np.cumsum(link_lengths(robot, links))])
+
+
+def segments_fit(robot: Robot, parts: float) -> bool:
+    """Whether every segment ends where one of so many equal parts of the strip does."""
+    at = np.array(robot.borders) * parts
+    return bool(np.abs(at - np.round(at)).max() < 1e-9)
 
 
 @cache
-def segment_shares(links: int) -> Array:
-    """Part of each hinge's element that lies in each segment, shape (N, 3); rows sum to 1.
+def segment_shares(borders: tuple[float, ...], links: int) -> Array:
+    """Part of each hinge's element that lies in each of S segments, shape (N, S); rows sum to 1.
 
-    Computed once for each N, and read-only.
+    Computed once for each robot and N, and read-only.
     """
     edge = np.linspace(0.0, 1.0, links + 1)
-    border = np.linspace(0.0, 1.0, SEGMENTS + 1)
+    border = np.array(borders)
     low = np.maximum(edge[:-1, None], border[None, :-1])
     high = np.minimum(edge[1:, None], border[None, 1:])
     shares = np.maximum(high - low, 0.0) * links
+    shares = np.round(shares, 12)  # whole elements are whole
     shares.flags.writeable = False
     return shares
 
 
 def joint_springs(robot: Robot, links: int, pressures_pa: Array) -> tuple[Array, Array]:
-    """Hinge springs at segment pressures of shape (T, 3) [Pa].
+    """Hinge springs at segment pressures of shape (T, S) [Pa].
 
     An element across a border is its parts in series: they carry one moment, so their compliances
     and their natural angles add.
@@ -61,7 +68,7 @@ def joint_springs(robot: Robot, links: int, pressures_pa: Array) -> tuple[Array,
     Returns:
         stiffness (T, N) [N m/rad] and rest angle (T, N) [rad], negative where the strip arches.
     """
-    shares = segment_shares(links) * (robot.length / links)
+    shares = segment_shares(robot.borders, links) * (robot.length / links)
     compliance = (1.0 / pneunet.rigidity(robot, pressures_pa)) @ shares.T
     angle = pneunet.natural_curvature(robot, pressures_pa) @ shares.T
     return 1.0 / compliance, -angle

@@ -32,7 +32,7 @@ class Drag:
                 f"friction_number must be a positive finite number, got {friction_number!r}"
             )
         self._chain, self._surface, self._number = chain, surface, friction_number
-        self._nodes = node_positions(chain.robot.length, chain.links)
+        self._nodes = node_positions(chain.robot, chain.links)
 
     def apply(self, before: ChainState, found: ChainState) -> ChainState | None:
         """The equilibrium under friction, from the last one and one at the last tension.

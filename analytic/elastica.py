@@ -8,12 +8,12 @@ is followed as far as it is stable, and no other is ever returned.
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.chain import link_lengths, node_positions
+from analytic.chain import link_lengths, node_positions, segments_fit
 from analytic.drag import Drag
 from analytic.equilibrium import Chain, ChainState
 from analytic.friction import Surface
 from analytic.pressures import check_pressures
-from analytic.robot import SEGMENTS, Robot
+from analytic.robot import Robot
 from analytic.shapes import ContactShapes, Status
 from analytic.touching import contact_mode, side_contact
 
@@ -36,7 +36,7 @@ def solve_elastica(
 
     Args:
         robot: the strip.
-        pressures_pa: segment pressures along the path, left first, (B, 3) or (3,) [Pa], at least 0.
+        pressures_pa: segment pressures along the path, left first, (B, S) or (S,) [Pa], at least 0.
         links: of the chain; multiples of 6 are the most accurate. The error falls with its square.
         sealed: bend by the exact law of pneu-nets whose valves close at these pressures (6), not
             by the affine law (9).
@@ -51,11 +51,11 @@ def solve_elastica(
     Raises:
         ValueError: the pressures are bad, links is below 6, or sealed chambers do not fit links.
     """
-    p = check_pressures(pressures_pa)
+    p = check_pressures(robot, pressures_pa)
     if links < 6:
         raise ValueError(f"links must be at least 6, got {links}")
-    if sealed and links % SEGMENTS:
-        raise ValueError(f"links must be a multiple of 3 for sealed pneu-nets, got {links}")
+    if sealed and not segments_fit(robot, links):
+        raise ValueError(f"segments must be whole elements for sealed pneu-nets, got links {links}")
     chain = Chain(robot, links, sealed)
     drag = Drag(chain, surface, friction_number) if surface and friction_number else None
     count = len(p)
@@ -64,7 +64,7 @@ def solve_elastica(
     residual = np.full(count, np.nan)
     status = np.full(count, int(Status.BRANCH_END))
 
-    state, last, here = chain.flat(), None, np.zeros(SEGMENTS)
+    state, last, here = chain.flat(), None, np.zeros(len(robot.segments))
     for i in range(count):
         chain.load_at(p[i])
         guess = state if last is None else _extrapolate(last, state, p, i)
@@ -83,10 +83,10 @@ def solve_elastica(
         force[i] = chain.ground_force(found)
         residual[i] = chain.residual(found)
 
-    nodes = node_positions(robot.length, links)
+    nodes = node_positions(robot, links)
     newtons = force * chain.force_unit
     left, right = side_contact(robot, nodes, newtons, y * robot.length, p)
-    lengths = link_lengths(robot.length, links)
+    lengths = link_lengths(robot, links)
     return ContactShapes(
         robot=robot,
         separation=np.cos(theta) @ lengths,

@@ -22,8 +22,8 @@ from scipy.linalg import cholesky_banded
 from scipy.linalg.lapack import dgbsv
 
 from analytic import pneunet
-from analytic.chain import joint_springs, link_lengths
-from analytic.robot import SEGMENTS, Robot
+from analytic.chain import joint_springs, link_lengths, segment_shares
+from analytic.robot import Robot
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -62,13 +62,13 @@ class Chain:
         self.sealed, self.clamped = sealed, clamped
         self._d0 = pneunet.base_rigidity(robot)
         self.force_unit = self._d0 / robot.length**2
-        self.length = link_lengths(1.0, links)
+        self.length = link_lengths(robot, links) / robot.length
         half = 0.5 * self.length * robot.weight_per_length * robot.length / self.force_unit
         self.weight = np.zeros(links + 2)
         self.weight[:-1] += half
         self.weight[1:] += half
         self.stiffness, self.rest = np.zeros(links), np.zeros(links)
-        self.pressure, self.tension = np.zeros(SEGMENTS), 0.0
+        self.pressure, self.tension = np.zeros(len(robot.segments)), 0.0
 
     def flat(self) -> ChainState:
         """The strip without pressure on the ground, or sticking out from the wall."""
@@ -78,7 +78,7 @@ class Chain:
         return ChainState(np.zeros(n + 2), np.zeros(n + 1), np.zeros(n + 1), held)
 
     def load_at(self, pressure: Array) -> None:
-        """Set the hinges from segment pressures, shape (3,) [Pa]."""
+        """Set the hinges from segment pressures, shape (S,) [Pa]."""
         stiffness, rest = joint_springs(self.robot, self.links, pressure[None, :])
         self.stiffness, self.rest = stiffness[0] * (self.robot.length / self._d0), rest[0]
         self.pressure = pressure
@@ -87,7 +87,7 @@ class Chain:
         """Stiffness and rest angle of the hinges' springs, or of the tangents to a gas law."""
         if not self.sealed:
             return self.stiffness, self.rest
-        chambers = np.repeat(self.pressure, self.links // SEGMENTS)
+        chambers = segment_shares(self.robot.borders, self.links) @ self.pressure
         turn = np.diff(theta)
         element = self.robot.length / self.links
         curvature = -turn / element  # arching is positive

@@ -13,9 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.beam import EDGES
+from analytic.beam import EDGES, SEGMENTS
 from analytic.cubic import real_cubic_roots
-from analytic.robot import SEGMENTS
 
 Array = NDArray[np.float64]
 

@@ -4,9 +4,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from analytic import beam, pneunet
+from analytic.beam import SEGMENTS
 from analytic.liftoff import lift_off
 from analytic.pressures import check_pressures
-from analytic.robot import SEGMENTS, Robot
+from analytic.robot import Robot
 from analytic.shapes import Mode, Shapes, Status
 
 Array = NDArray[np.float64]
@@ -31,9 +32,12 @@ def solve_modes(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
         Shapes of B states; `status` says where the assumptions break.
 
     Raises:
-        ValueError: the shape is wrong, or a pressure is negative or not finite.
+        ValueError: the shape is wrong, a pressure is negative or not finite, or the robot has not
+            the seed's three equal segments.
     """
-    p = check_pressures(pressures_pa)
+    if len(set(robot.segments)) > 1 or len(robot.segments) != SEGMENTS:
+        raise ValueError(f"the modes are of three equal segments, got {robot.segments!r}")
+    p = check_pressures(robot, pressures_pa)
     k = pneunet.natural_curvature(robot, p) * robot.length
     g = robot.weight_per_length * robot.length**3 / pneunet.rigidity(robot, p)
     a, b, mode, status = _contact(k, g)

@@ -15,8 +15,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import solveh_banded
 
 from analytic import pneunet
+from analytic.chain import segment_shares, segments_fit
 from analytic.pressures import check_pressures
-from analytic.robot import SEGMENTS, Robot
+from analytic.robot import Robot
 from analytic.shapes import ContactShapes, Status
 from analytic.touching import contact_mode, side_contact
 
@@ -33,20 +34,21 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
 
     Args:
         robot: the strip.
-        pressures_pa: segment pressures, left first, shape (B, 3) or (3,) [Pa], at least 0; a
+        pressures_pa: segment pressures, left first, shape (B, S) or (S,) [Pa], at least 0; a
             sequence whose neighbours are alike is solved faster, as each starts from the last.
-        elements: a multiple of 3, so that segments end at nodes.
+        elements: so many that segments end at nodes, a multiple of 3 for three equal ones.
 
     Raises:
-        ValueError: the pressures are bad, or elements is no positive multiple of 3.
+        ValueError: the pressures are bad, or a segment ends between nodes.
     """
-    p = check_pressures(pressures_pa)
-    if elements < SEGMENTS or elements % SEGMENTS:
-        raise ValueError(f"elements must be a positive multiple of 3, got {elements}")
+    p = check_pressures(robot, pressures_pa)
+    if elements < 1 or not segments_fit(robot, elements):
+        raise ValueError(f"elements must be so many that segments end at nodes, got {elements}")
+    shares = segment_shares(robot.borders, elements)
     d0 = pneunet.base_rigidity(robot)
-    rigidity = np.repeat(pneunet.rigidity(robot, p) / d0, elements // SEGMENTS, axis=1)
+    rigidity = pneunet.rigidity(robot, p) / d0 @ shares.T
     curvature = pneunet.natural_curvature(robot, p) * robot.length
-    curvature = np.repeat(curvature, elements // SEGMENTS, axis=1)
+    curvature = curvature @ shares.T
     load = robot.weight_per_length * robot.length**3 / d0
 
     values = np.zeros((len(p), elements + 1, 2))  # y and y' at the nodes

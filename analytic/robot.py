@@ -1,20 +1,22 @@
-"""The robot: a strip of three equal pneu-net segments, as plain data."""
+"""The robot: a strip of pneu-net segments, as plain data."""
 
 import math
 from dataclasses import dataclass, fields
+from itertools import accumulate
 
 PSI = 6894.757293168  # Pa in a pound-force per square inch (NIST SP 811)
-SEGMENTS = 3  # seed, section 2.3
+THREE_EQUAL = (1.0, 1.0, 1.0)  # seed, section 2.3
 
 
 @dataclass(frozen=True)
 class Robot:
-    """A planar strip of three equal segments, each one a pneu-net of the same design.
+    """A planar strip of segments, each one a pneu-net of the same design.
 
     The defaults give an undulation of about a quarter of the length, the seed's optimum.
 
     Raises:
-        ValueError: a value is not a positive finite number, or chamber_fraction exceeds 1.
+        ValueError: a value is not a positive finite number, there is no segment, or
+            chamber_fraction exceeds 1.
     """
 
     length: float = 0.130  # L [m]; chosen
@@ -25,9 +27,17 @@ class Robot:
     chamber_fraction: float = 0.7  # c/x, chamber width over the arclength it occupies [1]; chosen
     weight_per_length: float = 2.0  # w of Appendix A [N/m]; chosen
     peak_pressure: float = 7.0 * PSI  # p [Pa]; seed, section 3
+    segments: tuple[float, ...] = THREE_EQUAL  # their lengths, left first, in any common unit
 
     def __post_init__(self) -> None:
+        if not self.segments:
+            raise ValueError("segments must be at least one length, got none")
+        for length in self.segments:
+            if not (math.isfinite(length) and length > 0):
+                raise ValueError(f"segments must be positive finite lengths, got {length!r}")
         for field in fields(self):
+            if field.name == "segments":
+                continue
             value = getattr(self, field.name)
             if not (isinstance(value, int | float) and math.isfinite(value) and value > 0):
                 raise ValueError(f"{field.name} must be a positive finite number, got {value!r}")
@@ -39,5 +49,12 @@ class Robot:
 
     @property
     def segment_length(self) -> float:
-        """Length of one segment [m]."""
-        return self.length / SEGMENTS
+        """Mean length of a segment, the unit of area in friction [m]."""
+        return self.length / len(self.segments)
+
+    @property
+    def borders(self) -> tuple[float, ...]:
+        """Where segments begin and end, both ends of the strip included, over its length [1]."""
+        total = sum(self.segments)
+        inner = accumulate(self.segments[:-1])
+        return (0.0, *(end / total for end in inner), 1.0)

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from analytic import pneunet
-from analytic.robot import SEGMENTS, Robot
+from analytic.robot import Robot
 from analytic.shapes import Mode
 
 Array = NDArray[np.float64]
@@ -28,7 +28,7 @@ def side_contact(
         nodes: arclength of the nodes, shape (S,) [m].
         force: of the ground on each, 0 where it does not touch, shape (B, S) [N].
         height: of each, shape (B, S) [m].
-        pressures: of the segments, shape (B, 3) [Pa].
+        pressures: of the segments, shape (B, S) [Pa].
 
     Returns:
         Two arrays of shape (B,) [m]; half the length each where no node is in the air, NaN where
@@ -66,10 +66,14 @@ def flat_length(weight: float, total: ArrayLike, moment: ArrayLike) -> Array:
 
 
 def contact_mode(robot: Robot, left: Array, right: Array) -> NDArray[np.int_]:
-    """Mode by the ends' contact lengths, shape (B,); BOTH where both lie flat."""
+    """Mode by the ends' contact lengths, shape (B,); BOTH where both lie flat.
+
+    Segments are counted from the left; the third stands for all beyond it too.
+    """
     reach = robot.length * (1 + 1e-9)  # lengths come with rounding
-    in_left = np.clip((left / reach * SEGMENTS).astype(int), 0, SEGMENTS - 1)
-    in_right = np.clip(((robot.length - right) / reach * SEGMENTS).astype(int), 0, SEGMENTS - 1)
+    inner = robot.borders[1:-1]
+    in_left = np.minimum(np.searchsorted(inner, left / reach, side="right"), 2)
+    in_right = np.minimum(np.searchsorted(inner, 1 - right / robot.length, side="right"), 2)
     mode = np.full(len(left), int(Mode.TIP))
     mode = np.where(left > 0, Mode.LEFT_1 + in_left, mode)
     mode = np.where(right > 0, Mode.RIGHT_1 + in_right, mode)

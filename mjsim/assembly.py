@@ -15,8 +15,7 @@ import mujoco
 import numpy as np
 from dm_control import mjcf
 
-from analytic.chain import joint_springs, link_lengths
-from analytic.robot import SEGMENTS
+from analytic.chain import joint_springs, link_lengths, node_positions
 from mjsim.assets import MODELS
 from mjsim.config import Numerics, Scene
 from mjsim.skin import segment_skin
@@ -33,8 +32,8 @@ def robot_mjcf(scene: Scene, numerics: Numerics) -> mjcf.RootElement:
     robot, links = scene.robot, numerics.links
     root = mjcf.from_path(str(MODELS / "strip.xml"))
     _set_options(root, scene, numerics)
-    lengths = link_lengths(robot.length, links)
-    stiffness, rest = joint_springs(robot, links, np.zeros((1, SEGMENTS)))
+    lengths = link_lengths(robot, links)
+    stiffness, rest = joint_springs(robot, links, np.zeros((1, len(robot.segments))))
     damping = numerics.damping_time * stiffness[0]
 
     far = root.worldbody.add("site", name="far", pos=(-FAR, 0, 0))
@@ -62,7 +61,7 @@ def robot_mjcf(scene: Scene, numerics: Numerics) -> mjcf.RootElement:
         parent, offset = body, _round(length)
 
     _add_friction_tendons(root, far, *ends)
-    for segment in range(SEGMENTS):
+    for segment in range(len(robot.segments)):
         _add_skin(root, scene, numerics, segment)
     return root
 
@@ -127,7 +126,7 @@ def _add_friction_tendons(root: mjcf.RootElement, far: Any, left: Any, right: An
 
 def _add_skin(root: mjcf.RootElement, scene: Scene, numerics: Numerics, segment: int) -> None:
     skin = segment_skin(scene.robot, numerics.links, segment, numerics.pad_radius)
-    nodes = np.concatenate([[0.0], np.cumsum(link_lengths(scene.robot.length, numerics.links))])
+    nodes = node_positions(scene.robot, numerics.links)
     element = root.deformable.add("skin", name=f"segment_{segment + 1}", rgba=(*PALE, 1),
                                   vertex=np.round(skin.vertex, 7).ravel(),
                                   face=skin.face.ravel())  # fmt: skip

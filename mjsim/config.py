@@ -35,6 +35,11 @@ class Scene:
             raise ValueError(f"cycles must be at least 1, got {self.cycles}")
         for name in ("friction_number", "gravity", "settle_time"):
             _positive(name, getattr(self, name))
+        if self.gait.segments != len(self.robot.segments):
+            raise ValueError(
+                f"gait {self.gait.name} is for {self.gait.segments} segments, "
+                f"the robot has {len(self.robot.segments)}"
+            )
         limit = 2 * math.pi / (pneunet.curvature_per_pressure(self.robot) * self.robot.length)
         if self.robot.peak_pressure >= limit:
             raise ValueError(

@@ -49,7 +49,7 @@ class PaperLaw:
         self._scale = scene.force_scale
         self._angle = numerics.side_angle
         self._segment = scene.robot.segment_length
-        self._nodes = node_positions(scene.robot.length, numerics.links)
+        self._nodes = node_positions(scene.robot, numerics.links)
         self._from_right = self._nodes[-1] - self._nodes
         self._length = scene.robot.length
         self._weight = scene.robot.weight_per_length
@@ -69,7 +69,7 @@ class PaperLaw:
                 rises from its end [rad].
             height: of the vertices above their resting place on the ground, shape (N + 2,) [m].
             force: of the ground on the vertices, shape (N + 2,) [N].
-            pressure: of the segments, shape (3,) [Pa].
+            pressure: of the segments, shape (S,) [Pa].
         """
         left = right = 0.0
         side_left = angle_left <= self._angle and pressure[0] == 0

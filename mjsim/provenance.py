@@ -38,11 +38,14 @@ def configuration(described: dict[str, Any]) -> tuple[Scene, Numerics]:
         KeyError, TypeError, ValueError: `described` is no such description.
     """
     scene = dict(described["scene"])
-    stages = tuple(tuple(stage) for stage in scene["gait"]["stages"])
-    scene["gait"] = Gait(**{**scene["gait"], "stages": stages})
-    scene["robot"] = Robot(**scene["robot"])
-    scene["surface"] = Surface(**scene["surface"])
+    for name, kind in (("robot", Robot), ("gait", Gait), ("surface", Surface)):
+        scene[name] = kind(**{key: _frozen(value) for key, value in scene[name].items()})
     return Scene(**scene), Numerics(**described["numerics"])
+
+
+def _frozen(value: Any) -> Any:
+    """Lists, which JSON makes of tuples, as tuples again."""
+    return tuple(_frozen(item) for item in value) if isinstance(value, list | tuple) else value
 
 
 def _versions() -> dict[str, str]:

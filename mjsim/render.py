@@ -6,7 +6,6 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.robot import SEGMENTS
 from mjsim.assembly import DARK, PALE, compile_model
 from mjsim.trajectory import Trajectory
 
@@ -58,7 +57,7 @@ class Camera:
         mujoco.mj_camlight(model, data)
         fraction = walk.pressure[step] / walk.scene.robot.peak_pressure
         pale, dark = np.array([*PALE, 1.0]), np.array([*DARK, 1.0])
-        for segment in range(SEGMENTS):
+        for segment in range(len(fraction)):
             model.skin_rgba[segment] = pale + fraction[segment] * (dark - pale)
         self._renderer.update_scene(data, self._view, self._options)
         self._point_at(float(walk.coordinates[step, 0]))

@@ -22,7 +22,7 @@ _LEAST_BOUND = 1e-12  # N, for a friction that is off
 
 
 def schedule(scene: Scene, numerics: Numerics) -> tuple[Array, Array]:
-    """End of each step, (T,) [s], 0 being the start of the first cycle, and pressures, (T, 3) [Pa].
+    """End of each step, (T,) [s], 0 being the start of the first cycle, and pressures, (T, S) [Pa].
 
     The discrete integrator takes springs at the end of a step, and so are pressures here.
     """
@@ -50,7 +50,7 @@ def simulate(
     data = mujoco.MjData(model)
     data.qpos[1] = -_TOUCH * scene.robot.length
     robot, links, dt = scene.robot, numerics.links, numerics.timestep
-    lengths = link_lengths(robot.length, links)
+    lengths = link_lengths(robot, links)
     law = PaperLaw(scene, numerics)
 
     time, pressure = schedule(scene, numerics)

@@ -30,11 +30,11 @@ class Skin(NamedTuple):
 
 
 def segment_skin(robot: Robot, links: int, segment: int, below: float) -> Skin:
-    """Skin of a segment (0 to 2) whose underside lies `below` the neutral line [m]."""
+    """Skin of a segment (0 is the left one) whose underside lies `below` the neutral line [m]."""
     count = CELLS * _PER_CELL + 1
-    begin = segment * robot.segment_length
-    s = begin + np.linspace(0.0, robot.segment_length, count)
-    rib = np.cos(2 * np.pi * CELLS * (s - begin) / robot.segment_length)
+    begin, end = (robot.length * border for border in robot.borders[segment : segment + 2])
+    s = np.linspace(begin, end, count)
+    rib = np.cos(2 * np.pi * CELLS * (s - begin) / (end - begin))
     # chambers take the fraction c/x of the length; the walls between them are narrow grooves
     groove = np.clip((rib - np.cos(np.pi * (1 - robot.chamber_fraction))) * 3, 0, 1)
     top = robot.thickness + robot.chamber_height * (1 - 0.35 * groove)
@@ -79,8 +79,8 @@ def _faces(count: int, around: int) -> NDArray[np.int_]:
 
 def _bones(robot: Robot, links: int, x: Array) -> list[tuple[int, NDArray[np.int_], Array]]:
     """Blend each vertex between the two links whose centres enclose it."""
-    nodes = node_positions(robot.length, links)
-    centre = nodes[:-1] + 0.5 * link_lengths(robot.length, links)
+    nodes = node_positions(robot, links)
+    centre = nodes[:-1] + 0.5 * link_lengths(robot, links)
     after = np.clip(np.searchsorted(centre, x), 1, links)
     weight = np.clip((x - centre[after - 1]) / (centre[after] - centre[after - 1]), 0.0, 1.0)
     bones = []

@@ -34,7 +34,7 @@ class Trajectory:
         scene, numerics: what was simulated and how.
         status: OK, or why it stopped; then the last rows lead up to the failure.
         time: end of each step since the first cycle began, negative while settling, (T,) [s].
-        pressure: of the segments, left first, (T, 3) [Pa].
+        pressure: of the segments, left first, (T, S) [Pa].
         coordinates: x and z of the left end, slope of the first link, hinge angles, (T, N + 3)
             [m, m, rad ...].
         velocities: their rates, (T, N + 3).
@@ -62,7 +62,7 @@ class Trajectory:
 
     def nodes(self) -> tuple[Array, Array]:
         """(x, z) of the chain's vertices, left end first, each (T, N + 2) [m]."""
-        lengths = link_lengths(self.scene.robot.length, self.numerics.links)
+        lengths = link_lengths(self.scene.robot, self.numerics.links)
         slope = np.cumsum(self.coordinates[:, 2:], axis=1)
         start = self.coordinates[:, :2]
         x = np.cumsum(np.column_stack([start[:, 0], lengths * np.cos(slope)]), axis=1)

@@ -6,8 +6,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from analytic.robot import SEGMENTS
-
 Array = NDArray[np.float64]
 
 PASSIVE, INFLATED = "0.68", "black"  # as the shading of Figure 4
@@ -22,11 +20,11 @@ def draw_strip(axes: Axes, x: Array, y: Array, fraction: Array, **line: Any) -> 
     Args:
         axes: where to.
         x, y: points at equal arclengths, shape (S,), S - 1 a multiple of 3.
-        fraction: of the peak pressure in each segment, shape (3,).
+        fraction: of the peak pressure in each segment, equal in length, shape (3,).
         line: more properties of the lines.
     """
-    step = (len(x) - 1) // SEGMENTS
-    for segment in range(SEGMENTS):
+    step = (len(x) - 1) // len(fraction)
+    for segment in range(len(fraction)):
         part = slice(segment * step, (segment + 1) * step + 1)
         colour = INFLATED if fraction[segment] > 0.25 else PASSIVE
         axes.plot(x[part], y[part], color=colour, solid_capstyle="round", **line)

@@ -14,17 +14,18 @@ links = st.integers(6, 96)
 
 @given(links)
 def test_links_add_up_to_the_strip_and_mirror(n):
-    lengths = link_lengths(0.13, n)
+    lengths = link_lengths(Robot(), n)
     assert len(lengths) == n + 1
     assert lengths.sum() == pytest.approx(0.13, rel=1e-14)
     assert np.allclose(lengths, lengths[::-1], rtol=1e-14)
-    assert node_positions(0.13, n)[-1] == pytest.approx(0.13, rel=1e-14)
+    assert node_positions(Robot(), n)[-1] == pytest.approx(0.13, rel=1e-14)
 
 
 def chord_error(n, total_angle):
     """Chord of a uniformly bent chain less that of the circular arc it stands for, over L."""
     direction = np.linspace(-0.5, 0.5, n + 1) * total_angle
-    return link_lengths(1.0, n) @ np.cos(direction) - np.sin(total_angle / 2) / (total_angle / 2)
+    chord = link_lengths(Robot(length=1.0), n) @ np.cos(direction)
+    return chord - np.sin(total_angle / 2) / (total_angle / 2)
 
 
 @pytest.mark.parametrize(("sizes", "order"), [((6, 12, 24, 48), 4), ((7, 14, 28, 56), 2)])
@@ -37,7 +38,7 @@ def test_the_chord_of_an_arc_converges_at_its_order(sizes, order):
 
 @given(links)
 def test_elements_are_shared_out_among_segments_without_loss(n):
-    shares = segment_shares(n)
+    shares = segment_shares(Robot().borders, n)
     assert np.allclose(shares.sum(axis=1), 1)
     assert np.allclose(shares.sum(axis=0), n / 3)
 

@@ -168,7 +168,7 @@ def test_no_feasible_shape_nearby_has_less_energy(fraction):
     path = np.linspace(0, 1, 30)[1:, None] * np.array(fraction) * robot.peak_pressure
     shape = solve_elastica(robot, path, links)
     stiffness, rest = joint_springs(robot, links, path[-1:])
-    lengths = link_lengths(robot.length, links)
+    lengths = link_lengths(robot, links)
     x, y = (values[-1] for values in shape.curve(shape.nodes))
     theta = np.arctan2(np.diff(y), np.diff(x))
     rng = np.random.default_rng(5)

@@ -164,5 +164,5 @@ def test_it_walks_as_the_seed_says():
 
 @pytest.mark.parametrize("elements", [0, -3, 10])
 def test_elements_fit_the_segments(elements):
-    with pytest.raises(ValueError, match="multiple of 3"):
+    with pytest.raises(ValueError, match="segments"):
         solve_obstacle(Robot(), [0, 0, 0], elements=elements)

@@ -21,7 +21,7 @@ def ground(links, left, right, push=0.03):
     The weight of each length and a push where it lifts off, as two forces with the same resultant.
     """
     robot = Scene().robot
-    nodes = node_positions(robot.length, links)
+    nodes = node_positions(robot, links)
     z = np.full(links + 2, 1e-3)
     force = np.zeros(links + 2)
     for length, inward in ((left, slice(None)), (right, slice(None, None, -1))):
@@ -56,7 +56,7 @@ def test_bounds_are_the_sliding_resistances_of_the_contacts(surface, left, right
 def test_the_length_of_a_side_follows_from_its_forces_between_pads_too(left, right, links):
     height, force = ground(links, left, right)
     ends = PaperLaw(Scene(), Numerics(links=links)).ends(0.0, 0.0, height, force, PASSIVE)
-    least = node_positions(Scene().robot.length, links)[1]
+    least = node_positions(Scene().robot, links)[1]
     assert ends.contact_left == pytest.approx(max(left, least), rel=1e-9)
     assert ends.contact_right == pytest.approx(max(right, least), rel=1e-9)
 
