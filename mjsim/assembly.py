@@ -111,6 +111,8 @@ def _surface_file(scene: Scene) -> Any:
 
 def _set_options(root: mjcf.RootElement, scene: Scene, numerics: Numerics) -> None:
     root.option.timestep = numerics.timestep
+    if root.default.geom.solref is not None:  # the template of the strip has its pads there
+        root.default.geom.solref = (numerics.contact_time * numerics.timestep, 1)
     root.option.gravity = (0, 0, -scene.gravity)
 
 

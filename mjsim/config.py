@@ -24,7 +24,7 @@ class Scene:
     cycles: int = 1
     body: str = "planar"
     friction: str = "paper"
-    friction_number: float = 1.0  # Phi = V0 L^2 / D0 [1]; chosen, see README
+    friction_number: float = 1.5  # Phi = V0 L^2 / D0 [1]; chosen, see README
     gravity: float = 9.81  # m/s^2; only the mass w/g that the weight w per length has depends on it
     settle_time: float = 0.5  # at rest before the first cycle [s]; chosen
 
@@ -70,6 +70,9 @@ class Numerics:
     timestep: float = 0.010  # s; chosen
     damping_time: float = 0.005  # joint damping over joint stiffness [s]; chosen
     side_angle: float = 1e-3  # an end less steep than this lies on its side [rad]; chosen
+    contact_time: float = 0.5  # time constant of contacts, critically damped [timestep]; chosen
+    steep_contact_time: float = 2.0  # that of an end steeper than steep_angle [timestep]; chosen
+    steep_angle: float = 0.3  # rad; chosen
     pad_radius: float = 1e-3  # of the contact pads, centred on the neutral line [m]; chosen
 
     def __post_init__(self) -> None:

@@ -2,15 +2,17 @@
 
 import time as clock
 from collections.abc import Callable
+from dataclasses import replace
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.chain import joint_springs, link_lengths
+from analytic.chain import joint_springs
 from mjsim.assembly import TENDONS, compile_model
 from mjsim.config import Numerics, Scene
 from mjsim.friction import PaperLaw
+from mjsim.sides import Sides
 from mjsim.trajectory import Status, Trajectory
 
 Array = NDArray[np.float64]
@@ -18,7 +20,7 @@ Array = NDArray[np.float64]
 _FALLEN = 0.1  # an end this far off the ground, over L, is no foot any more; chosen
 _REPORT_EVERY = 256  # steps between progress reports
 _TOUCH = 1e-6  # how deep the strip starts in the ground, over L: a contact at 0 is not seen; chosen
-_LEAST_BOUND = 1e-12  # N, for a friction that is off
+_TIPS = (0.0, 0.0)  # side contact of two tips
 
 
 def schedule(scene: Scene, numerics: Numerics) -> tuple[Array, Array]:
@@ -49,77 +51,88 @@ def simulate(
     model = compile_model(scene, numerics)
     data = mujoco.MjData(model)
     data.qpos[1] = -_TOUCH * scene.robot.length
+    mujoco.mj_forward(model, data)
     robot, links, dt = scene.robot, numerics.links, numerics.timestep
-    lengths = link_lengths(robot, links)
-    law = PaperLaw(scene, numerics)
 
     time, pressure = schedule(scene, numerics)
     stiffness, rest = joint_springs(robot, links, pressure)
+    passive = (pressure == 0).tolist()
     steps = len(time)
     coordinates = np.empty((steps, links + 3))
-    velocities = np.empty((steps, links + 3))
-    contact = np.empty((steps, 3))
+    contact: list[tuple[float, float]] = []
+    shares: list[float] = []
 
     # the model's joints are x, z, pitch, then the hinges, each with one coordinate
     spring_k, spring_rest = model.jnt_stiffness[3:], model.qpos_spring[3:]
+    plan = [
+        (k, angle, state[0], state[-1])
+        for k, angle, state in zip(stiffness, rest, passive, strict=True)
+    ]
     bounds = model.tendon_frictionloss
     left, right, both = (model.tendon(f"robot/{name}").id for name in TENDONS)
-    qpos, qvel, angles, rates = data.qpos, data.qvel, data.qpos[2:], data.qvel[2:]
-    accumulate, step_model = np.add.accumulate, mujoco.mj_step
-    first_pad, force = model.geom("robot/pad_0").id, np.zeros(links + 2)
-    height, slope, work = np.zeros(links + 2), np.zeros(links + 1), np.zeros(links + 1)
-    rise, starts = height[1:], height[:-1]
-    reach = float(lengths.sum())
-    fallen, status, step = _FALLEN * robot.length, Status.OK, -1
+    first, last = (model.geom(f"robot/pad_{pad}").id for pad in (0, links + 1))
+    softness, height = model.geom_solref, data.geom_xpos[:, 2]
+    firm, soft = dt * numerics.contact_time, dt * numerics.steep_contact_time
+    steep, flat = numerics.steep_angle, numerics.side_angle
+    law, sides = PaperLaw(scene), Sides(scene, numerics, data, first)
+    qpos, angles, add_up = data.qpos, data.qpos[2:], np.ones(links + 1).dot
+    tendon, rate, step_model = data.ten_length, data.ten_velocity, mujoco.mj_step
+    low, high = (numerics.pad_radius + sign * _FALLEN * robot.length for sign in (-1, 1))
+    step, share, at, lengths = -1, 0.0, tendon.item(right), (-1.0, -1.0)
 
     started = clock.perf_counter()
-    for step in range(steps):
-        spring_k[:], spring_rest[:] = stiffness[step], rest[step]
-        ends = law.ends(slope[0], -slope[-1], height, force, pressure[step])
-        bounds[left] = ends.bound_left + _LEAST_BOUND
-        bounds[right] = ends.bound_right + _LEAST_BOUND
-        bounds[both] = ends.bound_both + _LEAST_BOUND
+    for step, (k, angle, may_left, may_right) in enumerate(plan):
+        spring_k[:], spring_rest[:] = k, angle
+        slope_left, slope_right = angles.item(0), -add_up(angles)
+        softness[first, 0] = soft if slope_left > steep else firm
+        softness[last, 0] = soft if slope_right > steep else firm
+        side_left = may_left and slope_left <= flat
+        side_right = may_right and slope_right <= flat
+        now = sides.lengths(side_left, side_right) if side_left or side_right else _TIPS
+        if now != lengths:
+            lengths = now
+            bounds[left], bounds[right], bounds[both], new_share = law.hold(*now)
 
         step_model(model, data)
-        # rows of the constraint solver: the friction of the tendons, then one for each contact
-        force[:] = 0.0
-        force[data.contact.geom2 - first_pad] = data.efc_force[len(TENDONS) :]
 
         # The left end's x is a coordinate, integrated exactly; the right end's is integrated to
-        # first order only, since a turning hinge moves it on a circle. The excess over dt times
-        # its velocity, always to the left, would be slip of an anchor that friction holds: give
-        # it to the end that slides. A hinge at height z moves the right end by (z - z_right).
-        np.subtract(starts, height[-1], out=work)
-        forecast = reach + dt * (work @ rates)
-        accumulate(angles, out=slope)
-        np.cos(slope, out=work)
-        reach = float(lengths @ work)
-        qpos[0] -= ends.left_share * (reach - forecast)
-
-        np.sin(slope, out=work)
-        np.multiply(work, lengths, out=rise)
-        height[0] = qpos[1]
-        accumulate(height, out=height)
-        coordinates[step], velocities[step] = qpos, qvel
-        contact[step] = ends.contact_left, ends.contact_right, ends.left_share
-        if not (-fallen < height[0] < fallen and -fallen < height[-1] < fallen):
-            status = Status.TOPPLED if np.abs(height).max() < robot.length else Status.DIVERGED
+        # first order only, since a turning hinge moves it on a circle. The excess of the last step
+        # over dt times its velocity at the step's start, which is dt v - dx with the velocity at
+        # its end, would be slip of an anchor that friction holds: give it to the end that slid.
+        before, at = at, tendon.item(right)
+        excess = share * (dt * rate.item(right) - (at - before))
+        qpos[0] -= excess
+        at -= excess
+        share = new_share
+        coordinates[step] = qpos
+        contact.append(now)
+        shares.append(share)
+        if not (low < height.item(first) < high and low < height.item(last) < high):
             break
         if progress and step % _REPORT_EVERY == _REPORT_EVERY - 1:
             progress(_REPORT_EVERY)
     wall_time = clock.perf_counter() - started
 
     done = slice(0, step + 1)
-    return Trajectory(
+    contact_left, contact_right = np.array(contact).T
+    walk = Trajectory(
         scene=scene,
         numerics=numerics,
-        status=status,
+        status=Status.OK,
         time=time[done],
         pressure=pressure[done],
         coordinates=coordinates[done],
-        velocities=velocities[done],
-        contact_left=contact[done, 0],
-        contact_right=contact[done, 1],
-        left_share=contact[done, 2],
+        contact_left=contact_left,
+        contact_right=contact_right,
+        left_share=np.array(shares),
         wall_time=wall_time,
     )
+    return replace(walk, status=_status(walk))
+
+
+def _status(walk: Trajectory) -> Status:
+    """How the walk ended, by its last state."""
+    z, length = walk.nodes()[1][-1], walk.scene.robot.length
+    if np.abs(z[[0, -1]]).max() < _FALLEN * length:
+        return Status.OK
+    return Status.TOPPLED if np.abs(z).max() < length else Status.DIVERGED

@@ -37,7 +37,6 @@ class Trajectory:
         pressure: of the segments, left first, (T, S) [Pa].
         coordinates: x and z of the left end, slope of the first link, hinge angles, (T, N + 3)
             [m, m, rad ...].
-        velocities: their rates, (T, N + 3).
         contact_left, contact_right: length of side contact, 0 for a tip, (T,) [m].
         left_share: part of a change of separation that the friction law gave to the left end, (T,).
         wall_time: seconds the loop took, assembly and compilation excluded.
@@ -49,7 +48,6 @@ class Trajectory:
     time: Array
     pressure: Array
     coordinates: Array
-    velocities: Array
     contact_left: Array
     contact_right: Array
     left_share: Array
@@ -65,8 +63,9 @@ class Trajectory:
         lengths = link_lengths(self.scene.robot, self.numerics.links)
         slope = np.cumsum(self.coordinates[:, 2:], axis=1)
         start = self.coordinates[:, :2]
-        x = np.cumsum(np.column_stack([start[:, 0], lengths * np.cos(slope)]), axis=1)
-        z = np.cumsum(np.column_stack([start[:, 1], lengths * np.sin(slope)]), axis=1)
+        with np.errstate(invalid="ignore"):  # of a walk that diverged
+            x = np.cumsum(np.column_stack([start[:, 0], lengths * np.cos(slope)]), axis=1)
+            z = np.cumsum(np.column_stack([start[:, 1], lengths * np.sin(slope)]), axis=1)
         return x, z
 
     def to_dataset(self, provenance: dict[str, Any]) -> xr.Dataset:
@@ -83,7 +82,6 @@ class Trajectory:
             "x": (("time", "node"), x, "m", "position of the chain's vertices"),
             "height": (("time", "node"), z, "m", "height of the vertices over flat rest"),
             "coordinates": (("time", "dof"), self.coordinates, "m, m, rad", "generalised"),
-            "velocities": (("time", "dof"), self.velocities, "m/s, m/s, rad/s", "generalised"),
         }
         for name, (dims, values, units, text) in columns.items():
             data[name] = xr.Variable(dims, values, {"units": units, "long_name": text})
@@ -106,7 +104,7 @@ def load(path: Path) -> Trajectory:
     """
     with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as data:
         scene, numerics = configuration(json.loads(data.attrs["provenance"]))
-        fields = ("pressure", "coordinates", "velocities", "contact_left", "contact_right",
+        fields = ("pressure", "coordinates", "contact_left", "contact_right",
                   "left_share")  # fmt: skip
         return Trajectory(
             scene=scene,

@@ -1,84 +1,97 @@
 """The bounds that the simulation applies are those of the theory's friction law."""
 
+from types import SimpleNamespace
+
+import mujoco
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from strategies import surfaces
+from walks import walk
 
 from analytic.chain import node_positions
 from analytic.friction import left_share, sliding_resistance
+from mjsim.assembly import compile_model
 from mjsim.config import Numerics, Scene
 from mjsim.friction import PaperLaw
-
-slopes = st.floats(-0.01, 1.0)
-PASSIVE = np.zeros(3)
-
-
-def ground(links, left, right, push=0.03):
-    """Heights and forces of a strip that touches over lengths left and right from its ends [m].
-
-    The weight of each length and a push where it lifts off, as two forces with the same resultant.
-    """
-    robot = Scene().robot
-    nodes = node_positions(robot, links)
-    z = np.full(links + 2, 1e-3)
-    force = np.zeros(links + 2)
-    for length, inward in ((left, slice(None)), (right, slice(None, None, -1))):
-        z[inward][:2] = -1e-7
-        total = robot.weight_per_length * length + push
-        moment = robot.weight_per_length * length**2 / 2 + push * length
-        force[inward][5] = moment / nodes[5]
-        force[inward][0] = total - moment / nodes[5]
-    z[links // 2] = 2e-3
-    return z, force
-
+from mjsim.sides import Sides
 
 lengths = st.floats(0.0, 0.4).map(lambda part: part * Scene().robot.length)
 
 
-@given(surfaces, slopes, slopes, lengths, lengths)
-def test_bounds_are_the_sliding_resistances_of_the_contacts(surface, left, right, one, other):
+@given(surfaces, lengths, lengths)
+def test_bounds_are_the_sliding_resistances_of_the_contacts(surface, one, other):
     scene = Scene(surface=surface)
-    ends = PaperLaw(scene, Numerics()).ends(left, right, *ground(24, one, other), PASSIVE)
-    contacts = np.array([ends.contact_left, ends.contact_right])
-    hold = sliding_resistance(scene.robot, surface, contacts) * scene.force_scale
+    left, right, both, share = PaperLaw(scene).hold(one, other)
+    hold = sliding_resistance(scene.robot, surface, np.array([one, other])) * scene.force_scale
     if hold[0] == hold[1]:
-        assert (ends.bound_left, ends.bound_right) == (0, 0)
-        assert ends.bound_both == scene.force_scale
+        assert (left, right, both) == (0, 0, scene.force_scale)
     else:
-        assert [ends.bound_left, ends.bound_right] == pytest.approx(hold.tolist())
-        assert ends.bound_both == 0
-    assert ends.left_share == left_share(hold[0], hold[1])
+        assert [left, right] == pytest.approx(hold.tolist())
+        assert both == 0
+    assert share == left_share(hold[0], hold[1])
+
+
+def ground(links, left, right, push=0.03):
+    """Contacts, as MuJoCo gives them, of a strip that touches over two lengths from its ends [m].
+
+    The weight of each length and a push where it lifts off, as two forces with the same resultant.
+    """
+    robot, radius = Scene().robot, Numerics().pad_radius
+    nodes = node_positions(robot, links)
+    z = np.full(links + 2, radius + 1e-3)
+    z[links // 2] += 1e-3
+    force = np.zeros(links + 2)
+    for length, inward in ((left, slice(None)), (right, slice(None, None, -1))):
+        total = robot.weight_per_length * length + push
+        moment = robot.weight_per_length * length**2 / 2 + push * length
+        z[inward][[0, 5]] = radius - 1e-7
+        force[inward][5] = moment / nodes[5]
+        force[inward][0] = total - moment / nodes[5]
+    position = np.column_stack([0 * z, 0 * z, z])
+    rows = np.concatenate([[9.9], force[z < radius]])  # one row of friction before the contacts
+    return SimpleNamespace(geom_xpos=position, efc_force=rows, nf=1)
 
 
 @given(lengths, lengths, st.sampled_from([12, 24, 48]))
 def test_the_length_of_a_side_follows_from_its_forces_between_pads_too(left, right, links):
-    height, force = ground(links, left, right)
-    ends = PaperLaw(Scene(), Numerics(links=links)).ends(0.0, 0.0, height, force, PASSIVE)
+    sides = Sides(Scene(), Numerics(links=links), ground(links, left, right), 0)
     least = node_positions(Scene().robot, links)[1]
-    assert ends.contact_left == pytest.approx(max(left, least), rel=1e-9)
-    assert ends.contact_right == pytest.approx(max(right, least), rel=1e-9)
-
-
-@pytest.mark.parametrize("links", [12, 24, 48, 96])
-def test_an_end_is_a_tip_by_its_angle_whatever_the_links(links):
-    law = PaperLaw(Scene(), Numerics(links=links))
-    angle = Numerics().side_angle
-    touching = ground(links, 0.01, 0.01)
-    assert law.ends(1.01 * angle, 1.0, *touching, PASSIVE).contact_left == 0
-    assert law.ends(0.99 * angle, 1.0, *touching, PASSIVE).contact_left > 0
+    wanted = max(left, least), max(right, least)
+    assert sides.lengths(True, True) == pytest.approx(wanted, rel=1e-9)
+    assert sides.lengths(True, False) == pytest.approx((wanted[0], 0.0), rel=1e-9)
+    assert sides.lengths(False, True) == pytest.approx((0.0, wanted[1]), rel=1e-9)
 
 
 def test_a_strip_wholly_on_the_ground_is_two_equal_sides():
-    ends = PaperLaw(Scene(), Numerics()).ends(0.0, 0.0, np.zeros(26), np.zeros(26), PASSIVE)
-    assert ends.contact_left == ends.contact_right == Scene().robot.length / 2
-    assert ends.left_share == 0.5
+    flat = SimpleNamespace(geom_xpos=np.zeros((26, 3)), efc_force=np.zeros(26), nf=0)
+    half = Scene().robot.length / 2
+    assert Sides(Scene(), Numerics(), flat, 0).lengths(True, True) == (half, half)
 
 
-def test_an_inflated_end_is_a_tip_however_flat_it_looks():
-    law = PaperLaw(Scene(), Numerics())
-    inflated = np.array([1.0, 0.0, 0.0])
-    ends = law.ends(0.0, 0.0, *ground(24, 0.02, 0.02), inflated)
-    assert ends.contact_left == 0
-    assert ends.contact_right > 0
+def test_contacts_are_those_of_the_pads_below_their_radius_in_order():
+    """What Sides counts on instead of asking for the geoms of the contacts."""
+    scene, numerics = Scene(), Numerics()
+    result = walk("felt")
+    model = compile_model(scene, numerics)
+    data = mujoco.MjData(model)
+    first = model.geom("robot/pad_0").id
+    for step in range(0, len(result.time), 7):
+        data.qpos[:] = result.coordinates[step]
+        mujoco.mj_forward(model, data)
+        low = data.geom_xpos[first:, 2][: numerics.links + 2] < numerics.pad_radius
+        assert (data.contact.geom2 - first).tolist() == np.flatnonzero(low).tolist()
+        assert len(data.efc_force) == data.nf + data.ncon
+
+
+def test_an_inflated_end_is_a_tip_and_so_is_a_steep_one():
+    result = walk("felt")
+    slope = result.coordinates[:, 2]
+    before = slice(0, -1)
+    inflated = result.pressure[:, 0] > 0
+    assert (result.contact_left[inflated] == 0).all()
+    steep = np.concatenate([[False], slope[before] > Numerics().side_angle])
+    assert (result.contact_left[steep] == 0).all()
+    flat = np.concatenate([[True], slope[before] <= Numerics().side_angle]) & ~inflated
+    assert (result.contact_left[flat] > 0).all()
