@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from analytic.chain import node_positions
 from analytic.equilibrium import Chain, ChainState
-from analytic.friction import Surface, sliding_resistance
+from analytic.friction import LAWS, Surface, coulomb_resistance, sliding_resistance
 from analytic.touching import side_contact
 
 _STUCK = 1e-9  # separation over L that counts as unchanged
@@ -24,13 +24,19 @@ class Drag:
         chain: it; its tension is set here.
         surface: the ground.
         friction_number: Phi [1].
+        law: of what an end resists by; under "coulomb" V0 is that of a load of half the weight.
     """
 
-    def __init__(self, chain: Chain, surface: Surface, friction_number: float) -> None:
+    def __init__(
+        self, chain: Chain, surface: Surface, friction_number: float, law: str = "paper"
+    ) -> None:
         if not (np.isfinite(friction_number) and friction_number > 0):
             raise ValueError(
                 f"friction_number must be a positive finite number, got {friction_number!r}"
             )
+        if law not in LAWS:
+            raise ValueError(f"law must be one of {', '.join(LAWS)}; got {law!r}")
+        self._law = law
         self._chain, self._surface, self._number = chain, surface, friction_number
         self._nodes = node_positions(chain.robot, chain.links)
 
@@ -69,6 +75,8 @@ class Drag:
         force = chain.ground_force(state)[None, :] * chain.force_unit
         height = state.y[None, :] * robot.length
         ends = side_contact(robot, self._nodes, force, height, chain.pressure[None, :])
-        return self._number * min(
-            float(sliding_resistance(robot, self._surface, end)[0]) for end in ends
-        )
+        if self._law == "coulomb":
+            hold = coulomb_resistance(robot, self._surface, ends, force, height)
+        else:
+            hold = tuple(sliding_resistance(robot, self._surface, end) for end in ends)  # type: ignore[assignment]
+        return self._number * min(float(resistance[0]) for resistance in hold)

@@ -31,6 +31,7 @@ def solve_elastica(
     sealed: bool = False,
     surface: Surface | None = None,
     friction_number: float = 0.0,
+    law: str = "paper",
 ) -> ContactShapes:
     """Equilibria along a path of pressures that starts with the strip flat and without pressure.
 
@@ -40,7 +41,7 @@ def solve_elastica(
         links: of the chain; multiples of 6 are the most accurate. The error falls with its square.
         sealed: bend by the exact law of pneu-nets whose valves close at these pressures (6), not
             by the affine law (9).
-        surface, friction_number: let friction bend the strip, with V0 = Phi D0 / L^2; see
+        surface, friction_number, law: let friction bend the strip, with V0 = Phi D0 / L^2; see
             analytic.drag. Without them no shear acts, the limit of section 2.2.
 
     Returns:
@@ -57,7 +58,7 @@ def solve_elastica(
     if sealed and not segments_fit(robot, links):
         raise ValueError(f"segments must be whole elements for sealed pneu-nets, got links {links}")
     chain = Chain(robot, links, sealed)
-    drag = Drag(chain, surface, friction_number) if surface and friction_number else None
+    drag = Drag(chain, surface, friction_number, law) if surface and friction_number else None
     count = len(p)
     y, theta = np.full((count, links + 2), np.nan), np.full((count, links + 1), np.nan)
     force = np.full((count, links + 2), np.nan)

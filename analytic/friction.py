@@ -1,4 +1,8 @@
-"""The seed's friction law: constant at a tip, by area on a side, and who slides (section 2.2)."""
+"""What the ends resist by, under the seed's law and under Coulomb's, and who slides.
+
+The seed's (section 2.2): constant at a tip, by area on a side, whatever the load. Coulomb's: a
+coefficient of friction of a tip or of a side, times the load.
+"""
 
 import math
 from dataclasses import dataclass
@@ -9,6 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 from analytic.robot import Robot
 
 Array = NDArray[np.float64]
+
+LAWS = ("paper", "coulomb")
 
 
 @dataclass(frozen=True)
@@ -63,6 +69,34 @@ def sliding_resistance(robot: Robot, surface: Surface, contact_length: ArrayLike
     """
     length = np.asarray(contact_length, dtype=float)
     return np.where(length > 0, surface.area * length / robot.segment_length, surface.tip)
+
+
+def coulomb_resistance(
+    robot: Robot, surface: Surface, contacts: tuple[Array, Array], force: Array, height: Array
+) -> tuple[Array, Array]:
+    """Resistance mu N of the left and the right end, in units of V0 at half the weight.
+
+    N is the ground's force on an end's part of the strip, either side of the highest node, and mu
+    the surface's `tip` or `area` number, read as coefficients of friction of a tip and of a side.
+
+    Args:
+        robot, surface: the scene.
+        contacts: lengths of side contact at the two ends, (B,) each [m].
+        force: of the ground on each of S nodes, (B, S) [N].
+        height: of each, (B, S) [m].
+
+    Returns:
+        Two arrays of shape (B,) [V0].
+    """
+    half_weight = 0.5 * robot.weight_per_length * robot.length
+    first = np.arange(force.shape[1]) <= np.argmax(np.nan_to_num(height), axis=1)[:, None]
+    loads = (np.where(side, force, 0.0).sum(axis=1) / half_weight for side in (first, ~first))
+    left, right = (
+        load * np.where(contact > 0, surface.area, surface.tip)
+        for load, contact in zip(loads, contacts, strict=True)
+    )
+    # an end that carries less by rounding only is no weaker
+    return left, np.where(np.isclose(left, right, rtol=1e-9, atol=0), left, right)
 
 
 def left_share(resistance_left: ArrayLike, resistance_right: ArrayLike) -> Array:

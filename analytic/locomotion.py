@@ -5,13 +5,18 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction import Surface, left_share, sliding_resistance
+from analytic.friction import (
+    LAWS,
+    Surface,
+    coulomb_resistance,
+    left_share,
+    sliding_resistance,
+)
 from analytic.shapes import ContactShapes, Shapes
 
 Array = NDArray[np.float64]
 Direction = Literal["forward", "backward", "none"]
 
-LAWS = ("paper", "coulomb")
 STANDSTILL = 0.005  # |Delta|/L below which a cycle counts as no travel; chosen, 0.65 mm on 130 mm
 
 
@@ -61,9 +66,7 @@ def locomotion(shapes: Shapes, surface: Surface, cycles: int = 1, law: str = "pa
 def anchor_share(shapes: Shapes, surface: Surface, law: str = "paper") -> Array:
     """Part of a change of separation that the left end takes up at each state, (B,): 0, 1/2, 1.
 
-    Under "paper" an end resists by V_t or tau A. Under "coulomb" it resists by mu N, with N the
-    ground's force on its half of the strip (either side of the highest node) and mu the surface's
-    `tip` or `area` number, read as coefficients of friction of a tip and of a side.
+    Under "paper" an end resists by V_t or tau A, under "coulomb" by mu N; see analytic.friction.
     """
     if law not in LAWS:
         raise ValueError(f"law must be one of {', '.join(LAWS)}; got {law!r}")
@@ -73,15 +76,19 @@ def anchor_share(shapes: Shapes, surface: Surface, law: str = "paper") -> Array:
     if not isinstance(shapes, ContactShapes):
         raise ValueError("law 'coulomb' needs contact forces, which the modes do not give")
     _, y = shapes.curve(shapes.nodes)
-    first_half = np.arange(len(shapes.nodes)) <= np.argmax(np.nan_to_num(y), axis=1)[:, None]
-    loads = [np.where(half, shapes.force, 0).sum(axis=1) for half in (first_half, ~first_half)]
-    hold = [
-        load * np.where(end > 0, surface.area, surface.tip)
-        for load, end in zip(loads, ends, strict=True)
-    ]
-    # an end that carries less by rounding only is no weaker
-    even = np.isclose(hold[0], hold[1], rtol=1e-9, atol=0)
-    return np.where(even, 0.5, left_share(hold[0], hold[1]))
+    return left_share(*coulomb_resistance(shapes.robot, surface, ends, shapes.force, y))
+
+
+def undecided(shapes: Shapes, surface: Surface, cycles: int = 1, law: str = "coulomb") -> float:
+    """How much of a displacement per cycle the law leaves open, either way [m].
+
+    Where both ends resist alike, by nothing or to the last digit, Coulomb's law does not say which
+    one slides: the whole change of separation may be the left end's or the right end's, and
+    `locomotion` takes half. The paper's law decides so by rule.
+    """
+    share = anchor_share(shapes, surface, law)
+    tied = (share[1:] == 0.5) & (share[:-1] == 0.5)
+    return float(0.5 * np.abs(np.diff(shapes.separation))[tied].sum() / cycles)
 
 
 def direction(displacement: float, length: float) -> Direction:

@@ -1,6 +1,7 @@
 """How far a robot goes in a cycle, by any rung, with the changes of anchor resolved."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -51,6 +52,8 @@ def predict(
     n_per_leg: int = 50,
     refinement: int = 32,
     solver: Solver | None = None,
+    law: str = "paper",
+    friction_number: float = 0.0,
 ) -> Prediction:
     """Walk one cycle quasi-statically.
 
@@ -63,16 +66,23 @@ def predict(
         n_per_leg: states per ramp of the gait in the first pass.
         refinement: parts of an increment in which the anchor changes.
         solver: used instead of the rung's own, for instance with more links.
+        law: of friction, see analytic.friction; "coulomb" needs a rung that knows forces.
+        friction_number: Phi, where friction is to bend the strip as well; elastica only.
 
     Raises:
-        ValueError: there is no such rung, or the gait is divided into no states.
+        ValueError: there is no such rung or law, the rung does not know what it needs for them, or
+            the gait is divided into no states.
     """
     if rung not in RUNGS:
         raise ValueError(f"rung must be one of {', '.join(RUNGS)}; got {rung!r}")
+    if friction_number and rung != "elastica":
+        raise ValueError(f"friction bends the strip in elastica only, not in {rung}")
     solve = solver or RUNGS[rung]
+    if friction_number:
+        solve = partial(solve_elastica, surface=surface, friction_number=friction_number, law=law)
     path = robot.peak_pressure * gait.pressures(n_per_leg)
     shapes = solve(robot, path)
-    changes = np.flatnonzero(np.diff(anchor_share(shapes, surface)))
+    changes = np.flatnonzero(np.diff(anchor_share(shapes, surface, law)))
     if len(changes) and refinement > 1:
         part = np.linspace(0, 1, refinement + 1)[1:-1, None]
         between = [path[i] + part * (path[i + 1] - path[i]) for i in changes]
@@ -81,4 +91,4 @@ def predict(
         )
         shapes = solve(robot, path)
     flags = Status(int(np.bitwise_or.reduce(shapes.status)))
-    return Prediction(path, shapes, locomotion(shapes, surface), flags)
+    return Prediction(path, shapes, locomotion(shapes, surface, law=law), flags)

@@ -35,7 +35,7 @@ class Options:
     gait: str = "all"
     """wave, full-wave, pulse, or all"""
     rung: str = "all"
-    """modes, obstacle, elastica, planar, or all"""
+    """modes, obstacle, elastica, planar, cable, rod, or all"""
     reverse: bool = False
     """run the gaits backwards too"""
     pressure: float = Robot().peak_pressure

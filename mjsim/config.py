@@ -6,8 +6,8 @@ from dataclasses import dataclass, field, fields
 from analytic import GAITS, SURFACES, Gait, Robot, Surface, pneunet
 
 MIN_LINKS, MAX_LINKS = 6, 384
-BODIES = ("planar",)
-FRICTION_LAWS = ("paper",)
+BODIES = ("planar", "cable", "rod")
+FRICTION_LAWS = ("paper", "coulomb")
 
 
 @dataclass(frozen=True)
@@ -53,6 +53,14 @@ class Scene:
         return self.friction_number * pneunet.base_rigidity(self.robot) / self.robot.length**2
 
     @property
+    def friction_scale(self) -> float:
+        """mu0, the coefficient of friction that the Coulomb law multiplies V_t and tau by [1].
+
+        An end that carries half the weight then resists by V0 V_t, as under the paper's law.
+        """
+        return self.force_scale / (0.5 * self.robot.weight_per_length * self.robot.length)
+
+    @property
     def duration(self) -> float:
         """Simulated time, settling included [s]."""
         return self.settle_time + self.cycles * self.gait.period
@@ -60,7 +68,7 @@ class Scene:
 
 @dataclass(frozen=True)
 class Numerics:
-    """How a planar chain is discretised and integrated.
+    """How a body is discretised and integrated.
 
     Raises:
         ValueError: a value is out of its range; the message names it and the valid ones.
@@ -74,6 +82,9 @@ class Numerics:
     steep_contact_time: float = 2.0  # that of an end steeper than steep_angle [timestep]; chosen
     steep_angle: float = 0.3  # rad; chosen
     pad_radius: float = 1e-3  # of the contact pads, centred on the neutral line [m]; chosen
+    impratio: float = 100.0  # of the Coulomb law: firmness of friction over the normal; chosen
+    contact_depth: float = 4e-5  # of its contacts, in which they grow firm [m]; chosen
+    edge_time: float = 0.5  # time constant of the rod's edges, critically damped [timestep]; chosen
 
     def __post_init__(self) -> None:
         links = self.links
@@ -86,6 +97,19 @@ class Numerics:
                 _positive(item.name, getattr(self, item.name))
         if self.timestep > 0.1:
             raise ValueError(f"timestep must be at most 0.1 s, got {self.timestep!r}")
+
+
+def default_numerics(body: str = "planar", law: str = "paper") -> Numerics:
+    """What a body and a friction law are simulated with unless something else is asked for.
+
+    Links of the cable have a width to shake by: its steep ends need a softer ground. Coulomb's
+    friction acts at the bottom of a pad, so its pads are points: no lever arm.
+    """
+    return Numerics(
+        timestep=0.005 if law == "coulomb" else Numerics.timestep,
+        steep_contact_time=4.0 if body == "cable" else Numerics.steep_contact_time,
+        pad_radius=1e-5 if law == "coulomb" else Numerics.pad_radius,
+    )
 
 
 def _choose(name: str, value: str, valid: tuple[str, ...]) -> None:

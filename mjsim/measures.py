@@ -1,5 +1,6 @@
-"""Numbers of one walk: how far, which way, how high, and how much of it was slip."""
+"""Numbers of one walk: how far, which way, how high, how straight, and how much was slip."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -10,13 +11,16 @@ from mjsim.trajectory import Status, Trajectory
 
 class Measures(NamedTuple):
     """Attributes, lengths over L: displacement of the left end per cycle; its direction; greatest
-    height; slip, the displacement per cycle that the anchor rule does not account for.
+    height; slip, the displacement per cycle that the anchor rule does not account for; the angle
+    it turned by to the left [rad]; and how far any of it ever was beside its plane.
     """
 
     displacement: float
     direction: Direction
     amplitude: float
     slip: float
+    heading: float
+    sideways: float
 
 
 def measure(walk: Trajectory) -> Measures | None:
@@ -34,9 +38,12 @@ def measure(walk: Trajectory) -> Measures | None:
     change = np.diff(x[begin:, -1] - left)
     ruled = -float(walk.left_share[begin + 1 :] @ change)
     travel = float(left[-1] - left[0])
+    along, aside, _ = walk.position[-1, -1] - walk.position[-1, 0]
     return Measures(
         displacement=travel / (cycles * length),
         direction=direction(travel / cycles, length),
         amplitude=float(z[begin:].max()) / length,
         slip=(travel - ruled) / (cycles * length),
+        heading=math.atan2(aside, along),
+        sideways=float(np.abs(walk.position[..., 1]).max()) / length,
     )

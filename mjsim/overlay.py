@@ -3,7 +3,7 @@
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from mjsim.assembly import DARK, PALE
+from mjsim.mjcf_parts import DARK, PALE
 from mjsim.render import Frame
 from mjsim.trajectory import Trajectory
 
@@ -24,7 +24,7 @@ class Overlay:
         self._walk, self._scale = walk, scale
         self._big = ImageFont.load_default(round(30 * scale))
         self._small = ImageFont.load_default(round(21 * scale))
-        self._start = float(walk.coordinates[walk.start, 0])
+        self._start = float(walk.position[walk.start, 0, 0])
 
     def draw(self, frame: Frame, step: int) -> Frame:
         """A copy of the frame with the state after a step written on it."""
@@ -37,7 +37,7 @@ class Overlay:
         pen.text((edge, top + 38 * u), f"gait {walk.scene.gait.name}   t = {time:4.1f} s",
                  font=self._small, fill=_INK)  # fmt: skip
         self._pressures(pen, edge + 310 * u, top, step)
-        moved = float(walk.coordinates[step, 0]) - self._start
+        moved = float(walk.position[step, 0, 0]) - self._start
         right = picture.width - edge
         share = moved / walk.scene.robot.length
         moved = 0.0 if abs(moved) < 5e-5 else moved  # no minus before a zero

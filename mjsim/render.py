@@ -1,12 +1,14 @@
 """Pictures of a walk: MuJoCo's renderer posed from a trajectory, no simulation in it."""
 
+from dataclasses import replace
 from types import TracebackType
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from mjsim.assembly import DARK, PALE, compile_model
+from mjsim.assembly import compile_model
+from mjsim.mjcf_parts import DARK, PALE
 from mjsim.trajectory import Trajectory
 
 Frame = NDArray[np.uint8]
@@ -15,7 +17,9 @@ _POINTER = (0.10, 0.30, 0.75, 1.0)  # the left end now, beside the red mark of i
 
 
 class Camera:
-    """Draws one walk; close it, or use it in a `with`, as it holds an OpenGL context.
+    """Draws one walk, of any body by its trace in the x-z plane.
+
+    Close it, or use it in a `with`, as it holds an OpenGL context.
 
     Args:
         walk: what to draw.
@@ -25,7 +29,8 @@ class Camera:
 
     def __init__(self, walk: Trajectory, width: int, height: int, view: str = "side") -> None:
         self._walk, self._view = walk, view
-        self._model = compile_model(walk.scene, walk.numerics)
+        drawn_as = replace(walk.scene, body="planar", friction="paper")
+        self._model = compile_model(drawn_as, walk.numerics)
         self._data = mujoco.MjData(self._model)
         self._renderer = mujoco.Renderer(self._model, height, width)
         self._options = mujoco.MjvOption()
@@ -51,7 +56,9 @@ class Camera:
     def frame(self, step: int) -> Frame:
         """The walk after a step, shape (height, width, 3)."""
         walk, model, data = self._walk, self._model, self._data
-        data.qpos[:] = walk.coordinates[step]
+        x, _, z = walk.position[step, 0]
+        slopes = walk.slopes(step)
+        data.qpos[:] = (x, z, slopes[0], *np.diff(slopes))
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
         mujoco.mj_camlight(model, data)
@@ -60,7 +67,7 @@ class Camera:
         for segment in range(len(fraction)):
             model.skin_rgba[segment] = pale + fraction[segment] * (dark - pale)
         self._renderer.update_scene(data, self._view, self._options)
-        self._point_at(float(walk.coordinates[step, 0]))
+        self._point_at(float(x))
         return self._renderer.render()
 
     def _point_at(self, x: float) -> None:

@@ -1,18 +1,30 @@
 """A walk beside its prediction, as one flat record and as text."""
 
+import math
 from typing import Any
 
 from analytic import REFERENCE, direction, predict
+from analytic.locomotion import undecided
 from mjsim.measures import measure
 from mjsim.trajectory import Trajectory
+
+_OPEN = 1e-4  # of the length: less is a rounding
 
 
 def record(walk: Trajectory) -> dict[str, Any]:
     """The run as plain data; quantities that do not exist are None, never a number."""
     scene, numerics = walk.scene, walk.numerics
-    prediction = predict(scene.robot, scene.gait, scene.surface, REFERENCE)
+    coulomb = scene.friction == "coulomb"
+    prediction = predict(
+        scene.robot,
+        scene.gait,
+        scene.surface,
+        law=scene.friction,
+        friction_number=scene.friction_number if coulomb else 0.0,
+    )
     predicted = prediction.locomotion.per_cycle / scene.robot.length
     known = predicted == predicted  # not NaN
+    tied = undecided(prediction.shapes, scene.surface) / scene.robot.length if coulomb else 0.0
     measured = measure(walk)
     simulated = float(len(walk.time) * numerics.timestep)
     return {
@@ -29,9 +41,12 @@ def record(walk: Trajectory) -> dict[str, Any]:
         "predicted_by": REFERENCE,
         "predicted_displacement_over_L": predicted if known else None,
         "predicted_direction": direction(predicted, 1.0) if known else None,
+        "prediction_undecided_over_L": tied,
         "prediction_flags": [flag.name for flag in prediction.flags],
         "error_over_L": measured.displacement - predicted if measured and known else None,
         "slip_over_L": measured and measured.slip,
+        "heading_deg": measured and math.degrees(measured.heading),
+        "sideways_over_L": measured and measured.sideways,
         "amplitude_over_L": measured and measured.amplitude,
         "sim_time_s": simulated,
         "wall_time_s": walk.wall_time,
@@ -61,8 +76,10 @@ def _line(row: dict[str, Any]) -> str:
 
 def _flags(row: dict[str, Any]) -> str:
     """What the reference met on its way, where it met anything."""
-    met = ", ".join(flag.lower() for flag in row["prediction_flags"])
-    return f" ({row['predicted_by']}: {met})" if met else ""
+    met = [flag.lower() for flag in row["prediction_flags"]]
+    if row["prediction_undecided_over_L"] > _OPEN:
+        met.append(f"undecided by ±{row['prediction_undecided_over_L']:.3f}")
+    return f" ({row['predicted_by']}: {', '.join(met)})" if met else ""
 
 
 def _signed(value: float | None) -> str:

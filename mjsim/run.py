@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from analytic import GAITS, SURFACES, Robot
 from mjsim import gl
 from mjsim.cli import ALL, FAILED, bar, choose, fail, parse
-from mjsim.config import Numerics, Scene
+from mjsim.config import Numerics, Scene, default_numerics
 
 if TYPE_CHECKING:
     from mjsim.trajectory import Trajectory
@@ -42,9 +42,10 @@ class Options:
     pressure: float = Robot().peak_pressure
     """peak pressure of a segment [Pa]"""
     body: str = "planar"
-    """model of the strip: planar, a chain of hinged links"""
+    """model of the strip: planar, a chain of hinged links; cable, links with ball joints in space;
+    rod, point masses in space"""
     friction: str = "paper"
-    """friction law: paper, constant at a tip and by area on a side"""
+    """friction law: paper, constant at a tip and by area on a side; coulomb, by load"""
     links: int = Numerics().links
     """length of a link is the strip's over this; multiples of 6 are the most accurate"""
     timestep: float = Numerics().timestep
@@ -61,7 +62,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv)
     try:
-        scenes, numerics = _scenes(options), Numerics(options.links, options.timestep)
+        scenes = _scenes(options)
+        numerics = replace(default_numerics(options.body, options.friction), links=options.links,
+                           timestep=options.timestep)  # fmt: skip
         _check_folder(options.out)
     except ValueError as error:
         fail(PROGRAM, str(error))
@@ -142,9 +145,10 @@ def _film(walks: "list[Trajectory]", path: Path) -> Path:
 
 
 def _name(scene: Scene, surface: str | None = None) -> str:
-    """File name of a run: the surface, and the gait where it is not the default."""
-    name = surface or scene.surface.name
-    return name if scene.gait.name == Options.gait else f"{name}-{scene.gait.name}"
+    """File name of a run: the surface, and what of the scene is not the default."""
+    parts = {"gait": scene.gait.name, "body": scene.body, "friction": scene.friction}
+    other = [value for key, value in parts.items() if value != getattr(Options, key)]
+    return "-".join([surface or scene.surface.name, *other])
 
 
 def _obituary(walk: "Trajectory", path: Path) -> str:

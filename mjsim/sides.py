@@ -6,6 +6,7 @@ its side, over a length that follows from the ground's forces, finer than the pa
 """
 
 import math
+import re
 
 import mujoco
 import numpy as np
@@ -22,18 +23,23 @@ class Sides:
 
     Args:
         scene, numerics: what is simulated.
-        data: its state; the strip's first pad is the geom `first_pad`, the others follow in order,
-            and each that is lower than its radius has one contact, frictionless.
+        model, data: as compiled. The pads follow each other in order of their nodes, and each that
+            is lower than its radius has one contact.
     """
 
     def __init__(
-        self, scene: Scene, numerics: Numerics, data: mujoco.MjData, first_pad: int
+        self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         self._data = data
         self._length, self._weight = scene.robot.length, scene.robot.weight_per_length
-        self._nodes: list[float] = node_positions(scene.robot, numerics.links).tolist()
+        nodes = node_positions(scene.robot, numerics.links)
+        first, *others = pads_of(model, 0)
+        abreast = 1 + len(others)
+        self._first_link = float(nodes[1])
+        self._nodes: list[float] = np.repeat(nodes, abreast).tolist()
         self._radius = numerics.pad_radius
-        self._heights = data.geom_xpos[first_pad : first_pad + len(self._nodes), 2]
+        self._heights = data.geom_xpos[first : first + len(self._nodes), 2]
+        self._rows = 3 if scene.friction == "coulomb" else 1  # the normal's comes first
 
     def lengths(self, left: bool, right: bool) -> tuple[float, float]:
         """Lengths of side contact of the ends that may have one, 0 of the others [m]."""
@@ -42,7 +48,7 @@ class Sides:
         if top <= self._radius:
             half = 0.5 * self._length
             return half * left, half * right
-        force = data.efc_force[data.nf :].tolist()
+        force = data.efc_force[data.ne + data.nf :: self._rows].tolist()
         one = self._length_of(heights, force, top) if left else 0.0
         if not right:
             return one, 0.0
@@ -68,4 +74,12 @@ class Sides:
                 break
         root = total * total - 2.0 * self._weight * moment
         length = (total - math.sqrt(root if root > 0.0 else 0.0)) / self._weight
-        return length if length > nodes[1] else nodes[1]
+        return length if length > self._first_link else self._first_link
+
+
+def pads_of(model: mujoco.MjModel, node: int) -> list[int]:
+    """Geoms of the contact pads of one node, side by side, in order."""
+    body = model.geom_bodyid[model.geom(f"robot/pad_{node}").id]
+    name = re.compile(rf"robot/pad_{node}(_\d+)?")
+    begin, count = int(model.body_geomadr[body]), int(model.body_geomnum[body])
+    return [i for i in range(begin, begin + count) if name.fullmatch(model.geom(i).name)]

@@ -1,4 +1,4 @@
-"""The planar rung: a scene stepped in MuJoCo."""
+"""A scene stepped in MuJoCo."""
 
 import time as clock
 from collections.abc import Callable
@@ -8,19 +8,18 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.chain import joint_springs
-from mjsim.assembly import TENDONS, compile_model
-from mjsim.config import Numerics, Scene
-from mjsim.friction import PaperLaw
-from mjsim.sides import Sides
+from mjsim.assembly import BODY_MODULES, compile_model
+from mjsim.config import Numerics, Scene, default_numerics
+from mjsim.friction import friction
+from mjsim.sides import pads_of
 from mjsim.trajectory import Status, Trajectory
 
 Array = NDArray[np.float64]
 
 _FALLEN = 0.1  # an end this far off the ground, over L, is no foot any more; chosen
+_ASIDE = 0.02  # a vertex this far off the plane, over L, has left it; chosen
 _REPORT_EVERY = 256  # steps between progress reports
 _TOUCH = 1e-6  # how deep the strip starts in the ground, over L: a contact at 0 is not seen; chosen
-_TIPS = (0.0, 0.0)  # side contact of two tips
 
 
 def schedule(scene: Scene, numerics: Numerics) -> tuple[Array, Array]:
@@ -42,71 +41,52 @@ def simulate(
     """Let the strip settle and walk its cycles.
 
     Args:
+        scene: the walk.
+        numerics: how it is discretised; `default_numerics` if None.
         progress: called now and then with the number of steps done since the last call.
 
     Returns:
         The trajectory; look at its status before any number of it.
     """
-    numerics = numerics or Numerics()
+    numerics = numerics or default_numerics(scene.body, scene.friction)
     model = compile_model(scene, numerics)
     data = mujoco.MjData(model)
-    data.qpos[1] = -_TOUCH * scene.robot.length
+    start = model.body("robot/")
+    model.body_pos[start.id, 2] -= _TOUCH * scene.robot.length
     mujoco.mj_forward(model, data)
-    robot, links, dt = scene.robot, numerics.links, numerics.timestep
 
     time, pressure = schedule(scene, numerics)
-    stiffness, rest = joint_springs(robot, links, pressure)
-    passive = (pressure == 0).tolist()
-    steps = len(time)
-    coordinates = np.empty((steps, links + 3))
-    contact: list[tuple[float, float]] = []
-    shares: list[float] = []
+    drive = BODY_MODULES[scene.body].Drive(model, data, scene, numerics, pressure)
+    passive = [(state[0], state[-1]) for state in (pressure == 0).tolist()]
+    hold = friction(scene, numerics, model, data, drive.slopes, passive)
+    coordinates = np.empty((len(time), model.nq))
+    held = []
 
-    # the model's joints are x, z, pitch, then the hinges, each with one coordinate
-    spring_k, spring_rest = model.jnt_stiffness[3:], model.qpos_spring[3:]
-    plan = [
-        (k, angle, state[0], state[-1])
-        for k, angle, state in zip(stiffness, rest, passive, strict=True)
-    ]
-    bounds = model.tendon_frictionloss
-    left, right, both = (model.tendon(f"robot/{name}").id for name in TENDONS)
-    first, last = (model.geom(f"robot/pad_{pad}").id for pad in (0, links + 1))
-    softness, height = model.geom_solref, data.geom_xpos[:, 2]
-    firm, soft = dt * numerics.contact_time, dt * numerics.steep_contact_time
-    steep, flat = numerics.steep_angle, numerics.side_angle
-    law, sides = PaperLaw(scene), Sides(scene, numerics, data, first)
-    qpos, angles, add_up = data.qpos, data.qpos[2:], np.ones(links + 1).dot
-    tendon, rate, step_model = data.ten_length, data.ten_velocity, mujoco.mj_step
-    low, high = (numerics.pad_radius + sign * _FALLEN * robot.length for sign in (-1, 1))
-    step, share, at, lengths = -1, 0.0, tendon.item(right), (-1.0, -1.0)
+    set_springs, shift, qpos, dt = drive.set, drive.shift, data.qpos, numerics.timestep
+    right = model.tendon("robot/right").id
+    length, rate, step_model = data.ten_length, data.ten_velocity, mujoco.mj_step
+    first, last = (pads_of(model, node)[0] for node in (0, numerics.links + 1))
+    height = data.geom_xpos[:, 2]
+    low, high = (numerics.pad_radius + sign * _FALLEN * scene.robot.length for sign in (-1, 1))
+    step, share, at = -1, 0.0, length.item(right)
 
     started = clock.perf_counter()
-    for step, (k, angle, may_left, may_right) in enumerate(plan):
-        spring_k[:], spring_rest[:] = k, angle
-        slope_left, slope_right = angles.item(0), -add_up(angles)
-        softness[first, 0] = soft if slope_left > steep else firm
-        softness[last, 0] = soft if slope_right > steep else firm
-        side_left = may_left and slope_left <= flat
-        side_right = may_right and slope_right <= flat
-        now = sides.lengths(side_left, side_right) if side_left or side_right else _TIPS
-        if now != lengths:
-            lengths = now
-            bounds[left], bounds[right], bounds[both], new_share = law.hold(*now)
-
+    for step in range(len(time)):
+        set_springs(step)
+        now = hold(step)
         step_model(model, data)
 
         # The left end's x is a coordinate, integrated exactly; the right end's is integrated to
         # first order only, since a turning hinge moves it on a circle. The excess of the last step
         # over dt times its velocity at the step's start, which is dt v - dx with the velocity at
         # its end, would be slip of an anchor that friction holds: give it to the end that slid.
-        before, at = at, tendon.item(right)
+        before, at = at, length.item(right)
         excess = share * (dt * rate.item(right) - (at - before))
-        qpos[0] -= excess
+        shift(excess)
         at -= excess
-        share = new_share
+        share = now.left_share
         coordinates[step] = qpos
-        contact.append(now)
-        shares.append(share)
+        held.append(now)
         if not (low < height.item(first) < high and low < height.item(last) < high):
             break
         if progress and step % _REPORT_EVERY == _REPORT_EVERY - 1:
@@ -114,7 +94,7 @@ def simulate(
     wall_time = clock.perf_counter() - started
 
     done = slice(0, step + 1)
-    contact_left, contact_right = np.array(contact).T
+    contact_left, contact_right, left_share = np.array(held).T
     walk = Trajectory(
         scene=scene,
         numerics=numerics,
@@ -122,17 +102,36 @@ def simulate(
         time=time[done],
         pressure=pressure[done],
         coordinates=coordinates[done],
+        position=_positions(model, data, numerics, coordinates[done]),
         contact_left=contact_left,
         contact_right=contact_right,
-        left_share=np.array(shares),
+        left_share=left_share,
         wall_time=wall_time,
     )
     return replace(walk, status=_status(walk))
 
 
+def _positions(
+    model: mujoco.MjModel, data: mujoco.MjData, numerics: Numerics, coordinates: Array
+) -> Array:
+    """Vertices of the neutral line at each state, z over flat rest, (T, N + 2, 3) [m]."""
+    first = int(model.geom("robot/pad_0").bodyid[0])
+    links, end = slice(first, first + numerics.links + 1), model.site("robot/end_right").id
+    position = np.empty((len(coordinates), numerics.links + 2, 3))
+    for state, place in zip(coordinates, position, strict=True):
+        data.qpos[:] = state
+        mujoco.mj_kinematics(model, data)
+        place[:-1], place[-1] = data.xpos[links], data.site_xpos[end]
+    position[..., 2] -= numerics.pad_radius
+    return position
+
+
 def _status(walk: Trajectory) -> Status:
-    """How the walk ended, by its last state."""
-    z, length = walk.nodes()[1][-1], walk.scene.robot.length
-    if np.abs(z[[0, -1]]).max() < _FALLEN * length:
-        return Status.OK
-    return Status.TOPPLED if np.abs(z).max() < length else Status.DIVERGED
+    """How the walk ended, by its last state, and whether it ever left the plane."""
+    length = walk.scene.robot.length
+    z = walk.position[-1, :, 2]
+    if not np.abs(z).max() < length:
+        return Status.DIVERGED
+    if not np.abs(walk.position[..., 1]).max() < _ASIDE * length:
+        return Status.TURNED
+    return Status.OK if np.abs(z[[0, -1]]).max() < _FALLEN * length else Status.TOPPLED

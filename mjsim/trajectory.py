@@ -10,7 +10,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from analytic.chain import link_lengths
 from mjsim.config import Numerics, Scene
 from mjsim.files import whole
 from mjsim.provenance import configuration
@@ -24,6 +23,7 @@ class Status(StrEnum):
     OK = "ok"
     DIVERGED = "diverged"  # a coordinate left the range that any walk can have, or is not finite
     TOPPLED = "toppled"  # an end left the ground: the strip fell over or rolled up
+    TURNED = "turned"  # it left its plane: turned away or fell sideways
 
 
 @dataclass(frozen=True)
@@ -35,8 +35,10 @@ class Trajectory:
         status: OK, or why it stopped; then the last rows lead up to the failure.
         time: end of each step since the first cycle began, negative while settling, (T,) [s].
         pressure: of the segments, left first, (T, S) [Pa].
-        coordinates: x and z of the left end, slope of the first link, hinge angles, (T, N + 3)
-            [m, m, rad ...].
+        coordinates: MuJoCo's generalised coordinates, (T, nq). For the planar body x and z of the
+            left end, slope of the first link, hinge angles, (T, N + 3) [m, m, rad ...].
+        position: of the neutral line's vertices, left end first, z over flat rest,
+            (T, N + 2, 3) [m].
         contact_left, contact_right: length of side contact, 0 for a tip, (T,) [m].
         left_share: part of a change of separation that the friction law gave to the left end, (T,).
         wall_time: seconds the loop took, assembly and compilation excluded.
@@ -48,6 +50,7 @@ class Trajectory:
     time: Array
     pressure: Array
     coordinates: Array
+    position: Array
     contact_left: Array
     contact_right: Array
     left_share: Array
@@ -59,14 +62,13 @@ class Trajectory:
         return int(np.searchsorted(self.time, 0.0, side="right")) - 1
 
     def nodes(self) -> tuple[Array, Array]:
-        """(x, z) of the chain's vertices, left end first, each (T, N + 2) [m]."""
-        lengths = link_lengths(self.scene.robot, self.numerics.links)
-        slope = np.cumsum(self.coordinates[:, 2:], axis=1)
-        start = self.coordinates[:, :2]
-        with np.errstate(invalid="ignore"):  # of a walk that diverged
-            x = np.cumsum(np.column_stack([start[:, 0], lengths * np.cos(slope)]), axis=1)
-            z = np.cumsum(np.column_stack([start[:, 1], lengths * np.sin(slope)]), axis=1)
-        return x, z
+        """(x, z) of the vertices, left end first, each (T, N + 2) [m]."""
+        return self.position[..., 0], self.position[..., 2]
+
+    def slopes(self, step: int) -> Array:
+        """Direction of each link in the x-z plane after a step, (N + 1,) [rad]."""
+        x, _, z = np.diff(self.position[step], axis=0).T
+        return np.unwrap(np.arctan2(z, x))
 
     def to_dataset(self, provenance: dict[str, Any]) -> xr.Dataset:
         """The walk with units; `provenance` is kept as JSON in the attributes."""
@@ -81,7 +83,8 @@ class Trajectory:
             "left_share": (("time",), self.left_share, "1", "left end's part of a change, by rule"),
             "x": (("time", "node"), x, "m", "position of the chain's vertices"),
             "height": (("time", "node"), z, "m", "height of the vertices over flat rest"),
-            "coordinates": (("time", "dof"), self.coordinates, "m, m, rad", "generalised"),
+            "y": (("time", "node"), self.position[..., 1], "m", "out of the plane of the gait"),
+            "coordinates": (("time", "dof"), self.coordinates, "m, rad, 1", "generalised"),
         }
         for name, (dims, values, units, text) in columns.items():
             data[name] = xr.Variable(dims, values, {"units": units, "long_name": text})
@@ -111,6 +114,7 @@ def load(path: Path) -> Trajectory:
             numerics=numerics,
             status=Status(data.attrs["status"]),
             time=data["time"].values,
+            position=np.stack([data[name].values for name in ("x", "y", "height")], axis=-1),
             wall_time=float(data["wall_time"]),
             **{name: data[name].values for name in fields},
         )

@@ -41,7 +41,7 @@ def make() -> xr.Dataset:
         walk = simulate(Scene(robot, gait, surface))
         steps = np.clip(np.searchsorted(walk.time, moments * _LEG_TIME), 0, len(walk.time) - 1)
         nodes = np.stack(walk.nodes())[:, steps]
-        nodes[0] -= walk.coordinates[walk.start, 0]
+        nodes[0] -= walk.position[walk.start, 0, 0]
         simulated.append(nodes)
     return xr.Dataset(
         {

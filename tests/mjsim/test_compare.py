@@ -49,7 +49,7 @@ def test_a_rung_without_an_answer_says_why(capsys):
 @pytest.mark.parametrize(
     ("words", "valid"),
     [(["--surface", "ice"], "felt"), (["--gait", "wave,trot"], "pulse"),
-     (["--rung", "cable"], "planar"), (["--pressure", "1e9"], "78863"),
+     (["--rung", "string"], "planar"), (["--pressure", "1e9"], "78863"),
      (["--pressure", "-1"], "positive")],
 )  # fmt: skip
 def test_bad_input_gets_one_line_and_exit_2(capsys, words, valid):

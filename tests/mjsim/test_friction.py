@@ -17,6 +17,17 @@ from mjsim.config import Numerics, Scene
 from mjsim.friction import PaperLaw
 from mjsim.sides import Sides
 
+
+class PADS:
+    """As much of a model as tells that the first pad is the first geom, and alone at its node."""
+
+    geom_bodyid, body_geomadr, body_geomnum = (0,), (0,), (1,)
+
+    @staticmethod
+    def geom(which):
+        return SimpleNamespace(id=0, name="robot/pad_0")
+
+
 lengths = st.floats(0.0, 0.4).map(lambda part: part * Scene().robot.length)
 
 
@@ -51,12 +62,12 @@ def ground(links, left, right, push=0.03):
         force[inward][0] = total - moment / nodes[5]
     position = np.column_stack([0 * z, 0 * z, z])
     rows = np.concatenate([[9.9], force[z < radius]])  # one row of friction before the contacts
-    return SimpleNamespace(geom_xpos=position, efc_force=rows, nf=1)
+    return SimpleNamespace(geom_xpos=position, efc_force=rows, ne=0, nf=1)
 
 
 @given(lengths, lengths, st.sampled_from([12, 24, 48]))
 def test_the_length_of_a_side_follows_from_its_forces_between_pads_too(left, right, links):
-    sides = Sides(Scene(), Numerics(links=links), ground(links, left, right), 0)
+    sides = Sides(Scene(), Numerics(links=links), PADS, ground(links, left, right))
     least = node_positions(Scene().robot, links)[1]
     wanted = max(left, least), max(right, least)
     assert sides.lengths(True, True) == pytest.approx(wanted, rel=1e-9)
@@ -65,9 +76,9 @@ def test_the_length_of_a_side_follows_from_its_forces_between_pads_too(left, rig
 
 
 def test_a_strip_wholly_on_the_ground_is_two_equal_sides():
-    flat = SimpleNamespace(geom_xpos=np.zeros((26, 3)), efc_force=np.zeros(26), nf=0)
+    flat = SimpleNamespace(geom_xpos=np.zeros((26, 3)), efc_force=np.zeros(26), ne=0, nf=0)
     half = Scene().robot.length / 2
-    assert Sides(Scene(), Numerics(), flat, 0).lengths(True, True) == (half, half)
+    assert Sides(Scene(), Numerics(), PADS, flat).lengths(True, True) == (half, half)
 
 
 def test_contacts_are_those_of_the_pads_below_their_radius_in_order():

@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import cache
 
 from analytic import GAITS, SURFACES, Gait, Robot, Surface
-from mjsim.config import Numerics, Scene
+from mjsim.config import Numerics, Scene, default_numerics
 from mjsim.measures import Measures, measure
 from mjsim.simulate import simulate
 from mjsim.trajectory import Status, Trajectory
@@ -19,7 +19,11 @@ def walk(
     cycles: int = 1,
     pressure: float = Robot().peak_pressure,
     links: int = Numerics().links,
-    timestep: float = Numerics().timestep,
+    timestep: float | None = None,
+    body: str = "planar",
+    friction: str = "paper",
+    friction_number: float = Scene().friction_number,
+    **changes: float,
 ) -> Trajectory:
     stages = GAITS[gait].reversed() if reverse else GAITS[gait]
     scene = Scene(
@@ -27,8 +31,13 @@ def walk(
         gait=Gait(stages.name, stages.stages, leg_time),
         surface=SURFACES[surface] if isinstance(surface, str) else surface,
         cycles=cycles,
+        body=body,
+        friction=friction,
+        friction_number=friction_number,
     )
-    return simulate(scene, Numerics(links=links, timestep=timestep))
+    usual = default_numerics(body, friction)
+    numerics = replace(usual, links=links, timestep=timestep or usual.timestep, **changes)
+    return simulate(scene, numerics)
 
 
 def measured(*args, **kwargs) -> Measures:

@@ -1,0 +1,146 @@
+"""The bodies in space walk as the planar one does, and say so if they leave its plane."""
+
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+import pytest
+from walks import measured, walk
+
+import mjsim.simulate as simulation
+from analytic import SURFACES, Robot, predict
+from analytic.chain import joint_springs
+from mjsim.assembly import compile_model
+from mjsim.config import BODIES, Scene, default_numerics
+from mjsim.measures import measure
+from mjsim.rod import Drive
+from mjsim.trajectory import Status
+
+IN_SPACE = ("cable", "rod")
+
+
+def small(body):
+    return replace(default_numerics(body), links=12)
+
+
+@pytest.mark.parametrize("surface", list(SURFACES))
+def test_the_cable_goes_as_far_as_the_planar_chain(surface):
+    """The same rigid links and springs: what differs is MuJoCo's joints, pads and solver."""
+    planar, cable = (measured(surface, links=12, body=body) for body in ("planar", "cable"))
+    assert cable.displacement == pytest.approx(planar.displacement, abs=5e-4)
+    assert cable.amplitude == pytest.approx(planar.amplitude, abs=1e-3)
+
+
+@pytest.mark.parametrize("surface", list(SURFACES))
+def test_the_rod_comes_near_with_smaller_steps(surface):
+    exact = predict(Robot(), Scene().gait, SURFACES[surface]).locomotion.per_cycle / Robot().length
+    coarse, fine = (
+        measured(surface, links=12, body="rod", timestep=step).displacement - exact
+        for step in (0.010, 0.005)
+    )
+    assert abs(coarse) < 0.0025
+    assert abs(fine) < 0.0012
+
+
+@pytest.mark.parametrize("body", BODIES)
+@pytest.mark.parametrize("surface", list(SURFACES))
+def test_the_robot_keeps_its_heading_and_its_plane(surface, body):
+    found = measured(surface, links=12, body=body)
+    assert abs(found.heading) < 1e-4
+    assert found.sideways < 1e-4
+
+
+def knocked_over(monkeypatch, body):
+    """A walk that is given a spin about x at 3 s: all of the cable, the middle of the rod."""
+    step = mujoco.mj_step
+
+    def knock(model, data):
+        step(model, data)
+        if abs(data.time - 3.0) < 0.6 * model.opt.timestep:
+            dof = 3 if body == "cable" else 3 * 6 + 1  # roll of the whole, or y of the vertex
+            data.qvel[dof] += 0.1 if body == "cable" else 1e-3  # rad/s, m/s
+
+    monkeypatch.setattr(simulation.mujoco, "mj_step", knock)
+    return simulation.simulate(Scene(body=body), small(body))
+
+
+@pytest.mark.parametrize("body", IN_SPACE)
+def test_a_body_in_space_that_is_knocked_stands_up_again(monkeypatch, body):
+    result = knocked_over(monkeypatch, body)
+    assert result.status is Status.OK
+    assert 1e-6 < measure(result).sideways < 0.01
+    assert abs(measure(result).heading) < 0.01
+
+
+def test_a_robot_that_is_turned_away_has_no_displacement(monkeypatch):
+    step = mujoco.mj_step
+
+    def turn(model, data):
+        step(model, data)
+        data.qvel[5] += 0.02  # yaw of the whole, more than friction takes
+
+    monkeypatch.setattr(simulation.mujoco, "mj_step", turn)
+    result = simulation.simulate(Scene(body="cable"), small("cable"))
+    assert result.status is Status.TURNED
+    assert measure(result) is None
+
+
+@pytest.mark.parametrize("body", BODIES)
+def test_every_body_weighs_what_the_theory_says(body):
+    scene = Scene(body=body)
+    model = compile_model(scene, small(body))
+    weight = model.body("robot/").subtreemass[0] * scene.gravity
+    assert weight == pytest.approx(Robot().weight_per_length * Robot().length, rel=1e-8)
+
+
+@pytest.mark.parametrize("body", BODIES)
+def test_without_weight_and_ground_every_body_takes_the_natural_curvature(body):
+    """Inflated evenly and free, each joint turns by its rest angle: no moment is left."""
+    scene = Scene(body=body, friction="coulomb")  # nothing holds the ends
+    numerics = small(body)
+    model = compile_model(scene, numerics)
+    model.opt.gravity[:], model.opt.timestep = 0, 0.01
+    model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
+    data = mujoco.MjData(model)
+    pressure = np.full((400, 3), 0.8 * Robot().peak_pressure)
+    drive = simulation.BODY_MODULES[body].Drive(model, data, scene, numerics, pressure)
+    for step in range(400):
+        drive.set(step)
+        mujoco.mj_step(model, data)
+    position = simulation._positions(model, data, numerics, data.qpos[None].copy())[0]
+    slope = np.arctan2(*np.diff(position[:, [2, 0]], axis=0).T)
+    _, rest = joint_springs(Robot(), 12, pressure[:1])
+    assert np.diff(slope) == pytest.approx(rest[0], rel=0.02 if body == "rod" else 1e-6)
+
+
+def test_couples_on_a_rod_are_in_balance():
+    """They push no vertex as a whole and turn nothing as a whole, whatever the shape."""
+    scene, numerics = Scene(body="rod"), small("rod")
+    model = compile_model(scene, numerics)
+    data = mujoco.MjData(model)
+    rng = np.random.default_rng(3)
+    vertices = data.qpos.reshape(-1, 3)
+    vertices[:, [0, 2]] = 0.01 * rng.standard_normal((len(vertices), 2))
+    mujoco.mj_forward(model, data)
+    Drive(model, data, scene, numerics, np.array([[4e4, 1e4, 3e4]])).set(0)
+    force = data.qfrc_applied.reshape(-1, 3)
+    place = simulation._positions(model, data, numerics, data.qpos[None].copy())[0]
+    turning = place[:, 2] * force[:, 0] - place[:, 0] * force[:, 2]
+    assert np.abs(force).max() > 0.1
+    assert np.abs(force.sum(axis=0)).max() < 1e-12
+    assert abs(turning.sum()) < 1e-12
+
+
+@pytest.mark.parametrize("body", IN_SPACE)
+def test_contacts_of_bodies_in_space_are_those_of_the_low_pads_in_order(body):
+    result = walk("felt", links=12, body=body)
+    model = compile_model(result.scene, result.numerics)
+    data = mujoco.MjData(model)
+    pads = [i for i in range(model.ngeom) if model.geom(i).name.startswith("robot/pad_")]
+    assert pads == list(range(pads[0], pads[-1] + 1))
+    for step in range(0, len(result.time), 29):
+        data.qpos[:] = result.coordinates[step]
+        mujoco.mj_forward(model, data)
+        low = np.flatnonzero(data.geom_xpos[pads, 2] < result.numerics.pad_radius)
+        assert (data.contact.geom2 - pads[0]).tolist() == low.tolist()
+        assert len(data.efc_force) == data.ne + data.nf + data.ncon
