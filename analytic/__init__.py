@@ -7,7 +7,7 @@ from the left end, y points up, and a positive displacement is towards the right
 """
 
 from analytic.elastica import solve_elastica
-from analytic.friction import SURFACES, Surface
+from analytic.friction import SURFACES, Friction, Surface
 from analytic.gait import GAITS, Gait
 from analytic.locomotion import Direction, Locomotion, direction, locomotion
 from analytic.modes import solve_modes
@@ -23,6 +23,7 @@ __all__ = [
     "SURFACES",
     "ContactShapes",
     "Direction",
+    "Friction",
     "Gait",
     "Locomotion",
     "Mode",

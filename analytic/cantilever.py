@@ -14,7 +14,7 @@ _STEPS = 20  # of weight and pressure on the way from the straight strip
 
 
 def solve_cantilever(
-    robot: Robot, pressure_pa: ArrayLike, links: int = 60, sealed: bool = False
+    robot: Robot, pressure_pa: ArrayLike, links: int = 60, gas: str = "affine"
 ) -> tuple[Array, Array]:
     """Nodes (x, y) of the strip held horizontally at its left end, each (N + 2,) [m].
 
@@ -22,14 +22,14 @@ def solve_cantilever(
         robot: the strip.
         pressure_pa: of the segments, shape (S,) [Pa].
         links: of the chain; the error falls with its square.
-        sealed: bend by (6), the valves closed, instead of (9).
+        gas: the moment law of the pneu-nets, see analytic.chain.
 
     Raises:
         ValueError: the pressure is bad.
         ArithmeticError: no stable equilibrium was found on the way from the straight strip.
     """
     (pressure,) = check_pressures(robot, pressure_pa)
-    chain = Chain(robot, links, sealed, clamped=True)
+    chain = Chain(robot, links, gas, clamped=True)
     weight, state = chain.weight, chain.flat()
     for part in np.linspace(0, 1, _STEPS + 1)[1:]:
         chain.weight = part * weight

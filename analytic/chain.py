@@ -21,6 +21,8 @@ from analytic.robot import Robot
 
 Array = NDArray[np.float64]
 
+GASES = ("affine", "sealed", "open")  # what the air in a chamber does as the strip is bent
+
 
 def link_lengths(robot: Robot, links: int) -> Array:
     """Lengths of the N + 1 rigid links of a strip, shape (N + 1,) [m]; they sum to its length."""
@@ -59,16 +61,48 @@ def segment_shares(borders: tuple[float, ...], links: int) -> Array:
     return shares
 
 
-def joint_springs(robot: Robot, links: int, pressures_pa: Array) -> tuple[Array, Array]:
+def joint_springs(
+    robot: Robot, links: int, pressures_pa: Array, gas: str = "affine"
+) -> tuple[Array, Array]:
     """Hinge springs at segment pressures of shape (T, S) [Pa].
 
     An element across a border is its parts in series: they carry one moment, so their compliances
     and their natural angles add.
 
+    Args:
+        robot, links: the chain.
+        pressures_pa: of the segments.
+        gas: "affine" for (9), or "open" for chambers at constant pressure, which add no stiffness:
+            the moment of (2) and (3), D0 (k - alpha p). For "sealed" see `sealed_springs`.
+
     Returns:
         stiffness (T, N) [N m/rad] and rest angle (T, N) [rad], negative where the strip arches.
     """
     shares = segment_shares(robot.borders, links) * (robot.length / links)
-    compliance = (1.0 / pneunet.rigidity(robot, pressures_pa)) @ shares.T
+    stiffening = 0.0 if gas == "open" else 1.0
+    compliance = (1.0 / pneunet.rigidity(robot, stiffening * pressures_pa)) @ shares.T
     angle = pneunet.natural_curvature(robot, pressures_pa) @ shares.T
     return 1.0 / compliance, -angle
+
+
+def sealed_springs(
+    robot: Robot, links: int, pressures_pa: Array, turn: Array
+) -> tuple[Array, Array]:
+    """Tangents to the moment of sealed chambers (6) where the hinges turn by `turn`.
+
+    Segments must be whole elements.
+
+    Args:
+        robot, links: the chain.
+        pressures_pa: at which the valves closed, of the segments, (S,) [Pa].
+        turn: angles of the hinges, (N,) [rad].
+
+    Returns:
+        stiffness (N,) [N m/rad] and rest angle (N,) [rad] of springs that are alike to first order.
+    """
+    chambers = segment_shares(robot.borders, links) @ pressures_pa
+    element = robot.length / links
+    curvature = -turn / element  # arching is positive
+    moment = -pneunet.sealed_moment(robot, chambers, curvature)
+    tangent = pneunet.sealed_rigidity(robot, chambers, curvature) / element
+    return tangent, turn - moment / tangent

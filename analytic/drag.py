@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from analytic.chain import node_positions
 from analytic.equilibrium import Chain, ChainState
-from analytic.friction import LAWS, Surface, coulomb_resistance, sliding_resistance
+from analytic.friction import Friction, Surface, coulomb_resistance, sliding_resistance
 from analytic.touching import side_contact
 
 _STUCK = 1e-9  # separation over L that counts as unchanged
@@ -23,60 +23,57 @@ class Drag:
     Args:
         chain: it; its tension is set here.
         surface: the ground.
-        friction_number: Phi [1].
-        law: of what an end resists by; under "coulomb" V0 is that of a load of half the weight.
+        friction: law, number and slope.
     """
 
-    def __init__(
-        self, chain: Chain, surface: Surface, friction_number: float, law: str = "paper"
-    ) -> None:
-        if not (np.isfinite(friction_number) and friction_number > 0):
-            raise ValueError(
-                f"friction_number must be a positive finite number, got {friction_number!r}"
-            )
-        if law not in LAWS:
-            raise ValueError(f"law must be one of {', '.join(LAWS)}; got {law!r}")
-        self._law = law
-        self._chain, self._surface, self._number = chain, surface, friction_number
+    def __init__(self, chain: Chain, surface: Surface, friction: Friction) -> None:
+        self._chain, self._surface, self._friction = chain, surface, friction
         self._nodes = node_positions(chain.robot, chain.links)
+        self._downhill = friction.downhill(chain.robot)
 
     def apply(self, before: ChainState, found: ChainState) -> ChainState | None:
         """The equilibrium under friction, from the last one and one at the last tension.
 
-        None if the branch ends on the way.
+        None if the branch ends on the way, or the weight drags the strip down the slope.
         """
-        bound = self._bound(found)
-        if bound == 0:
-            return self._pulled(found, 0.0)
+        left, right = self._resistances(found)
+        push = min(left, right + self._downhill)  # beyond which an end slides outwards
+        pull = min(right, left + self._downhill) - self._downhill  # and inwards
+        if push + pull < 0:
+            return None
+        unit = self._friction.number
+        low_end, high_end = -push * unit, pull * unit
+        if low_end == high_end:
+            return self._pulled(found, low_end)
         held = self._chain.separation(before)
-        low, high = self._pulled(found, -bound), self._pulled(found, bound)
+        low, high = self._pulled(found, low_end), self._pulled(found, high_end)
         if low is None or high is None:
             return None
         if held >= self._chain.separation(high):
             return high
         if held <= self._chain.separation(low):
-            return self._pulled(low, -bound)
+            return self._pulled(low, low_end)
 
         def gap(tension: float) -> float:
             state = self._pulled(found, tension)
             return np.nan if state is None else self._chain.separation(state) - held
 
-        tension = brentq(gap, -bound, bound, xtol=_STUCK * bound)
+        tension = brentq(gap, low_end, high_end, xtol=_STUCK * (high_end - low_end))
         return self._pulled(found, float(tension))
 
     def _pulled(self, guess: ChainState, tension: float) -> ChainState | None:
         self._chain.tension = tension
         return self._chain.equilibrium(guess)
 
-    def _bound(self, state: ChainState) -> float:
-        """Resistance of the weaker end over D0 / L^2."""
-        chain = self._chain
+    def _resistances(self, state: ChainState) -> tuple[float, float]:
+        """Of the two ends [V0]."""
+        chain, surface = self._chain, self._surface
         robot = chain.robot
         force = chain.ground_force(state)[None, :] * chain.force_unit
         height = state.y[None, :] * robot.length
         ends = side_contact(robot, self._nodes, force, height, chain.pressure[None, :])
-        if self._law == "coulomb":
-            hold = coulomb_resistance(robot, self._surface, ends, force, height)
+        if self._friction.law == "coulomb":
+            left, right = coulomb_resistance(robot, surface, ends, force, height)
         else:
-            hold = tuple(sliding_resistance(robot, self._surface, end) for end in ends)  # type: ignore[assignment]
-        return self._number * min(float(resistance[0]) for resistance in hold)
+            left, right = (sliding_resistance(robot, surface, end) for end in ends)
+        return float(left[0]), float(right[0])

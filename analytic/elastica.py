@@ -8,10 +8,10 @@ is followed as far as it is stable, and no other is ever returned.
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.chain import link_lengths, node_positions, segments_fit
+from analytic.chain import link_lengths, node_positions
 from analytic.drag import Drag
 from analytic.equilibrium import Chain, ChainState
-from analytic.friction import Surface
+from analytic.friction import Friction, Surface
 from analytic.pressures import check_pressures
 from analytic.robot import Robot
 from analytic.shapes import ContactShapes, Status
@@ -28,10 +28,9 @@ def solve_elastica(
     robot: Robot,
     pressures_pa: ArrayLike,
     links: int = 60,
-    sealed: bool = False,
+    gas: str = "affine",
     surface: Surface | None = None,
-    friction_number: float = 0.0,
-    law: str = "paper",
+    friction: Friction | None = None,
 ) -> ContactShapes:
     """Equilibria along a path of pressures that starts with the strip flat and without pressure.
 
@@ -39,26 +38,26 @@ def solve_elastica(
         robot: the strip.
         pressures_pa: segment pressures along the path, left first, (B, S) or (S,) [Pa], at least 0.
         links: of the chain; multiples of 6 are the most accurate. The error falls with its square.
-        sealed: bend by the exact law of pneu-nets whose valves close at these pressures (6), not
-            by the affine law (9).
-        surface, friction_number, law: let friction bend the strip, with V0 = Phi D0 / L^2; see
-            analytic.drag. Without them no shear acts, the limit of section 2.2.
+        gas: bend by the affine law (9), or "sealed", the exact law of pneu-nets whose valves close
+            at these pressures (6), or "open", at constant pressure.
+        surface, friction: let friction of a number above 0 bend the strip, and a slope tilt it;
+            see analytic.drag. Without them no shear acts, the limit of section 2.2.
 
     Returns:
-        Shapes of B states. From where the stable branch ends (the strip rolls up, topples or
-        snaps) the states are NaN with BRANCH_END, and where an end curls up off the ground, with
-        ROLLED_UP; the last one before tells the pressure.
+        Shapes of B states. From where the stable branch ends (the strip rolls up, topples, snaps,
+        or slides down a slope as a whole) the states are NaN with BRANCH_END, and where an end
+        curls up off the ground, with ROLLED_UP; the last one before tells the pressure.
 
     Raises:
-        ValueError: the pressures are bad, links is below 6, or sealed chambers do not fit links.
+        ValueError: the pressures are bad, there is no such gas, links is below 6, or sealed
+            chambers do not fit them.
     """
     p = check_pressures(robot, pressures_pa)
     if links < 6:
         raise ValueError(f"links must be at least 6, got {links}")
-    if sealed and not segments_fit(robot, links):
-        raise ValueError(f"segments must be whole elements for sealed pneu-nets, got links {links}")
-    chain = Chain(robot, links, sealed)
-    drag = Drag(chain, surface, friction_number, law) if surface and friction_number else None
+    friction = friction or Friction()
+    chain = Chain(robot, links, gas, slope=friction.slope)
+    drag = Drag(chain, surface, friction) if surface and friction.number else None
     count = len(p)
     y, theta = np.full((count, links + 2), np.nan), np.full((count, links + 1), np.nan)
     force = np.full((count, links + 2), np.nan)

@@ -14,6 +14,7 @@ Newton's method on (y_k, theta_k, V_k), a banded system, so that its cost is lin
 Dimensionless: lengths over L, moments over D0 / L, forces over D0 / L^2.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -22,7 +23,7 @@ from scipy.linalg import cholesky_banded
 from scipy.linalg.lapack import dgbsv
 
 from analytic import pneunet
-from analytic.chain import joint_springs, link_lengths, segment_shares
+from analytic.chain import GASES, joint_springs, link_lengths, sealed_springs, segments_fit
 from analytic.robot import Robot
 
 Array = NDArray[np.float64]
@@ -50,16 +51,28 @@ class Chain:
     Args:
         robot: the strip.
         links: N.
-        sealed: take the exact moment law of a sealed pneu-net (6) for the affine one (9).
+        gas: the moment law of the pneu-nets, see analytic.chain; "sealed" is the exact (6).
         clamped: hold the first node and the direction of the first link, which is that of the
             strip's end, and take the ground away: a heavy cantilever, to verify the rest by.
+        slope: angle by which the ground rises towards +x [rad].
     """
 
     def __init__(
-        self, robot: Robot, links: int, sealed: bool = False, clamped: bool = False
+        self,
+        robot: Robot,
+        links: int,
+        gas: str = "affine",
+        clamped: bool = False,
+        slope: float = 0.0,
     ) -> None:
+        if gas not in GASES:
+            raise ValueError(f"gas must be one of {', '.join(GASES)}; got {gas!r}")
+        if gas == "sealed" and not segments_fit(robot, links):
+            raise ValueError(
+                f"segments must be whole elements for sealed pneu-nets, got links {links}"
+            )
         self.robot, self.links = robot, links
-        self.sealed, self.clamped = sealed, clamped
+        self.gas, self.clamped = gas, clamped
         self._d0 = pneunet.base_rigidity(robot)
         self.force_unit = self._d0 / robot.length**2
         self.length = link_lengths(robot, links) / robot.length
@@ -67,6 +80,9 @@ class Chain:
         self.weight = np.zeros(links + 2)
         self.weight[:-1] += half
         self.weight[1:] += half
+        # tension is that of the left end; along the strip the weight's part downhill adds to it
+        self._hanging = math.sin(slope) * np.cumsum(self.weight)[:-1]
+        self.weight *= math.cos(slope)
         self.stiffness, self.rest = np.zeros(links), np.zeros(links)
         self.pressure, self.tension = np.zeros(len(robot.segments)), 0.0
 
@@ -79,21 +95,16 @@ class Chain:
 
     def load_at(self, pressure: Array) -> None:
         """Set the hinges from segment pressures, shape (S,) [Pa]."""
-        stiffness, rest = joint_springs(self.robot, self.links, pressure[None, :])
+        stiffness, rest = joint_springs(self.robot, self.links, pressure[None, :], self.gas)
         self.stiffness, self.rest = stiffness[0] * (self.robot.length / self._d0), rest[0]
         self.pressure = pressure
 
     def _hinges(self, theta: Array) -> tuple[Array, Array]:
         """Stiffness and rest angle of the hinges' springs, or of the tangents to a gas law."""
-        if not self.sealed:
+        if self.gas != "sealed":
             return self.stiffness, self.rest
-        chambers = segment_shares(self.robot.borders, self.links) @ self.pressure
-        turn = np.diff(theta)
-        element = self.robot.length / self.links
-        curvature = -turn / element  # arching is positive
-        moment = -pneunet.sealed_moment(self.robot, chambers, curvature)
-        tangent = pneunet.sealed_rigidity(self.robot, chambers, curvature) / element
-        return tangent * (self.robot.length / self._d0), turn - moment / tangent
+        tangent, rest = sealed_springs(self.robot, self.links, self.pressure, np.diff(theta))
+        return tangent * (self.robot.length / self._d0), rest
 
     def equilibrium(self, guess: ChainState) -> ChainState | None:
         """The stable equilibrium that Newton's method finds from a guess, or None."""
@@ -126,7 +137,8 @@ class Chain:
         bend[1:-1] = stiffness
         turn = np.zeros(n + 1)
         turn[1:-1] = stiffness * rest
-        geometric = state.shear * sine + self.tension * cosine
+        tension = self.tension + self._hanging
+        geometric = state.shear * sine + tension * cosine
         # general band storage: entry (i, j) at [kl + ku + i - j, j], kl = ku = 3
         band = np.zeros((10, size))
         right = np.zeros(size)
@@ -141,7 +153,7 @@ class Chain:
         band[9, 1:-3:3] = -bend[1:-1]
         band[3, 4::3] = -bend[1:-1]
         band[5, 2::3] = -cosine
-        right[1::3] = turn[:-1] - turn[1:] + geometric * state.theta - self.tension * sine
+        right[1::3] = turn[:-1] - turn[1:] + geometric * state.theta - tension * sine
         # kinematics, row 3 i + 2
         band[5, 3::3] = 1.0
         band[8, 0:-1:3] = -1.0
@@ -193,7 +205,7 @@ class Chain:
         band[2, 0:-1:2] += _PENALTY
         band[2, 2::2] += _PENALTY
         band[2, 1::2] = bend[:-1] + bend[1:] + state.shear * self.length * np.sin(state.theta)
-        band[2, 1::2] += self.tension * cosine + _PENALTY * cosine**2
+        band[2, 1::2] += (self.tension + self._hanging) * cosine + _PENALTY * cosine**2
         band[2, 1] += _PENALTY * self.clamped
         band[1, 1::2] = _PENALTY * cosine  # y_i, theta_i
         band[1, 2::2] = -_PENALTY * cosine  # theta_i, y_{i+1}
@@ -213,7 +225,9 @@ class Chain:
         stiffness, rest = self._hinges(state.theta)
         moment[1:-1] = stiffness * (np.diff(state.theta) - rest)
         cosine, sine = self.length * np.cos(state.theta), self.length * np.sin(state.theta)
-        torque = moment[:-1] - moment[1:] - state.shear * cosine + self.tension * sine
+        torque = (
+            moment[:-1] - moment[1:] - state.shear * cosine + (self.tension + self._hanging) * sine
+        )
         kinematic = np.diff(state.y) - sine
         parts = (-state.y, -force, np.abs(force * state.y), np.abs(torque) / total,
                  np.abs(kinematic), [abs(force.sum() - 1)])  # fmt: skip

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from analytic import pneunet
 from analytic.robot import Robot
 
 Array = NDArray[np.float64]
@@ -46,6 +47,44 @@ class Surface:
     def tip_to_area_ratio(self) -> float:
         """V_t / (tau q L), the number that places a surface between gelatin (inf) and felt (0)."""
         return math.inf if self.area == 0 else self.tip / (3 * self.area)
+
+
+@dataclass(frozen=True)
+class Friction:
+    """How the ends hold to a surface.
+
+    Args:
+        law: "paper", the seed's, or "coulomb".
+        number: Phi = V0 L^2 / D0 [1], by which friction bends the strip; with 0 it decides who
+            slides, but bends nothing, the limit of section 2.2. Under "coulomb" V0 is what an end
+            resists by that carries half the weight, at a coefficient number of 1.
+        slope: angle by which the ground rises towards +x [rad].
+
+    Raises:
+        ValueError: there is no such law, the number is negative or not finite, the slope is a right
+            angle or more, or there is a slope and no friction number to stand on it by.
+    """
+
+    law: str = "paper"
+    number: float = 0.0
+    slope: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.law not in LAWS:
+            raise ValueError(f"law must be one of {', '.join(LAWS)}; got {self.law!r}")
+        if not (math.isfinite(self.number) and self.number >= 0):
+            raise ValueError(f"number must be a finite number, at least 0, got {self.number!r}")
+        if not abs(self.slope) < math.pi / 2:
+            raise ValueError(f"slope must be less steep than a right angle, got {self.slope!r}")
+        if self.slope and not self.number:
+            raise ValueError(f"a slope of {self.slope:g} needs a number above 0 to stand on it by")
+
+    def downhill(self, robot: Robot) -> float:
+        """The weight's part along the slope, towards -x, in units of V0."""
+        if not self.slope:
+            return 0.0
+        load = robot.weight_per_length * robot.length * math.sin(self.slope)
+        return load * robot.length**2 / (self.number * pneunet.base_rigidity(robot))
 
 
 SURFACES: dict[str, Surface] = {
@@ -99,10 +138,25 @@ def coulomb_resistance(
     return left, np.where(np.isclose(left, right, rtol=1e-9, atol=0), left, right)
 
 
-def left_share(resistance_left: ArrayLike, resistance_right: ArrayLike) -> Array:
+def left_share(
+    resistance_left: ArrayLike,
+    resistance_right: ArrayLike,
+    downhill: float = 0.0,
+    growing: ArrayLike = True,
+) -> Array:
     """Part of a change of separation that the left end takes up: 0, 1/2 or 1 (section 2.2).
 
-    The end with the larger resistance stays anchored; where both resist alike, they share.
+    The end with the larger resistance stays anchored; where both resist alike, they share. On a
+    slope the end that slides downhill has the weight's help: the left one where the separation
+    grows, the right one where it shrinks.
+
+    Args:
+        resistance_left, resistance_right: of the ends [V0].
+        downhill: the weight's part along the slope, towards -x [V0].
+        growing: whether the separation grows.
     """
     left, right = np.asarray(resistance_left), np.asarray(resistance_right)
+    if downhill:
+        left = left + np.where(growing, 0.0, downhill)
+        right = right + np.where(growing, downhill, 0.0)
     return np.where(left > right, 0.0, np.where(left < right, 1.0, 0.5))

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction import (
-    LAWS,
+    Friction,
     Surface,
     coulomb_resistance,
     left_share,
@@ -34,53 +34,75 @@ class Locomotion(NamedTuple):
     per_cycle: float
 
 
-def locomotion(shapes: Shapes, surface: Surface, cycles: int = 1, law: str = "paper") -> Locomotion:
+PAPER = Friction()
+
+
+def locomotion(
+    shapes: Shapes, surface: Surface, cycles: int = 1, friction: Friction = PAPER
+) -> Locomotion:
     """Apply the anchor rule of section 2.2 to a sequence of states.
 
     Each change of separation is taken up by the end that resists less, by both alike when they
     resist alike. An increment uses the mean of the rule at its two states, so that the reversed
-    sequence gives exactly the opposite displacement.
+    sequence gives exactly the opposite displacement, on level ground.
 
     Args:
         shapes: states in order of time, evenly or unevenly spaced; finer is more accurate.
         surface: the ground.
         cycles: number of cycles that the sequence holds.
-        law: "paper", resistances V_t and tau A; or "coulomb", see `anchor_share`.
+        friction: law and slope.
 
     Raises:
-        ValueError: fewer than two states, cycles below 1, no such law, or a law that needs contact
-            forces for shapes that have none.
+        ValueError: fewer than two states, cycles below 1, or a law that needs contact forces for
+            shapes that have none.
     """
     if len(shapes) < 2 or cycles < 1:
         raise ValueError(
             f"need at least two states and one cycle, got {len(shapes)} states, {cycles} cycles"
         )
-    share = anchor_share(shapes, surface, law)
     change = np.diff(shapes.separation)
-    mean_share = 0.5 * (share[1:] + share[:-1])
-    left = np.concatenate([[0.0], np.cumsum(-mean_share * change)])
+    left = np.concatenate([[0.0], np.cumsum(-mean_share(shapes, surface, friction) * change)])
     right = left + (shapes.separation - shapes.separation[0])
     return Locomotion(left, right, float(left[-1] / cycles))
+
+
+def mean_share(shapes: Shapes, surface: Surface, friction: Friction = PAPER) -> Array:
+    """Part of each change of separation that the left end takes up, (B - 1,): 0 to 1."""
+    left, right = resistances(shapes, surface, friction.law)
+    downhill, growing = friction.downhill(shapes.robot), np.diff(shapes.separation) > 0
+    before = left_share(left[:-1], right[:-1], downhill, growing)
+    after = left_share(left[1:], right[1:], downhill, growing)
+    return 0.5 * (before + after)
 
 
 def anchor_share(shapes: Shapes, surface: Surface, law: str = "paper") -> Array:
     """Part of a change of separation that the left end takes up at each state, (B,): 0, 1/2, 1.
 
-    Under "paper" an end resists by V_t or tau A, under "coulomb" by mu N; see analytic.friction.
+    On level ground; see `mean_share` for slopes.
     """
-    if law not in LAWS:
-        raise ValueError(f"law must be one of {', '.join(LAWS)}; got {law!r}")
+    return left_share(*resistances(shapes, surface, law))
+
+
+def resistances(shapes: Shapes, surface: Surface, law: str) -> tuple[Array, Array]:
+    """What the left and the right end resist by at each state, (B,) each [V0].
+
+    Under "paper" V_t or tau A, under "coulomb" mu N; see analytic.friction.
+
+    Raises:
+        ValueError: the law needs contact forces and the shapes have none.
+    """
     ends = shapes.contact_left, shapes.contact_right
     if law == "paper":
-        return left_share(*(sliding_resistance(shapes.robot, surface, end) for end in ends))
+        left, right = (sliding_resistance(shapes.robot, surface, end) for end in ends)
+        return left, right
     if not isinstance(shapes, ContactShapes):
-        raise ValueError("law 'coulomb' needs contact forces, which the modes do not give")
+        raise ValueError(f"law {law!r} needs contact forces, which the modes do not give")
     _, y = shapes.curve(shapes.nodes)
-    return left_share(*coulomb_resistance(shapes.robot, surface, ends, shapes.force, y))
+    return coulomb_resistance(shapes.robot, surface, ends, shapes.force, y)
 
 
-def undecided(shapes: Shapes, surface: Surface, cycles: int = 1, law: str = "coulomb") -> float:
-    """How much of a displacement per cycle the law leaves open, either way [m].
+def undecided(shapes: Shapes, surface: Surface, law: str = "coulomb") -> float:
+    """How much of the displacement along a sequence the law leaves open, either way [m].
 
     Where both ends resist alike, by nothing or to the last digit, Coulomb's law does not say which
     one slides: the whole change of separation may be the left end's or the right end's, and
@@ -88,7 +110,7 @@ def undecided(shapes: Shapes, surface: Surface, cycles: int = 1, law: str = "cou
     """
     share = anchor_share(shapes, surface, law)
     tied = (share[1:] == 0.5) & (share[:-1] == 0.5)
-    return float(0.5 * np.abs(np.diff(shapes.separation))[tied].sum() / cycles)
+    return float(0.5 * np.abs(np.diff(shapes.separation))[tied].sum())
 
 
 def direction(displacement: float, length: float) -> Direction:

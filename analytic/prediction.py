@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from analytic.elastica import solve_elastica
-from analytic.friction import Surface
+from analytic.friction import Friction, Surface
 from analytic.gait import Gait
-from analytic.locomotion import Locomotion, anchor_share, locomotion
+from analytic.locomotion import PAPER, Locomotion, anchor_share, locomotion, mean_share
 from analytic.modes import solve_modes
 from analytic.obstacle import solve_obstacle
 from analytic.robot import Robot
@@ -52,8 +52,9 @@ def predict(
     n_per_leg: int = 50,
     refinement: int = 32,
     solver: Solver | None = None,
-    law: str = "paper",
-    friction_number: float = 0.0,
+    friction: Friction = PAPER,
+    gas: str = "affine",
+    path: ArrayLike | None = None,
 ) -> Prediction:
     """Walk one cycle quasi-statically.
 
@@ -66,8 +67,10 @@ def predict(
         n_per_leg: states per ramp of the gait in the first pass.
         refinement: parts of an increment in which the anchor changes.
         solver: used instead of the rung's own, for instance with more links.
-        law: of friction, see analytic.friction; "coulomb" needs a rung that knows forces.
-        friction_number: Phi, where friction is to bend the strip as well; elastica only.
+        friction: law, number and slope; "coulomb" needs a rung that knows forces, and elastica
+            alone lets friction bend the strip.
+        gas: what the air does, see analytic.chain; elastica only, but for "affine".
+        path: pressures to follow instead of the gait's, from none, (B, S) [Pa].
 
     Raises:
         ValueError: there is no such rung or law, the rung does not know what it needs for them, or
@@ -75,14 +78,14 @@ def predict(
     """
     if rung not in RUNGS:
         raise ValueError(f"rung must be one of {', '.join(RUNGS)}; got {rung!r}")
-    if friction_number and rung != "elastica":
-        raise ValueError(f"friction bends the strip in elastica only, not in {rung}")
+    if (friction.number or gas != "affine") and (rung != REFERENCE or solver):
+        raise ValueError(f"{REFERENCE} alone knows gases and bending friction, got rung {rung!r}")
     solve = solver or RUNGS[rung]
-    if friction_number:
-        solve = partial(solve_elastica, surface=surface, friction_number=friction_number, law=law)
-    path = robot.peak_pressure * gait.pressures(n_per_leg)
+    if rung == REFERENCE and not solver:
+        solve = partial(solve_elastica, gas=gas, surface=surface, friction=friction)
+    path = robot.peak_pressure * gait.pressures(n_per_leg) if path is None else np.asarray(path)
     shapes = solve(robot, path)
-    changes = np.flatnonzero(np.diff(anchor_share(shapes, surface, law)))
+    changes = np.flatnonzero(_undecided_within(shapes, surface, friction))
     if len(changes) and refinement > 1:
         part = np.linspace(0, 1, refinement + 1)[1:-1, None]
         between = [path[i] + part * (path[i + 1] - path[i]) for i in changes]
@@ -91,4 +94,11 @@ def predict(
         )
         shapes = solve(robot, path)
     flags = Status(int(np.bitwise_or.reduce(shapes.status)))
-    return Prediction(path, shapes, locomotion(shapes, surface, law=law), flags)
+    return Prediction(path, shapes, locomotion(shapes, surface, friction=friction), flags)
+
+
+def _undecided_within(shapes: Shapes, surface: Surface, friction: Friction) -> NDArray[np.bool_]:
+    """Increments in which the anchor changes, (B - 1,)."""
+    share = mean_share(shapes, surface, friction)
+    change = np.diff(anchor_share(shapes, surface, friction.law)) != 0
+    return change | (np.abs(share - np.round(2 * share) / 2) > 0)

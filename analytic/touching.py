@@ -9,6 +9,7 @@ from analytic.shapes import Mode
 
 Array = NDArray[np.float64]
 
+PASSIVE = 0.01  # of the peak pressure: an end with less may lie on its side, if it does; chosen
 _RIPPLE = 0.2  # of w L h^3 / D0: how high a flat stretch ripples between nodes, bounded; measured
 
 
@@ -18,11 +19,12 @@ def side_contact(
     """Length of side contact at the left and the right end.
 
     An end whose segment is inflated is a tip: to lie flat it would need the moment D kappa, and an
-    end has none. Else the ground carries the weight of a flat stretch, w per length, and where the
-    strip lifts off a concentrated force R besides. So the length follows from the sum and the
-    moment of the forces on an end's nodes (see `flat_length`): finer than the distance of the
-    nodes, and exactly 0 if the end alone touches. An end's nodes reach to the next that is in the
-    air, higher than a flat stretch ripples between the nodes that push it.
+    end has none. Else (or with next to no pressure) the ground carries the weight of a flat
+    stretch, w per length, and where the strip lifts off a concentrated force R besides. So the
+    length follows from the sum and the moment of the forces on an end's nodes (see `flat_length`):
+    finer than the distance of the nodes, and exactly 0 if the end alone touches. An end's nodes
+    reach to the next that is in the air, higher than a flat stretch ripples between the nodes that
+    push it.
 
     Args:
         nodes: arclength of the nodes, shape (S,) [m].
@@ -39,11 +41,11 @@ def side_contact(
     up = height > _RIPPLE * ripple
     left = _from_left(robot, nodes, force, up)
     right = _from_left(robot, nodes[-1] - nodes[::-1], force[:, ::-1], up[:, ::-1])
-    flat = ~up.any(axis=1)
+    flat, least = ~up.any(axis=1), PASSIVE * robot.peak_pressure
     half = 0.5 * robot.length
     blank = np.where(np.isfinite(force).all(axis=1), 1.0, np.nan)
-    left = np.where(pressures[:, 0] > 0, 0.0, np.where(flat, half, left))
-    right = np.where(pressures[:, -1] > 0, 0.0, np.where(flat, half, right))
+    left = np.where(pressures[:, 0] > least, 0.0, np.where(flat, half, left))
+    right = np.where(pressures[:, -1] > least, 0.0, np.where(flat, half, right))
     return blank * left, blank * right
 
 

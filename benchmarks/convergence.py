@@ -9,7 +9,7 @@ from dataclasses import fields, replace
 
 import numpy as np
 
-from analytic import RUNGS, SURFACES, Surface, predict, solve_elastica
+from analytic import RUNGS, SURFACES, Friction, Surface, predict, solve_elastica
 from analytic.locomotion import locomotion
 from mjsim.config import Numerics, Scene
 from mjsim.measures import measure
@@ -52,7 +52,7 @@ def theory(surface: Surface, friction_number: float | None = None) -> float:
     if friction_number is None:
         return found.locomotion.per_cycle / robot.length
     shapes = solve_elastica(robot, found.pressures, surface=surface,
-                            friction_number=friction_number)  # fmt: skip
+                            friction=Friction(number=friction_number))  # fmt: skip
     return locomotion(shapes, surface).per_cycle / robot.length
 
 

@@ -21,13 +21,16 @@ from mjsim.mjcf_parts import DIGITS, rounded, template
 BODY_MODULES: dict[str, ModuleType] = {"planar": planar, "cable": cable, "rod": rod}
 
 
-def robot_mjcf(scene: Scene, numerics: Numerics) -> mjcf.RootElement:
+def robot_mjcf(scene: Scene, numerics: Numerics, skin: bool = True) -> mjcf.RootElement:
     """The strip alone, flat along +x, its left end at the origin of its neutral line."""
-    return BODY_MODULES[scene.body].strip(scene, numerics)
+    root: mjcf.RootElement = BODY_MODULES[scene.body].strip(scene, numerics)
+    if skin and scene.body == "planar":
+        planar.add_skins(root, scene, numerics)
+    return root
 
 
-def scene_mjcf(scene: Scene, numerics: Numerics) -> mjcf.RootElement:
-    """The strip on its surface, with lights, cameras and ruler."""
+def scene_mjcf(scene: Scene, numerics: Numerics, skin: bool = True) -> mjcf.RootElement:
+    """The strip on its surface, with lights, cameras and ruler; with its skin if it has one."""
     root = template("stage.xml", scene, numerics)
     root.model = scene.surface.name
     for name in ("tip", "area"):
@@ -38,7 +41,7 @@ def scene_mjcf(scene: Scene, numerics: Numerics) -> mjcf.RootElement:
     root.worldbody.add("site", name="ground", size=(1e-4,), group=4).attach(surface)
     start = root.worldbody.add("site", name="start_of_strip", pos=(0, 0, numerics.pad_radius),
                                size=(1e-4,), group=4)  # fmt: skip
-    start.attach(robot_mjcf(scene, numerics))
+    start.attach(robot_mjcf(scene, numerics, skin))
     return root
 
 
@@ -49,13 +52,13 @@ def to_xml(root: mjcf.RootElement) -> str:
     return text.replace("<compiler ", '<compiler texturedir="textures" ', 1)
 
 
-def compile_model(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
-    """The compiled model of a scene.
+def compile_model(scene: Scene, numerics: Numerics, skin: bool = False) -> mujoco.MjModel:
+    """The compiled model of a scene, with a skin to look at if asked.
 
     Raises:
         ValueError: mujoco refuses the model.
     """
-    root = scene_mjcf(scene, numerics)
+    root = scene_mjcf(scene, numerics, skin)
     text, assets = root.to_xml_string(precision=17), root.get_assets()
     if scene.body == "planar":
         return mujoco.MjModel.from_xml_string(text, assets)

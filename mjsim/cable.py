@@ -17,6 +17,7 @@ from analytic.chain import joint_springs, link_lengths, node_positions
 from mjsim.config import Numerics, Scene
 from mjsim.expanded import add_friction_tendons, add_pads
 from mjsim.mjcf_parts import template
+from mjsim.pneumatics import chamber_pressure
 
 Array = NDArray[np.float64]
 
@@ -79,12 +80,13 @@ class Drive:
         data: mujoco.MjData,
         scene: Scene,
         numerics: Numerics,
-        pressure: Array,
+        command: Array,
     ) -> None:
+        pressure = chamber_pressure(scene, numerics, command)
         # the joints are x, y, z, the ball of the whole, then those between links
         spring_k = model.jnt_stiffness[4:]
         spring_rest = model.qpos_spring[_FIRST_SPRING:].reshape(-1, 4)
-        stiffness, rest = joint_springs(scene.robot, numerics.links, pressure)
+        stiffness, rest = joint_springs(scene.robot, numerics.links, pressure, scene.gas)
         w, y = np.cos(rest / 2), -np.sin(rest / 2)  # a positive angle turns x to z: about -y
         qpos = data.qpos
         turns = qpos[3:].reshape(-1, 4)

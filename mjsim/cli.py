@@ -81,7 +81,9 @@ def _first_message(text: str) -> str:
 
 def _plain(message: str) -> str:
     """What tyro says of a word that is no number, in the words of our own checks."""
-    number = re.fullmatch(r"Error parsing --(\S+): .*(int|float)\b.*: ('.*')", message)
+    number = re.fullmatch(
+        r"(?i)Error parsing --(\S+): .*\b(int|float)\b.*(?:: |from \[)('.*?')\]?\.?", message
+    )
     if number is None:
         return f"{message} (see --help)"
     name, kind, word = number.groups()

@@ -3,11 +3,13 @@
 import math
 from dataclasses import dataclass, field, fields
 
-from analytic import GAITS, SURFACES, Gait, Robot, Surface, pneunet
+from analytic import GAITS, SURFACES, Friction, Gait, Robot, Surface, pneunet
+from analytic.chain import GASES, segments_fit
+from analytic.friction import LAWS
 
 MIN_LINKS, MAX_LINKS = 6, 384
 BODIES = ("planar", "cable", "rod")
-FRICTION_LAWS = ("paper", "coulomb")
+DRIVES = ("springs", "actuators")
 
 
 @dataclass(frozen=True)
@@ -25,16 +27,32 @@ class Scene:
     body: str = "planar"
     friction: str = "paper"
     friction_number: float = 1.5  # Phi = V0 L^2 / D0 [1]; chosen, see README
+    slope: float = 0.0  # the ground rises towards +x by this angle [rad]
+    gas: str = "affine"  # what the air in a chamber does as the strip bends, see analytic.chain
+    drive: str = "springs"  # pressure sets springs of the joints, or is a control of actuators
+    lag: float = 0.0  # time constant with which a chamber follows its valve [s]
     gravity: float = 9.81  # m/s^2; only the mass w/g that the weight w per length has depends on it
     settle_time: float = 0.5  # at rest before the first cycle [s]; chosen
 
     def __post_init__(self) -> None:
         _choose("body", self.body, BODIES)
-        _choose("friction", self.friction, FRICTION_LAWS)
+        _choose("friction", self.friction, LAWS)
+        _choose("gas", self.gas, GASES)
+        _choose("drive", self.drive, DRIVES)
         if self.cycles < 1:
             raise ValueError(f"cycles must be at least 1, got {self.cycles}")
         for name in ("friction_number", "gravity", "settle_time"):
             _positive(name, getattr(self, name))
+        if not abs(self.slope) < math.pi / 2:
+            raise ValueError(f"slope must be less steep than 90 degrees, got {self.slope:g} rad")
+        if not (math.isfinite(self.lag) and self.lag >= 0):
+            raise ValueError(f"lag must be a finite time, at least 0 s, got {self.lag!r}")
+        special = self.drive == "actuators" or self.gas == "sealed"
+        if special and (self.body != "planar" or (self.drive, self.gas) == ("actuators", "sealed")):
+            raise ValueError(
+                "actuators and sealed gas are for the planar body, and not for both at once; got "
+                f"body {self.body}, drive {self.drive}, gas {self.gas}"
+            )
         if self.gait.segments != len(self.robot.segments):
             raise ValueError(
                 f"gait {self.gait.name} is for {self.gait.segments} segments, "
@@ -46,6 +64,12 @@ class Scene:
                 f"pressure must be below {limit:.0f} Pa, where this strip would close into a "
                 f"circle, got {self.robot.peak_pressure:g}"
             )
+
+    @property
+    def hold(self) -> Friction:
+        """The friction that the reference is to know: it is bent by what is not the paper's."""
+        plain = self.friction == "paper" and not self.slope
+        return Friction(self.friction, 0.0 if plain else self.friction_number, self.slope)
 
     @property
     def force_scale(self) -> float:
@@ -97,6 +121,20 @@ class Numerics:
                 _positive(item.name, getattr(self, item.name))
         if self.timestep > 0.1:
             raise ValueError(f"timestep must be at most 0.1 s, got {self.timestep!r}")
+
+
+def check(scene: Scene, numerics: Numerics) -> None:
+    """Whether the two go together.
+
+    Raises:
+        ValueError: chambers must be whole elements for this drive or gas, and are not.
+    """
+    chambers = scene.drive == "actuators" or scene.gas == "sealed"
+    if chambers and not segments_fit(scene.robot, numerics.links):
+        raise ValueError(
+            "links must make every segment whole elements for actuators and for sealed gas, "
+            f"got {numerics.links}"
+        )
 
 
 def default_numerics(body: str = "planar", law: str = "paper") -> Numerics:

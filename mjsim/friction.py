@@ -39,11 +39,14 @@ class Held(NamedTuple):
 
 
 class PaperLaw:
-    """Constant bounds at tips, by area on sides, sharing on ties."""
+    """Constant bounds at tips, by area on sides, sharing on ties on level ground.
+
+    On a slope the weight decides a tie, and who takes up a change is seen as it moves.
+    """
 
     def __init__(self, scene: Scene) -> None:
         surface: Surface = scene.surface
-        self._both = scene.force_scale
+        self._both, self._level = scene.force_scale, scene.slope == 0
         self._tip = scene.force_scale * surface.tip
         self._area = scene.force_scale * surface.area / scene.robot.segment_length
 
@@ -51,7 +54,7 @@ class PaperLaw:
         """What holds ends with these lengths of side contact, 0 for a tip [m]."""
         left = self._area * contact_left if contact_left else self._tip
         right = self._area * contact_right if contact_right else self._tip
-        if left == right:
+        if left == right and self._level:
             return 0.0, 0.0, self._both, 0.5
         return left, right, 0.0, 0.0 if left > right else 1.0
 
@@ -85,16 +88,16 @@ def friction(
         adapt(slope_left, slope_right, side_left, side_right)
         return sides.lengths(side_left, side_right) if side_left or side_right else _TIPS
 
+    rate = data.ten_velocity
+
+    def moving(lengths: tuple[float, float]) -> Held:
+        one, other = abs(rate.item(left)), abs(rate.item(right))
+        return Held(*lengths, 1.0 if one > other else 0.0)
+
     if scene.friction == "coulomb":
-        rate = data.ten_velocity
+        return lambda step: moving(look(step))
 
-        def coulomb(step: int) -> Held:
-            one, other = abs(rate.item(left)), abs(rate.item(right))
-            return Held(*look(step), 1.0 if one > other else 0.0)
-
-        return coulomb
-
-    law, bounds = PaperLaw(scene), model.tendon_frictionloss
+    law, bounds, level = PaperLaw(scene), model.tendon_frictionloss, scene.slope == 0
     lengths, held = (-1.0, -1.0), Held(0.0, 0.0, 0.5)
 
     def paper(step: int) -> Held:
@@ -104,7 +107,7 @@ def friction(
             lengths = now
             bounds[left], bounds[right], bounds[both], share = law.hold(*now)
             held = Held(*now, share)
-        return held
+        return held if level else moving(now)
 
     return paper
 

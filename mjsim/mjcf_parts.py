@@ -1,5 +1,6 @@
 """What the MJCF of every body shares: templates, friction of pads, names, rounding."""
 
+import math
 from typing import Any
 
 from dm_control import mjcf
@@ -20,7 +21,8 @@ def template(name: str, scene: Scene, numerics: Numerics) -> mjcf.RootElement:
     """A file of models/ with the options of a scene."""
     root = mjcf.from_path(str(MODELS / name))
     root.option.timestep = numerics.timestep
-    root.option.gravity = (0, 0, -scene.gravity)
+    along, down = math.sin(scene.slope), math.cos(scene.slope)
+    root.option.gravity = (0.0 - scene.gravity * along, 0, -scene.gravity * down)
     if scene.friction == "coulomb":
         root.option.cone, root.option.impratio = "elliptic", numerics.impratio
     pads: Any = root.default.geom

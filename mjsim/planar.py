@@ -13,9 +13,10 @@ import numpy as np
 from dm_control import mjcf
 from numpy.typing import NDArray
 
-from analytic.chain import joint_springs, link_lengths, node_positions
+from analytic.chain import joint_springs, link_lengths, node_positions, sealed_springs
 from mjsim.config import Numerics, Scene
 from mjsim.mjcf_parts import FAR, PALE, TENDONS, pad_friction, rounded, template, tendon_bound
+from mjsim.pneumatics import add_actuators, chamber_pressure, controls
 from mjsim.skin import segment_skin
 
 Array = NDArray[np.float64]
@@ -54,9 +55,15 @@ def strip(scene: Scene, numerics: Numerics) -> mjcf.RootElement:
         parent, offset = body, rounded(length)
 
     _add_friction_tendons(root, scene, far, *ends)
-    for segment in range(len(robot.segments)):
-        _add_skin(root, scene, numerics, segment)
+    if scene.drive == "actuators":
+        add_actuators(root, scene, numerics)
     return root
+
+
+def add_skins(root: mjcf.RootElement, scene: Scene, numerics: Numerics) -> None:
+    """Give a strip what it looks like, a skin a segment."""
+    for segment in range(len(scene.robot.segments)):
+        _add_skin(root, scene, numerics, segment)
 
 
 def _add_pad(body: Any, scene: Scene, numerics: Numerics, node: int, **place: Any) -> None:
@@ -92,6 +99,11 @@ def _add_skin(root: mjcf.RootElement, scene: Scene, numerics: Numerics, segment:
 class Drive:
     """What pressure does to the joints, step by step.
 
+    Args:
+        model, data: as compiled.
+        scene, numerics: what is simulated.
+        command: of the valves at each step, (T, S) [Pa].
+
     Attributes:
         set: give the joints the springs of a step.
         slopes: of the left and the right end as they are, positive where the strip rises inwards
@@ -105,17 +117,31 @@ class Drive:
         data: mujoco.MjData,
         scene: Scene,
         numerics: Numerics,
-        pressure: Array,
+        command: Array,
     ) -> None:
         # the joints are x, z, pitch, then the hinges, each with one coordinate
+        robot, links = scene.robot, numerics.links
         spring_k, spring_rest = model.jnt_stiffness[3:], model.qpos_spring[3:]
-        stiffness, rest = joint_springs(scene.robot, numerics.links, pressure)
-        springs = list(zip(stiffness, rest, strict=True))
-        qpos, angles = data.qpos, data.qpos[2:]
-        add_up = np.ones(numerics.links + 1).dot
+        qpos, angles, turns = data.qpos, data.qpos[2:], data.qpos[3:]
+        add_up = np.ones(links + 1).dot
+        control = data.ctrl
+
+        if scene.drive == "actuators":
+            sequence = list(controls(scene, numerics, command))
+        elif scene.gas != "sealed":
+            pressure = chamber_pressure(scene, numerics, command)
+            springs = list(zip(*joint_springs(robot, links, pressure, scene.gas), strict=True))
+        else:
+            pressure = chamber_pressure(scene, numerics, command)
 
         def set_springs(step: int) -> None:
             spring_k[:], spring_rest[:] = springs[step]
+
+        def set_tangents(step: int) -> None:
+            spring_k[:], spring_rest[:] = sealed_springs(robot, links, pressure[step], turns)
+
+        def set_controls(step: int) -> None:
+            control[:] = sequence[step]
 
         def slopes() -> tuple[float, float]:
             return angles.item(0), -add_up(angles)
@@ -124,5 +150,9 @@ class Drive:
             qpos[0] -= distance
 
         self.set: Callable[[int], None] = set_springs
+        if scene.drive == "actuators":
+            self.set = set_controls
+        elif scene.gas == "sealed":
+            self.set = set_tangents
         self.slopes: Callable[[], tuple[float, float]] = slopes
         self.shift: Callable[[float], None] = shift

@@ -29,8 +29,8 @@ class Camera:
 
     def __init__(self, walk: Trajectory, width: int, height: int, view: str = "side") -> None:
         self._walk, self._view = walk, view
-        drawn_as = replace(walk.scene, body="planar", friction="paper")
-        self._model = compile_model(drawn_as, walk.numerics)
+        drawn_as = replace(walk.scene, body="planar", friction="paper", drive="springs")
+        self._model = compile_model(drawn_as, walk.numerics, skin=True)
         self._data = mujoco.MjData(self._model)
         self._renderer = mujoco.Renderer(self._model, height, width)
         self._options = mujoco.MjvOption()

@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from analytic import REFERENCE, direction, predict
+from analytic import REFERENCE, Prediction, direction, predict
 from analytic.locomotion import undecided
 from mjsim.measures import measure
 from mjsim.trajectory import Trajectory
@@ -14,16 +14,10 @@ _OPEN = 1e-4  # of the length: less is a rounding
 def record(walk: Trajectory) -> dict[str, Any]:
     """The run as plain data; quantities that do not exist are None, never a number."""
     scene, numerics = walk.scene, walk.numerics
-    coulomb = scene.friction == "coulomb"
-    prediction = predict(
-        scene.robot,
-        scene.gait,
-        scene.surface,
-        law=scene.friction,
-        friction_number=scene.friction_number if coulomb else 0.0,
-    )
+    prediction = reference(walk)
     predicted = prediction.locomotion.per_cycle / scene.robot.length
     known = predicted == predicted  # not NaN
+    coulomb = scene.friction == "coulomb"
     tied = undecided(prediction.shapes, scene.surface) / scene.robot.length if coulomb else 0.0
     measured = measure(walk)
     simulated = float(len(walk.time) * numerics.timestep)
@@ -53,6 +47,19 @@ def record(walk: Trajectory) -> dict[str, Any]:
         "realtime_factor": simulated / walk.wall_time,
         "status": str(walk.status),
     }
+
+
+def reference(walk: Trajectory) -> Prediction:
+    """What the quasi-static reference makes of the same scene.
+
+    Chambers that lag behind their valves take the strip along another path than the gait's: then
+    it is theirs that the reference follows.
+    """
+    scene = walk.scene
+    path = walk.pressure[walk.start :] if scene.lag else None
+    return predict(
+        scene.robot, scene.gait, scene.surface, friction=scene.hold, gas=scene.gas, path=path
+    )
 
 
 def table(records: list[dict[str, Any]]) -> str:

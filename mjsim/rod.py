@@ -21,6 +21,7 @@ from analytic.chain import joint_springs, link_lengths, node_positions
 from mjsim.config import Numerics, Scene
 from mjsim.expanded import add_friction_tendons, add_pads
 from mjsim.mjcf_parts import template
+from mjsim.pneumatics import chamber_pressure
 
 Array = NDArray[np.float64]
 
@@ -68,11 +69,12 @@ class Drive:
         data: mujoco.MjData,
         scene: Scene,
         numerics: Numerics,
-        pressure: Array,
+        command: Array,
     ) -> None:
+        pressure = chamber_pressure(scene, numerics, command)
         links = numerics.links
         nodes, lengths = node_positions(scene.robot, links), link_lengths(scene.robot, links)
-        stiffness, rest = joint_springs(scene.robot, links, pressure)
+        stiffness, rest = joint_springs(scene.robot, links, pressure, scene.gas)
         tan, cos2 = np.tan(rest / 2), np.cos(rest / 2) ** 2
         stiffness = stiffness * cos2 / (1 + 3 * tan**2)  # over g'(r)
         couple = np.zeros((len(pressure), links + 2))  # none at the two ends

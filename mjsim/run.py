@@ -1,6 +1,7 @@
 """Simulate a walk in MuJoCo and set it beside the theory: `python -m mjsim.run`."""
 
 import json
+import math
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -8,10 +9,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from analytic import GAITS, SURFACES, Robot
+from analytic import SURFACES, Robot
 from mjsim import gl
 from mjsim.cli import ALL, FAILED, bar, choose, fail, parse
-from mjsim.config import Numerics, Scene, default_numerics
+from mjsim.config import Numerics, Scene, check, default_numerics
+from mjsim.gaits import find_gait
 
 if TYPE_CHECKING:
     from mjsim.trajectory import Trajectory
@@ -34,7 +36,10 @@ class Options:
     surface: str = "felt"
     """felt, polyethylene, gelatin, or all: the three, and a video of them in step"""
     gait: str = "wave"
-    """wave, full-wave or pulse: the order in which the segments inflate"""
+    """wave, full-wave or pulse: the order in which the segments inflate; or a .toml file with
+    stages and durations, see mjsim/gaits.py"""
+    segments: str = "1,1,1"
+    """relative lengths of the robot's segments, left first"""
     reverse: bool = False
     """run the gait's stages backwards"""
     cycles: int = 1
@@ -46,10 +51,21 @@ class Options:
     rod, point masses in space"""
     friction: str = "paper"
     """friction law: paper, constant at a tip and by area on a side; coulomb, by load"""
+    friction_number: float = Scene().friction_number
+    """Phi = V0 L^2 / D0: how strong friction is beside the strip's stiffness"""
+    slope: float = 0.0
+    """the ground rises towards the right by this angle [degrees]"""
+    gas: str = "affine"
+    """air in the chambers: affine, the seed's law (9); sealed, the exact one of closed valves (6);
+    open, at constant pressure"""
+    drive: str = "springs"
+    """what carries the moment of pressure: springs, set at each step; or actuators, a control"""
+    lag: float = 0.0
+    """time constant with which chambers follow their valves [s]"""
     links: int = Numerics().links
     """length of a link is the strip's over this; multiples of 6 are the most accurate"""
-    timestep: float = Numerics().timestep
-    """time step [s]"""
+    timestep: float | None = None
+    """time step [s]; if not given, 0.01, and 0.005 under the coulomb law"""
     out: Path = Path("videos")
     """folder for the video and the trajectory, made if need be"""
     json: bool = False
@@ -63,8 +79,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     options = parse(Options, PROGRAM, argv)
     try:
         scenes = _scenes(options)
-        numerics = replace(default_numerics(options.body, options.friction), links=options.links,
-                           timestep=options.timestep)  # fmt: skip
+        usual = default_numerics(options.body, options.friction)
+        step = usual.timestep if options.timestep is None else options.timestep
+        numerics = replace(usual, links=options.links, timestep=step)
+        for scene in scenes:
+            check(scene, numerics)
         _check_folder(options.out)
     except ValueError as error:
         fail(PROGRAM, str(error))
@@ -106,16 +125,22 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _scenes(options: Options) -> list[Scene]:
     surfaces = choose("surface", options.surface, SURFACES)
-    if options.gait not in GAITS:
-        raise ValueError(f"gait must be one of {', '.join(GAITS)}; got {options.gait!r}")
-    gait = GAITS[options.gait].reversed() if options.reverse else GAITS[options.gait]
+    gait = find_gait(options.gait)
+    gait = gait.reversed() if options.reverse else gait
     if not options.pressure > 0:
         raise ValueError(f"pressure must be a positive number of Pa, got {options.pressure:g}")
-    robot = replace(Robot(), peak_pressure=options.pressure)
-    return [
-        Scene(robot, gait, SURFACES[name], options.cycles, options.body, options.friction)
-        for name in surfaces
-    ]
+    robot = Robot(peak_pressure=options.pressure, segments=_lengths(options.segments))
+    names = ("cycles", "body", "friction", "friction_number", "gas", "drive", "lag")
+    named = {name: getattr(options, name) for name in names}
+    slope = math.radians(options.slope)
+    return [Scene(robot, gait, SURFACES[name], slope=slope, **named) for name in surfaces]
+
+
+def _lengths(text: str) -> tuple[float, ...]:
+    try:
+        return tuple(float(word) for word in text.split(","))
+    except ValueError:
+        raise ValueError(f"segments must be numbers with commas between, got {text!r}") from None
 
 
 def _check_folder(folder: Path) -> None:
@@ -146,8 +171,13 @@ def _film(walks: "list[Trajectory]", path: Path) -> Path:
 
 def _name(scene: Scene, surface: str | None = None) -> str:
     """File name of a run: the surface, and what of the scene is not the default."""
-    parts = {"gait": scene.gait.name, "body": scene.body, "friction": scene.friction}
+    parts = {"gait": scene.gait.name}
+    parts |= {key: getattr(scene, key) for key in ("body", "friction", "gas", "drive")}
     other = [value for key, value in parts.items() if value != getattr(Options, key)]
+    if scene.slope:
+        other.append(f"slope{math.degrees(scene.slope):+.3g}")
+    if len(set(scene.robot.segments)) > 1 or len(scene.robot.segments) != 3:
+        other.append("x".join(f"{length:g}" for length in scene.robot.segments))
     return "-".join([surface or scene.surface.name, *other])
 
 

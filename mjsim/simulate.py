@@ -3,14 +3,17 @@
 import time as clock
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.touching import PASSIVE
 from mjsim.assembly import BODY_MODULES, compile_model
-from mjsim.config import Numerics, Scene, default_numerics
+from mjsim.config import Numerics, Scene, check, default_numerics
 from mjsim.friction import friction
+from mjsim.pneumatics import chamber_pressure
 from mjsim.sides import pads_of
 from mjsim.trajectory import Status, Trajectory
 
@@ -18,12 +21,14 @@ Array = NDArray[np.float64]
 
 _FALLEN = 0.1  # an end this far off the ground, over L, is no foot any more; chosen
 _ASIDE = 0.02  # a vertex this far off the plane, over L, has left it; chosen
+_SLID = 0.02  # of the length that both ends went downhill at once: the whole slides; chosen
 _REPORT_EVERY = 256  # steps between progress reports
 _TOUCH = 1e-6  # how deep the strip starts in the ground, over L: a contact at 0 is not seen; chosen
 
 
 def schedule(scene: Scene, numerics: Numerics) -> tuple[Array, Array]:
-    """End of each step, (T,) [s], 0 being the start of the first cycle, and pressures, (T, S) [Pa].
+    """End of each step, (T,) [s], 0 being the start of the first cycle, and what the gait commands
+    the valves to at it, (T, S) [Pa].
 
     The discrete integrator takes springs at the end of a step, and so are pressures here.
     """
@@ -47,17 +52,19 @@ def simulate(
 
     Returns:
         The trajectory; look at its status before any number of it.
+
+    Raises:
+        ValueError: the scene and the numerics do not go together.
     """
     numerics = numerics or default_numerics(scene.body, scene.friction)
+    check(scene, numerics)
     model = compile_model(scene, numerics)
-    data = mujoco.MjData(model)
-    start = model.body("robot/")
-    model.body_pos[start.id, 2] -= _TOUCH * scene.robot.length
-    mujoco.mj_forward(model, data)
-
-    time, pressure = schedule(scene, numerics)
-    drive = BODY_MODULES[scene.body].Drive(model, data, scene, numerics, pressure)
-    passive = [(state[0], state[-1]) for state in (pressure == 0).tolist()]
+    data, _ = begin(model, scene)
+    time, command = schedule(scene, numerics)
+    pressure = chamber_pressure(scene, numerics, command)
+    drive = BODY_MODULES[scene.body].Drive(model, data, scene, numerics, command)
+    at_ends = pressure[:, [0, -1]] <= PASSIVE * scene.robot.peak_pressure
+    passive = [(left, right) for left, right in at_ends.tolist()]
     hold = friction(scene, numerics, model, data, drive.slopes, passive)
     coordinates = np.empty((len(time), model.nq))
     held = []
@@ -95,19 +102,39 @@ def simulate(
 
     done = slice(0, step + 1)
     contact_left, contact_right, left_share = np.array(held).T
-    walk = Trajectory(
+    return finish(
+        model,
         scene=scene,
         numerics=numerics,
-        status=Status.OK,
         time=time[done],
         pressure=pressure[done],
         coordinates=coordinates[done],
-        position=_positions(model, data, numerics, coordinates[done]),
         contact_left=contact_left,
         contact_right=contact_right,
         left_share=left_share,
         wall_time=wall_time,
     )
+
+
+def begin(model: mujoco.MjModel, scene: Scene) -> tuple[mujoco.MjData, Array]:
+    """The strip lying on the ground, and the same as MuJoCo's vector of its full physics state."""
+    data = mujoco.MjData(model)
+    model.body_pos[model.body("robot/").id, 2] -= _TOUCH * scene.robot.length
+    mujoco.mj_forward(model, data)
+    state = np.empty(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_FULLPHYSICS))
+    mujoco.mj_getState(model, data, state, mujoco.mjtState.mjSTATE_FULLPHYSICS)
+    return data, state
+
+
+def finish(model: mujoco.MjModel, **parts: Any) -> Trajectory:
+    """The trajectory of a walk from what was recorded: its positions, and how it ended.
+
+    Args:
+        model: as compiled.
+        parts: what else a Trajectory holds.
+    """
+    position = _positions(model, mujoco.MjData(model), parts["numerics"], parts["coordinates"])
+    walk = Trajectory(status=Status.OK, position=position, **parts)
     return replace(walk, status=_status(walk))
 
 
@@ -134,4 +161,14 @@ def _status(walk: Trajectory) -> Status:
         return Status.DIVERGED
     if not np.abs(walk.position[..., 1]).max() < _ASIDE * length:
         return Status.TURNED
-    return Status.OK if np.abs(z[[0, -1]]).max() < _FALLEN * length else Status.TOPPLED
+    if not np.abs(z[[0, -1]]).max() < _FALLEN * length:
+        return Status.TOPPLED
+    return Status.SLID if _slid(walk) > _SLID * length else Status.OK
+
+
+def _slid(walk: Trajectory) -> float:
+    """How far both ends went downhill together [m]."""
+    if not walk.scene.slope:
+        return 0.0
+    moves = -np.sign(walk.scene.slope) * np.diff(walk.position[:, [0, -1], 0], axis=0)
+    return float(np.maximum(moves.min(axis=1), 0.0).sum())

@@ -23,6 +23,7 @@ class Status(StrEnum):
     OK = "ok"
     DIVERGED = "diverged"  # a coordinate left the range that any walk can have, or is not finite
     TOPPLED = "toppled"  # an end left the ground: the strip fell over or rolled up
+    SLID = "slid"  # the whole strip slid down the slope: nothing anchored it
     TURNED = "turned"  # it left its plane: turned away or fell sideways
 
 
@@ -34,7 +35,7 @@ class Trajectory:
         scene, numerics: what was simulated and how.
         status: OK, or why it stopped; then the last rows lead up to the failure.
         time: end of each step since the first cycle began, negative while settling, (T,) [s].
-        pressure: of the segments, left first, (T, S) [Pa].
+        pressure: in the chambers of the segments, left first, (T, S) [Pa].
         coordinates: MuJoCo's generalised coordinates, (T, nq). For the planar body x and z of the
             left end, slope of the first link, hinge angles, (T, N + 3) [m, m, rad ...].
         position: of the neutral line's vertices, left end first, z over flat rest,

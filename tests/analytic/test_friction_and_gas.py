@@ -7,6 +7,7 @@ from scipy.integrate import solve_bvp
 from analytic import (
     GAITS,
     SURFACES,
+    Friction,
     Robot,
     Surface,
     locomotion,
@@ -46,14 +47,14 @@ def test_a_sealed_heavy_cantilever_is_the_boundary_value_problem_of_the_inverse_
     assert exact.success
     errors = []
     for links in (24, 48, 96):
-        x, y = solve_cantilever(ROBOT, [p] * 3, links, sealed=True)
+        x, y = solve_cantilever(ROBOT, [p] * 3, links, gas="sealed")
         errors.append(np.hypot(x[-1] - exact.y[2, -1], y[-1] - exact.y[3, -1]) / length)
     assert errors[-1] < 1e-4
     assert errors[0] / errors[-1] > 12  # second order
 
 
 def test_sealing_changes_little_at_moderate_pressure_and_nothing_at_none(free):
-    sealed = solve_elastica(ROBOT, PATH, sealed=True)
+    sealed = solve_elastica(ROBOT, PATH, gas="sealed")
     assert (sealed.status == 0).all()
     gap = np.abs(sealed.separation - free.separation) / ROBOT.length
     assert gap[0] < 1e-12
@@ -62,7 +63,7 @@ def test_sealing_changes_little_at_moderate_pressure_and_nothing_at_none(free):
 
 def test_sealed_chambers_need_links_that_fit_segments():
     with pytest.raises(ValueError, match="segments"):
-        solve_elastica(ROBOT, PATH, links=10, sealed=True)
+        solve_elastica(ROBOT, PATH, links=10, gas="sealed")
 
 
 @pytest.mark.parametrize("surface", list(SURFACES))
@@ -71,7 +72,7 @@ def test_friction_that_bends_tends_to_the_paper_s_law_as_phi_goes_to_0(free, sur
     limit = locomotion(free, ground).per_cycle / ROBOT.length
     gaps = []
     for phi in (1.0, 0.1, 0.01):
-        shapes = solve_elastica(ROBOT, PATH, surface=ground, friction_number=phi)
+        shapes = solve_elastica(ROBOT, PATH, surface=ground, friction=Friction(number=phi))
         assert (shapes.status == 0).all()
         assert shapes.residual.max() < 1e-9
         gaps.append(np.abs(shapes.separation - free.separation).max() / ROBOT.length)
@@ -86,7 +87,7 @@ def test_on_reversal_both_ends_stick_until_the_play_is_taken_up():
     up_and_down = np.concatenate([np.linspace(0, 1, 40), np.linspace(1, 0.6, 40)[1:]])
     path = up_and_down[:, None] * np.array([1.0, 1.0, 0.0]) * ROBOT.peak_pressure
     gelatin = SURFACES["gelatin"]
-    shapes = solve_elastica(ROBOT, path, surface=gelatin, friction_number=2.0)
+    shapes = solve_elastica(ROBOT, path, surface=gelatin, friction=Friction(number=2.0))
     free = solve_elastica(ROBOT, path)
     turn = 39
     assert shapes.separation[turn + 1] == pytest.approx(shapes.separation[turn], abs=1e-9)
@@ -97,20 +98,20 @@ def test_on_reversal_both_ends_stick_until_the_play_is_taken_up():
 
 
 def test_a_friction_number_is_positive():
-    with pytest.raises(ValueError, match="friction_number"):
-        solve_elastica(ROBOT, PATH, surface=SURFACES["felt"], friction_number=-1.0)
+    with pytest.raises(ValueError, match="number"):
+        solve_elastica(ROBOT, PATH, surface=SURFACES["felt"], friction=Friction(number=-1.0))
 
 
 def test_coulomb_depends_on_the_ratio_of_coefficients_only(free):
-    one = locomotion(free, Surface("a", 0.2, 0.4), law="coulomb").per_cycle
-    other = locomotion(free, Surface("b", 2.0, 4.0), law="coulomb").per_cycle
+    one = locomotion(free, Surface("a", 0.2, 0.4), friction=Friction("coulomb")).per_cycle
+    other = locomotion(free, Surface("b", 2.0, 4.0), friction=Friction("coulomb")).per_cycle
     assert one == other
 
 
 def test_under_coulomb_the_lighter_tip_slides(free):
     """Equal coefficients: with two segments inflated the arch leans on its steep end."""
     gelatin = SURFACES["gelatin"]
-    coulomb = locomotion(free, gelatin, law="coulomb")
+    coulomb = locomotion(free, gelatin, friction=Friction("coulomb"))
     paper = locomotion(free, gelatin)
     assert coulomb.per_cycle < 3 * paper.per_cycle  # much farther back
     assert np.allclose(coulomb.right - coulomb.left, paper.right - paper.left)
@@ -118,13 +119,15 @@ def test_under_coulomb_the_lighter_tip_slides(free):
 
 def test_coulomb_on_felt_is_the_paper_s_as_only_sides_hold(free):
     felt = SURFACES["felt"]
-    coulomb, paper = (locomotion(free, felt, law=law).per_cycle for law in ("coulomb", "paper"))
+    coulomb, paper = (
+        locomotion(free, felt, friction=Friction(law)).per_cycle for law in ("coulomb", "paper")
+    )
     # but for the first instant, when the strip lies wholly flat
     assert coulomb == pytest.approx(paper, rel=1e-4)
 
 
 def test_coulomb_asks_for_contact_forces():
     with pytest.raises(ValueError, match="contact forces"):
-        locomotion(solve_modes(ROBOT, PATH), SURFACES["felt"], law="coulomb")
+        locomotion(solve_modes(ROBOT, PATH), SURFACES["felt"], friction=Friction("coulomb"))
     with pytest.raises(ValueError, match="paper, coulomb"):
-        locomotion(solve_modes(ROBOT, PATH), SURFACES["felt"], law="stick")
+        locomotion(solve_modes(ROBOT, PATH), SURFACES["felt"], friction=Friction("stick"))

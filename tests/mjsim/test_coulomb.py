@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from walks import measured, walk
 
-from analytic import SURFACES, Gait, Robot, Surface, predict
+from analytic import SURFACES, Friction, Gait, Robot, Surface, predict
 from analytic.locomotion import undecided
 from mjsim.config import BODIES, Scene
 from mjsim.report import record, table
@@ -16,7 +16,7 @@ SCENE = Scene()
 
 
 def predicted(surface, number=SCENE.friction_number, gait=SCENE.gait):
-    walked = predict(Robot(), gait, surface, law="coulomb", friction_number=number)
+    walked = predict(Robot(), gait, surface, friction=Friction("coulomb", number))
     return walked.locomotion.per_cycle / Robot().length
 
 
@@ -89,7 +89,7 @@ def test_the_law_decides_how_far_gelatin_is():
 
 def test_tips_without_friction_leave_the_distance_on_felt_undecided():
     """Neither tip resists: momentum, speed and links decide, and theory says by how much."""
-    walked = predict(Robot(), Scene().gait, SURFACES["felt"], law="coulomb")
+    walked = predict(Robot(), Scene().gait, SURFACES["felt"], friction=Friction("coulomb"))
     play = undecided(walked.shapes, SURFACES["felt"]) / Robot().length
     assert play > 0.1
     values = [
@@ -105,14 +105,14 @@ def test_tips_without_friction_leave_the_distance_on_felt_undecided():
 
 def test_tips_with_friction_leave_nothing_undecided():
     for surface in (SURFACES["polyethylene"], SURFACES["gelatin"]):
-        walked = predict(Robot(), Scene().gait, surface, law="coulomb", friction_number=1.5)
+        walked = predict(Robot(), Scene().gait, surface, friction=Friction("coulomb", 1.5))
         assert undecided(walked.shapes, surface) < 1e-3 * Robot().length
 
 
 def test_equal_loads_at_equal_tips_leave_it_to_the_last_digit():
     """A gait of one even arch: the tips bear alike all the way, and theory cannot tell."""
     gait = Gait("arch", ((0, 0, 0), (1, 1, 1), (0, 0, 0)), SLOW)
-    walked = predict(Robot(), gait, Surface("tips", 1.0, 0.0), law="coulomb")
+    walked = predict(Robot(), gait, Surface("tips", 1.0, 0.0), friction=Friction("coulomb"))
     play = undecided(walked.shapes, Surface("tips", 1.0, 0.0))
     path = np.abs(np.diff(walked.shapes.separation)).sum()
     assert play > 0.45 * path
@@ -120,6 +120,8 @@ def test_equal_loads_at_equal_tips_leave_it_to_the_last_digit():
 
 def test_the_coulomb_law_is_refused_to_rungs_that_know_no_forces():
     with pytest.raises(ValueError, match="coulomb"):
-        predict(Robot(), Scene().gait, SURFACES["gelatin"], "modes", law="coulomb")
-    with pytest.raises(ValueError, match="elastica only"):
-        predict(Robot(), Scene().gait, SURFACES["gelatin"], "obstacle", friction_number=1.0)
+        predict(Robot(), Scene().gait, SURFACES["gelatin"], "modes", friction=Friction("coulomb"))
+    with pytest.raises(ValueError, match="elastica alone"):
+        predict(
+            Robot(), Scene().gait, SURFACES["gelatin"], "obstacle", friction=Friction(number=1.0)
+        )

@@ -14,7 +14,7 @@ from mjsim.textures import write_textures
 
 @pytest.fixture(scope="module")
 def model():
-    return compile_model(Scene(), Numerics())
+    return compile_model(Scene(), Numerics(), skin=True)
 
 
 @pytest.mark.parametrize(

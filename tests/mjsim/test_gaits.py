@@ -1,0 +1,143 @@
+"""Gaits and robots as data, and slopes: each walks as the reference says."""
+
+import math
+
+import pytest
+from walks import measured
+
+from analytic import GAITS, SURFACES, Friction, Gait, Robot, Surface, predict
+from mjsim import cli, run
+from mjsim.config import Scene
+from mjsim.gaits import find_gait
+from mjsim.measures import measure
+from mjsim.report import reference
+from mjsim.simulate import simulate
+from mjsim.trajectory import Status
+
+GALLOP = """
+name = "gallop"
+stages = [[0, 0], [1, 0.5], [0, 1], [0, 0]]
+durations = [2.0, 3.0, 1.5]
+"""
+
+
+def written(folder, text):
+    path = folder / "gait.toml"
+    path.write_text(text)
+    return str(path)
+
+
+def test_a_gait_is_read_from_a_file(tmp_path):
+    found = find_gait(written(tmp_path, GALLOP))
+    assert found == Gait("gallop", ((0, 0), (1, 0.5), (0, 1), (0, 0)), (2.0, 3.0, 1.5))
+
+
+def test_name_and_durations_may_be_left_out(tmp_path):
+    found = find_gait(written(tmp_path, "stages = [[0, 0, 0], [1, 1, 1], [0, 0, 0]]"))
+    assert found.name == "gait"
+    assert found.period == 4.0
+    one = find_gait(written(tmp_path, "durations = 3\nstages = [[0], [1], [0]]"))
+    assert one.leg_times == (3.0, 3.0)
+
+
+BAD = [
+    ("stages = [[0, 0], [1, 0]]", "'stages'", "close"),
+    ("stages = [[0, 0], [2, 0], [0, 0]]", "'stages'", "[0, 1]"),
+    ("stages = [[0, 0], [1], [0, 0]]", "'stages'", "2 fractions"),
+    ("stages = [[0], ['up'], [0]]", "'stages'", "'up'"),
+    ("stages = [[0], [true], [0]]", "'stages'", "True"),
+    ("stages = 3", "'stages'", "3"),
+    ("durations = 2.0", "'stages'", "missing"),
+    ("stages = [[0], [1], [0]]\ndurations = [1.0]", "'durations'", "2 times"),
+    ("stages = [[0], [1], [0]]\ndurations = -1", "'durations'", "-1"),
+    ("stages = [[0], [1], [0]]\ndurations = [1, inf]", "'durations'", "inf"),
+    ("stages = [[0], [1], [0]]\nname = 7", "'name'", "7"),
+    ("stages = [[0], [1], [0]]\ntempo = 2", "'tempo'", "durations"),
+    ("stages = [[0]", "TOML", "gait.toml"),
+]
+
+
+@pytest.mark.parametrize(("text", "key", "named"), BAD, ids=[f"{b[1]}-{b[2]}" for b in BAD])
+def test_a_bad_file_gets_one_line_that_names_the_key(tmp_path, capsys, text, key, named):
+    with pytest.raises(SystemExit) as stop:
+        run.main(["--gait", written(tmp_path, text), "--no-video", "--out", str(tmp_path / "out")])
+    said = capsys.readouterr().err
+    assert stop.value.code == cli.BAD_INPUT
+    assert len(said.strip().splitlines()) == 1
+    assert key in said
+    assert named in said
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [(["--gait", "missing.toml"], "missing.toml"), (["--gait", "gallop"], "wave"),
+     (["--segments", "1,x"], "1,x"), (["--segments", "1,0,1"], "0"),
+     (["--segments", "1,1"], "has 2"), (["--slope", "90"], "90"), (["--lag", "-1"], "-1"),
+     (["--gas", "helium"], "sealed"), (["--drive", "wind"], "actuators"),
+     (["--friction-number", "0"], "friction_number"),
+     (["--links", "10", "--drive", "actuators"], "10"),
+     (["--body", "rod", "--gas", "sealed"], "rod")],
+)  # fmt: skip
+def test_other_bad_input_gets_one_line_too(tmp_path, capsys, words, named):
+    with pytest.raises(SystemExit) as stop:
+        run.main([*words, "--no-video", "--out", str(tmp_path)])
+    said = capsys.readouterr().err
+    assert stop.value.code == cli.BAD_INPUT
+    assert len(said.strip().splitlines()) == 1
+    assert named in said
+
+
+ROBOTS = {
+    "two": ((1.0, 1.0), ((0, 0), (1, 0), (1, 1), (0, 1), (0, 0))),
+    "four": ((1.0,) * 4, ((0,) * 4, (1, 0, 0, 0), (1, 1, 0, 0), (0, 1, 1, 0), (0, 0, 1, 1),
+                          (0, 0, 0, 1), (0,) * 4)),
+    "uneven": ((2.0, 1.0, 3.0), GAITS["wave"].stages),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("surface", ["felt", "gelatin"])
+@pytest.mark.parametrize("name", list(ROBOTS))
+def test_other_robots_go_as_far_as_the_elastica(name, surface):
+    segments, stages = ROBOTS[name]
+    robot = Robot(segments=segments)
+    scene = Scene(robot, Gait(name, stages, 4.0), SURFACES[surface])
+    exact = predict(robot, scene.gait, scene.surface).locomotion.per_cycle / robot.length
+    assert measure(simulate(scene)).displacement == pytest.approx(exact, rel=0.02, abs=0.001)
+
+
+SLOW = Gait("wave", GAITS["wave"].stages, 8.0)
+
+
+@pytest.mark.parametrize("degrees", [2.0, -2.0])
+@pytest.mark.parametrize("friction", ["paper", "coulomb"])
+def test_on_a_slope_it_goes_as_far_as_the_elastica(degrees, friction):
+    slope = math.radians(degrees)
+    scene = Scene(gait=SLOW, surface=SURFACES["polyethylene"], friction=friction, slope=slope)
+    walk = simulate(scene)
+    exact = reference(walk).locomotion.per_cycle / scene.robot.length
+    assert measure(walk).displacement == pytest.approx(exact, rel=0.045)
+    assert exact * degrees < 0  # downhill
+
+
+@pytest.mark.parametrize("surface", ["felt", "gelatin"])
+def test_ground_that_resists_by_nothing_lets_it_slide(surface):
+    """On felt tips, on gelatin flat sides: either way nothing holds the weight."""
+    walk = simulate(Scene(surface=SURFACES[surface], slope=math.radians(3)))
+    assert walk.status is Status.SLID
+    assert measure(walk) is None
+
+
+def test_a_slope_the_other_way_is_the_mirrored_scene():
+    stages = tuple(stage[::-1] for stage in SLOW.stages)
+    ground = Surface("mud", 1.0, 0.5)
+    up = simulate(Scene(gait=SLOW, surface=ground, slope=0.03))
+    down = simulate(Scene(gait=Gait("mirrored", stages, 8.0), surface=ground, slope=-0.03))
+    assert measure(up).displacement == pytest.approx(-measure(down).displacement, rel=0.02)
+
+
+def test_the_reference_of_level_ground_is_the_unbent_one():
+    assert Scene().hold == Friction()
+    assert measured("felt").displacement == pytest.approx(
+        reference(simulate(Scene())).locomotion.per_cycle / Robot().length, rel=0.02
+    )
