@@ -10,6 +10,7 @@ from analytic.friction import LAWS
 MIN_LINKS, MAX_LINKS = 6, 384
 BODIES = ("planar", "cable", "rod")
 DRIVES = ("springs", "actuators")
+INTEGRATORS = ("discrete", "Euler", "implicitfast", "implicit", "RK4")
 
 
 @dataclass(frozen=True)
@@ -102,6 +103,7 @@ class Numerics:
     timestep: float = 0.010  # s; chosen
     damping_time: float = 0.005  # joint damping over joint stiffness [s]; chosen
     side_angle: float = 1e-3  # an end less steep than this lies on its side [rad]; chosen
+    integrator: str = "discrete"  # MuJoCo's; the others need softer contacts and smaller steps
     contact_time: float = 0.5  # time constant of contacts, critically damped [timestep]; chosen
     steep_contact_time: float = 2.0  # that of an end steeper than steep_angle [timestep]; chosen
     steep_angle: float = 0.3  # rad; chosen
@@ -116,8 +118,9 @@ class Numerics:
             raise ValueError(
                 f"links must be a whole number from {MIN_LINKS} to {MAX_LINKS}, got {links!r}"
             )
+        _choose("integrator", self.integrator, INTEGRATORS)
         for item in fields(self):
-            if item.name != "links":
+            if item.name not in ("links", "integrator"):
                 _positive(item.name, getattr(self, item.name))
         if self.timestep > 0.1:
             raise ValueError(f"timestep must be at most 0.1 s, got {self.timestep!r}")

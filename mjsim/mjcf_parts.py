@@ -20,7 +20,7 @@ Triple = tuple[float, float, float]
 def template(name: str, scene: Scene, numerics: Numerics) -> mjcf.RootElement:
     """A file of models/ with the options of a scene."""
     root = mjcf.from_path(str(MODELS / name))
-    root.option.timestep = numerics.timestep
+    root.option.timestep, root.option.integrator = numerics.timestep, numerics.integrator
     along, down = math.sin(scene.slope), math.cos(scene.slope)
     root.option.gravity = (0.0 - scene.gravity * along, 0, -scene.gravity * down)
     if scene.friction == "coulomb":

@@ -1,0 +1,138 @@
+"""Error against cost, as a figure and as a table: pure functions of the rows."""
+
+import math
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from mjsim.accuracy import settling, walking
+from mjsim.accuracy.rows import Row
+from mjsim.config import Numerics
+from mjsim.figures.style import FONT
+from mjsim.files import whole
+
+GOALS = (0.10, 0.02, 0.005)  # relative errors that a table names the cheapest way to
+_LEAST = 1e-5  # errors below are drawn there: the reference is no better
+_COLOUR = {
+    "planar": "#d1495b", "cable": "#edae49", "rod": "#66a182", "stock cable": "#8b5e34",
+    "modes": "#8d99ae", "obstacle": "#3a7ca5", "elastica": "black",
+    "Drake": "#5e548e", "PyElastica": "#00798c", "PyBullet": "#b56576",
+}  # fmt: skip
+_MARKER = {"discrete": "o", "Euler": "s", "implicitfast": "^", "implicit": "v", "RK4": "D"}
+_FAILED = {"diverged": "x", "toppled": "1", "drifting": "2"}
+_TITLE = {
+    settling.WORK: ("heavy clamped strip, settling", "distance of the tip from its place / L"),
+    walking.WORK: ("one cycle of the default gait", "relative error of displacement per cycle"),
+}
+
+
+def draw(rows: Sequence[Row], work: str) -> Figure:
+    """Error over seconds of one core per simulated second, a panel a scene, with the front."""
+    scenes = list(dict.fromkeys(row.scene for row in rows if row.work == work))
+    figure = Figure(figsize=(2 + 4.2 * len(scenes), 4.6), layout="constrained", dpi=110)
+    title, label = _TITLE[work]
+    panels = figure.subplots(1, max(1, len(scenes)), sharey=True, squeeze=False)[0]
+    for axes, scene in zip(panels, scenes, strict=False):
+        here = [row for row in rows if (row.work, row.scene) == (work, scene)]
+        worst = max((row.error for row in here if row.status == "ok"), default=1.0)
+        for row in here:
+            kind = (row.method, row.integrator)
+            colour = _COLOUR.get(row.method, "0.5")
+            if row.status == "ok":
+                marker = _MARKER.get(row.integrator, "P")
+                axes.plot(row.cost, max(row.error, _LEAST), marker, color=colour, ms=4.5,
+                          alpha=0.75, mec="none", label=_name(*kind))  # fmt: skip
+            else:
+                axes.plot(row.cost, 2 * worst, _FAILED.get(row.status, "+"), color=colour, ms=5,
+                          mew=0.8, label=row.status)  # fmt: skip
+        front = pareto(here)
+        axes.step([r.cost for r in front], [max(r.error, _LEAST) for r in front], color="0.3",
+                  lw=1, where="post", zorder=0)  # fmt: skip
+        for row in here:
+            if is_default(row) and row.status == "ok":
+                axes.plot(row.cost, max(row.error, _LEAST), "o", ms=13, mfc="none", mec="0.1")
+                axes.annotate("default", (row.cost, max(row.error, _LEAST)), xytext=(9, 6),
+                              textcoords="offset points", fontsize=8)  # fmt: skip
+        axes.set(xscale="log", yscale="log", xlabel="seconds of one core per simulated second")
+        axes.set_title(title if scene == "tip" else f"{title}, {scene}", fontsize=9)
+        axes.grid(which="major", color="0.92", lw=0.6)
+    panels[0].set_ylabel(label)
+    handles = {}
+    for axes in panels:
+        found, names = axes.get_legend_handles_labels()
+        handles |= dict(zip(names, found, strict=True))
+    figure.legend(handles.values(), handles.keys(), loc="outside right upper", frameon=False,
+                  fontsize=FONT["font.size"] - 2)  # fmt: skip
+    return figure
+
+
+def pareto(rows: Iterable[Row]) -> list[Row]:
+    """Rows that nothing else is both cheaper and more accurate than, cheapest first."""
+    front: list[Row] = []
+    for row in sorted((r for r in rows if r.status == "ok"), key=lambda r: (r.cost, r.error)):
+        if not front or row.error < front[-1].error:
+            front.append(row)
+    return front
+
+
+def is_default(row: Row) -> bool:
+    """Whether a row is what `python -m mjsim.run` does unless told otherwise."""
+    usual = Numerics()
+    setting = (row.work, row.method, row.integrator, row.links, row.timestep)
+    return setting == (walking.WORK, "planar", usual.integrator, usual.links, usual.timestep)
+
+
+def cheapest(rows: Sequence[Row], work: str, goal: float) -> dict[str, Row]:
+    """The cheapest row of each method whose error is within a goal, on its worst scene."""
+    best: dict[str, Row] = {}
+    for group in _groups(rows, work):
+        worst = max(group, key=lambda row: row.cost)
+        if all(row.status == "ok" and row.error <= goal for row in group):
+            name = worst.method
+            if name not in best or worst.cost < best[name].cost:
+                best[name] = worst
+    return dict(sorted(best.items(), key=lambda item: item[1].cost))
+
+
+def table(rows: Sequence[Row], work: str) -> str:
+    """The cheapest way of each method to each goal, and its cost over the cheapest of all."""
+    head = f"{work:<13}" + "".join(f"{f'{goal:.1%}':>34}" for goal in GOALS)
+    found = [cheapest(rows, work, goal) for goal in GOALS]
+    methods = dict.fromkeys(row.method for row in rows if row.work == work)
+    lines = [head]
+    for method in methods:
+        cells = []
+        for best in found:
+            row = best.get(method)
+            least = next(iter(best.values())).cost if best else math.nan
+            cells.append(f"{'-' if row is None else _cell(row, least):>34}")
+        lines.append(f"{method:<13}{''.join(cells)}")
+    return "\n".join(lines)
+
+
+def save(figure: Figure, path: Path) -> None:
+    """Write a picture that appears under its name only when it is whole."""
+    with whole(path) as part:
+        figure.savefig(part)
+
+
+def _cell(row: Row, least: float) -> str:
+    how = f"{row.links}" if row.links else ""
+    how += f"/{1e3 * row.timestep:g} ms/{row.integrator}" if row.timestep else ""
+    return f"{how} {row.cost:.2g} s ×{row.cost / least:.3g}"
+
+
+def _name(method: str, integrator: str) -> str:
+    return f"{method}, {integrator}" if integrator else method
+
+
+def _groups(rows: Sequence[Row], work: str) -> list[list[Row]]:
+    """Rows of one setting on every scene of a work; settings not measured on all are left out."""
+    found: dict[tuple[str, str, int, float], list[Row]] = {}
+    scenes = {row.scene for row in rows if row.work == work}
+    for row in rows:
+        if row.work == work:
+            key = row.method, row.integrator, row.links, row.timestep
+            found.setdefault(key, []).append(row)
+    return [group for group in found.values() if {row.scene for row in group} == scenes]

@@ -1,0 +1,93 @@
+"""Measure speed against accuracy and draw it: `python -m mjsim.chart`."""
+
+import logging
+import os
+import platform
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+
+from mjsim.accuracy import figure, settling, walking
+from mjsim.accuracy.rows import MEASURED, Row, append, read
+from mjsim.cli import bar, choose, fail, parse
+from mjsim.provenance import origin
+
+PROGRAM = "python -m mjsim.chart"
+WORKS = (settling.WORK, walking.WORK)
+
+
+@dataclass(frozen=True)
+class Options:
+    """Measure every method over links and time steps on two pieces of work, and draw the fronts.
+
+    settle: a heavy clamped strip sags to rest, without contact; error of its tip, whose place is
+    known exactly. walk: one cycle of the default gait on felt and on gelatin; error of the
+    displacement against the converged elastica. Rows are appended to a table as they come, and a
+    run that was stopped goes on where it was. Exit code 0: done; 2: bad input.
+
+    Example: python -m mjsim.chart --quick --out /tmp/chart
+    """
+
+    work: str = "all"
+    """settle, walk, or all"""
+    out: Path = Path("docs")
+    """folder for the figures"""
+    rows: Path = MEASURED
+    """the table: CSV that measurements are read from and appended to"""
+    fresh: bool = False
+    """measure everything anew"""
+    quick: bool = False
+    """only a few settings of each method"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    options = parse(Options, PROGRAM, argv)
+    try:
+        works = choose("work", options.work, WORKS)
+        if options.fresh:
+            options.rows.unlink(missing_ok=True)
+        known = read(options.rows)
+    except ValueError as error:
+        fail(PROGRAM, str(error))
+    logging.getLogger("absl").setLevel(logging.ERROR)  # divergence is a row, not a warning
+    seen = {row.key for row in known}
+    todo = [job for job in _jobs(works, options.quick) if job[0] not in seen]
+    with bar("measuring", len(todo)) as advance:
+        for row in append((replace(run(), **_signature()) for _, run in todo), options.rows):
+            known.append(row)
+            advance(1)
+    options.out.mkdir(parents=True, exist_ok=True)
+    for work in works:
+        figure.save(figure.draw(known, work), options.out / f"{work}.png")
+        print(figure.table(known, work))
+        print(options.out / f"{work}.png")
+    return 0
+
+
+Job = tuple[tuple[str, str, str, str, int, float], Callable[[], Row]]
+
+
+def _jobs(works: Sequence[str], quick: bool) -> Iterator[Job]:
+    if settling.WORK in works:
+        for setting in settling.settings(quick):
+            yield setting.key, lambda setting=setting: settling.run(setting)  # type: ignore[misc]
+    if walking.WORK in works:
+        for step in walking.settings(quick):
+            for ground in walking.GROUNDS:
+                yield step.key(ground), lambda s=step, g=ground: walking.run(s, g)  # type: ignore[misc]
+
+
+@cache
+def _signature() -> dict[str, str]:
+    """Where rows are measured, and of what."""
+    made = origin()
+    versions = " ".join(f"{name}={version}" for name, version in made["versions"].items())
+    machine = f"{platform.machine()} {platform.system()} {os.cpu_count()} cores"
+    return {"machine": machine, "versions": versions, "commit": made["commit"] or ""}
+
+
+if __name__ == "__main__":
+    sys.exit(main())
