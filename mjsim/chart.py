@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from mjsim.accuracy import figure, settling, walking
 from mjsim.accuracy.rows import MEASURED, Row, append, read
@@ -81,7 +82,7 @@ def _jobs(works: Sequence[str], quick: bool) -> Iterator[Job]:
 
 
 @cache
-def _signature() -> dict[str, str]:
+def _signature() -> dict[str, Any]:
     """Where rows are measured, and of what."""
     made = origin()
     versions = " ".join(f"{name}={version}" for name, version in made["versions"].items())

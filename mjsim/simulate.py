@@ -59,6 +59,8 @@ def simulate(
     numerics = numerics or default_numerics(scene.body, scene.friction)
     check(scene, numerics)
     model = compile_model(scene, numerics)
+    # else MuJoCo starts anew after a divergence, and the walk would look like one
+    model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     data, _ = begin(model, scene)
     time, command = schedule(scene, numerics)
     pressure = chamber_pressure(scene, numerics, command)
@@ -161,7 +163,9 @@ def _status(walk: Trajectory) -> Status:
         return Status.DIVERGED
     if not np.abs(walk.position[..., 1]).max() < _ASIDE * length:
         return Status.TURNED
-    if not np.abs(z[[0, -1]]).max() < _FALLEN * length:
+    ends = np.abs(z[[0, -1]]).max()
+    stopped = walk.time[-1] < walk.scene.duration - walk.scene.settle_time - walk.numerics.timestep
+    if stopped or not ends < _FALLEN * length:
         return Status.TOPPLED
     return Status.SLID if _slid(walk) > _SLID * length else Status.OK
 

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 from matplotlib.figure import Figure
 
@@ -58,11 +59,11 @@ def draw(rows: Sequence[Row], work: str) -> Figure:
         axes.set_title(title if scene == "tip" else f"{title}, {scene}", fontsize=9)
         axes.grid(which="major", color="0.92", lw=0.6)
     panels[0].set_ylabel(label)
-    handles = {}
+    handles: dict[str, Any] = {}
     for axes in panels:
         found, names = axes.get_legend_handles_labels()
         handles |= dict(zip(names, found, strict=True))
-    figure.legend(handles.values(), handles.keys(), loc="outside right upper", frameon=False,
+    figure.legend(list(handles.values()), list(handles), loc="outside right upper", frameon=False,
                   fontsize=FONT["font.size"] - 2)  # fmt: skip
     return figure
 

@@ -35,8 +35,8 @@ class Setting:
 def settings(quick: bool = False) -> Iterator[Setting]:
     """Every setting that is measured, cheap ones first within a method."""
     for rung in RUNGS:
-        for links in (0,) if rung != REFERENCE else (12, 24, 60):
-            yield Setting(rung, links)
+        for count in (0,) if rung != REFERENCE else (12, 24, 60):
+            yield Setting(rung, count)
     grid = [
         ("planar", "discrete", (6, 12, 18, 24, 48), (0.05, 0.02, 0.01, 0.005, 0.002, 0.001)),
         ("cable", "discrete", (6, 12, 24), (0.02, 0.01, 0.005)),
