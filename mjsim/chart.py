@@ -10,13 +10,13 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from mjsim.accuracy import figure, settling, walking
+from mjsim.accuracy import figure, grid, settling, walking
 from mjsim.accuracy.rows import MEASURED, Row, append, read
 from mjsim.cli import bar, choose, fail, parse
 from mjsim.provenance import origin
 
 PROGRAM = "python -m mjsim.chart"
-WORKS = (settling.WORK, walking.WORK)
+WORKS = (settling.WORK, grid.WORK)
 
 
 @dataclass(frozen=True)
@@ -75,9 +75,9 @@ def _jobs(works: Sequence[str], quick: bool) -> Iterator[Job]:
     if settling.WORK in works:
         for setting in settling.settings(quick):
             yield setting.key, lambda setting=setting: settling.run(setting)  # type: ignore[misc]
-    if walking.WORK in works:
-        for step in walking.settings(quick):
-            for ground in walking.GROUNDS:
+    if grid.WORK in works:
+        for step in grid.settings(quick):
+            for ground in grid.GROUNDS:
                 yield step.key(ground), lambda s=step, g=ground: walking.run(s, g)  # type: ignore[misc]
 
 

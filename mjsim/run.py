@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from analytic import SURFACES, Robot
 from mjsim import gl
+from mjsim.accuracy.choice import cheapest
+from mjsim.accuracy.grid import numerics_of
 from mjsim.cli import ALL, FAILED, bar, choose, fail, parse
 from mjsim.config import Numerics, Scene, check, default_numerics
 from mjsim.gaits import find_gait
@@ -19,6 +21,8 @@ if TYPE_CHECKING:
     from mjsim.trajectory import Trajectory
 
 PROGRAM = "python -m mjsim.run"
+AUTO = "auto"  # the body that is picked from what was measured
+_TOLERANCE = 0.02  # of it, relative on displacement
 
 
 @dataclass(frozen=True)
@@ -48,7 +52,9 @@ class Options:
     """peak pressure of a segment [Pa]"""
     body: str = "planar"
     """model of the strip: planar, a chain of hinged links; cable, links with ball joints in space;
-    rod, point masses in space"""
+    rod, point masses in space; auto, the cheapest that was measured to meet the tolerance"""
+    tolerance: float | None = None
+    """of body auto: relative error of the displacement per cycle; if not given, 0.02"""
     friction: str = "paper"
     """friction law: paper, constant at a tip and by area on a side; coulomb, by load"""
     friction_number: float = Scene().friction_number
@@ -62,10 +68,12 @@ class Options:
     """what carries the moment of pressure: springs, set at each step; or actuators, a control"""
     lag: float = 0.0
     """time constant with which chambers follow their valves [s]"""
-    links: int = Numerics().links
-    """length of a link is the strip's over this; multiples of 6 are the most accurate"""
+    links: int | None = None
+    """length of a link is the strip's over this; multiples of 6 are the most accurate. If not
+    given, 24, and of body auto what it picks"""
     timestep: float | None = None
-    """time step [s]; if not given, 0.01, and 0.005 under the coulomb law"""
+    """time step [s]; if not given, 0.01, 0.005 under the coulomb law, and of body auto what it
+    picks"""
     out: Path = Path("videos")
     """folder for the video and the trajectory, made if need be"""
     json: bool = False
@@ -78,10 +86,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv)
     try:
-        scenes = _scenes(options)
-        usual = default_numerics(options.body, options.friction)
-        step = usual.timestep if options.timestep is None else options.timestep
-        numerics = replace(usual, links=options.links, timestep=step)
+        body, numerics = _body(options)
+        scenes = _scenes(replace(options, body=body))
         for scene in scenes:
             check(scene, numerics)
         _check_folder(options.out)
@@ -121,6 +127,22 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(table(records))
         print(*(f"{row[key]}" for row in records for key in ("trajectory", "video") if row[key]))
     return 0 if all(row["status"] == "ok" for row in records) else FAILED
+
+
+def _body(options: Options) -> tuple[str, Numerics]:
+    """The body, and the numerics that it is to have."""
+    given: dict[str, Any] = {"links": options.links, "timestep": options.timestep}
+    given = {name: value for name, value in given.items() if value is not None}
+    if options.body != AUTO:
+        if options.tolerance is not None:
+            raise ValueError(f"tolerance is for body {AUTO}, got body {options.body!r}")
+        usual = default_numerics(options.body, options.friction)
+        return options.body, replace(usual, **given)
+    if given or options.friction != "paper":
+        other = next(iter(given), "friction coulomb")
+        raise ValueError(f"body {AUTO} picks links and timestep under the paper law, got {other}")
+    setting = cheapest(_TOLERANCE if options.tolerance is None else options.tolerance).setting
+    return setting.method, numerics_of(setting)
 
 
 def _scenes(options: Options) -> list[Scene]:

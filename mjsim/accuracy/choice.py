@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from mjsim.accuracy.grid import GROUNDS, WORK, Setting
 from mjsim.accuracy.rows import Row, read
-from mjsim.accuracy.walking import GROUNDS, WORK, Setting
 from mjsim.config import BODIES
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from mjsim.accuracy import settling, walking
+from mjsim.accuracy import grid, settling
 from mjsim.accuracy.rows import Row
 from mjsim.config import Numerics
 from mjsim.figures.style import FONT
@@ -24,7 +24,7 @@ _MARKER = {"discrete": "o", "Euler": "s", "implicitfast": "^", "implicit": "v", 
 _FAILED = {"diverged": "x", "toppled": "1", "drifting": "2"}
 _TITLE = {
     settling.WORK: ("heavy clamped strip, settling", "distance of the tip from its place / L"),
-    walking.WORK: ("one cycle of the default gait", "relative error of displacement per cycle"),
+    grid.WORK: ("one cycle of the default gait", "relative error of displacement per cycle"),
 }
 
 
@@ -81,7 +81,7 @@ def is_default(row: Row) -> bool:
     """Whether a row is what `python -m mjsim.run` does unless told otherwise."""
     usual = Numerics()
     setting = (row.work, row.method, row.integrator, row.links, row.timestep)
-    return setting == (walking.WORK, "planar", usual.integrator, usual.links, usual.timestep)
+    return setting == (grid.WORK, "planar", usual.integrator, usual.links, usual.timestep)
 
 
 def cheapest(rows: Sequence[Row], work: str, goal: float) -> dict[str, Row]:

@@ -4,6 +4,7 @@ import csv
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
+from typing import Any
 
 HERE = Path(__file__).resolve().parent
 MEASURED = HERE / "rows.csv"  # what `python -m mjsim.chart` measured last, kept with the code
@@ -49,44 +50,43 @@ class Row:
         return self.work, self.scene, self.method, self.integrator, self.links, self.timestep
 
 
-def read(path: Path = MEASURED) -> list[Row]:
-    """Rows of a file; none if it is not there.
+def read(path: Path = MEASURED, kind: type[Any] = Row) -> list[Any]:
+    """Rows of a file, of one kind of dataclass; none if it is not there.
 
     Raises:
         ValueError: the file holds something else.
     """
     if not path.is_file():
         return []
-    kinds = {field.name: field.type for field in fields(Row)}
+    convert = {name: {"int": int, "float": float}.get(_name(of), str)
+               for name, of in ((field.name, field.type) for field in fields(kind))}  # fmt: skip
     with path.open(newline="", encoding="utf-8") as file:
         table = csv.DictReader(file)
-        if tuple(table.fieldnames or ()) != tuple(kinds):
+        if tuple(table.fieldnames or ()) != tuple(convert):
             raise ValueError(f"{path} is no table of rows: its columns are {table.fieldnames}")
-        convert = {"int": int, "float": float, "str": str}
         return [
-            Row(**{name: convert[str(_name(kinds[name]))](text) for name, text in line.items()})
-            for line in table
+            kind(**{name: convert[name](text) for name, text in line.items()}) for line in table
         ]
 
 
-def append(rows: Iterable[Row], path: Path) -> Iterator[Row]:
-    """Write each row to the end of a file as it comes, and hand it on.
+def append(rows: Iterable[Any], path: Path) -> Iterator[Any]:
+    """Write each row, a dataclass, to the end of a file as it comes, and hand it on.
 
     A run that is stopped keeps what it had; the next one goes on from there.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    new = not path.is_file()
-    with path.open("a", newline="", encoding="utf-8") as file:
-        table = csv.DictWriter(file, [field.name for field in fields(Row)], lineterminator="\n")
-        if new:
-            table.writeheader()
-        for row in rows:
+    for row in rows:
+        values = asdict(row)
+        new = not path.is_file()
+        with path.open("a", newline="", encoding="utf-8") as file:
+            table = csv.DictWriter(file, list(values), lineterminator="\n")
+            if new:
+                table.writeheader()
             table.writerow(
-                {name: f"{v:.6g}" if isinstance(v, float) else v for name, v in asdict(row).items()}
+                {name: f"{v:.6g}" if isinstance(v, float) else v for name, v in values.items()}
             )
-            file.flush()
-            yield row
+        yield row
 
 
-def _name(kind: object) -> str:
-    return kind.__name__ if isinstance(kind, type) else str(kind)
+def _name(of: object) -> str:
+    return of.__name__ if isinstance(of, type) else str(of)

@@ -1,0 +1,108 @@
+"""The stability maps drawn: pure functions of their rows and of the predicted limits."""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from mjsim.accuracy import maps
+from mjsim.accuracy.grid import Setting, numerics_of
+from mjsim.accuracy.outcome import OUTCOMES, highest_frequency, predicted_limit, stiffened
+
+_COLOURS = dict(zip((*OUTCOMES, "finished"),
+                    ("#66a182", "#edae49", "#e76f51", "#8d6a9f", "#30343f", "#d9d2c5"),
+                    strict=True))  # fmt: skip
+
+
+def draw_integrators(rows: Sequence[maps.Tried]) -> Figure:
+    """Outcome over time step and links (top) and stiffness (bottom), a column an integrator."""
+    figure = Figure(figsize=(12, 6.4), layout="constrained", dpi=110)
+    axes = figure.subplots(2, len(maps.MAPPED), sharey=True)
+    for column, integrator in enumerate(maps.MAPPED):
+        mine = [row for row in rows if row.integrator == integrator]
+        top, bottom = axes[0, column], axes[1, column]
+        _tiles(top, [(r.links, r.timestep, r.outcome) for r in mine if r.stiffness == 1.0])
+        _tiles(bottom, [(r.stiffness, r.timestep, r.outcome) for r in mine
+                        if r.links == maps.USUAL_LINKS])  # fmt: skip
+        top.set_title(integrator, fontsize=10)
+        links = sorted({row.links for row in mine if row.stiffness == 1.0})
+        _limit(top, integrator, [(n, n, 1.0) for n in links])
+        soft = sorted({row.stiffness for row in mine})
+        _limit(bottom, integrator, [(f, maps.USUAL_LINKS, f) for f in soft])
+        top.set_xlabel("links")
+        bottom.set_xlabel("stiffness / default")
+    for left in axes[:, 0]:
+        left.set_ylabel("time step [s]")
+    _legend(figure, OUTCOMES)
+    return figure
+
+
+def draw_robots(rows: Sequence[maps.Standing]) -> Figure:
+    """Elastica, MuJoCo, and the depth of the modes, over pressure and Gamma."""
+    figure = Figure(figsize=(11, 3.9), layout="constrained", dpi=110)
+    theory, simulated, sunk = figure.subplots(1, 3, sharey=True)
+    of = {"ok": "accurate", "branch_end": "toppled", "rolled_up": "diverged"}
+    _tiles(theory, [(r.gamma, 1e-3 * r.pressure, of.get(r.elastica, "wrong direction"))
+                    for r in rows])  # fmt: skip
+    _tiles(simulated, [(r.gamma, 1e-3 * r.pressure, r.planar) for r in rows])
+    x, y, depth = _grid([(r.gamma, 1e-3 * r.pressure, r.sunk) for r in rows])
+    shown = sunk.pcolormesh(x, y, depth, cmap="cividis", shading="nearest")
+    figure.colorbar(shown, ax=sunk, label="depth below the ground / L")
+    x, y, beyond = _grid([(r.gamma, 1e-3 * r.pressure, float(r.elastica != "ok")) for r in rows])
+    titles = "elastica's stable branch", "MuJoCo, against elastica", "the seed's modes"
+    for axes, title in zip((theory, simulated, sunk), titles, strict=True):
+        axes.set(xscale="log", xlabel=r"$\Gamma = w L^3 / D_0$")
+        axes.set_title(title, fontsize=9)
+        axes.contour(x, y, beyond, levels=[0.5], colors="black", linewidths=1.2)
+    theory.set_ylabel("peak pressure [kPa]")
+    _legend(figure, (*OUTCOMES, "finished"))
+    return figure
+
+
+DRAW: dict[str, Callable[[Sequence[Any]], Figure]] = {
+    "integrators": draw_integrators,
+    "robots": draw_robots,
+}
+
+
+def _limit(axes: Axes, integrator: str, at: Sequence[tuple[float, int, float]]) -> None:
+    """Predicted limits of the time step: with the damping, and 2/omega_max without."""
+    damped, bare = [], []
+    for _, links, stiffness in at:
+        numerics = numerics_of(Setting("planar", links, 1e-3, integrator))
+        omega = highest_frequency(stiffened(stiffness), numerics)
+        damped.append(predicted_limit(integrator, omega, numerics.damping_time))
+        bare.append(2 / omega)
+    x = [place for place, _, _ in at]
+    low, high = axes.get_ylim()
+    axes.plot(x, damped, color="black", lw=1.4)
+    axes.plot(x, bare, color="black", lw=1, ls=":")
+    axes.set_ylim(low, high)
+
+
+def _tiles(axes: Axes, cells: Sequence[tuple[float, float, str]]) -> None:
+    names = list(_COLOURS)
+    x, y, number = _grid([(a, b, float(names.index(name))) for a, b, name in cells])
+    axes.pcolormesh(x, y, number, cmap=ListedColormap(list(_COLOURS.values())), vmin=-0.5,
+                    vmax=len(names) - 0.5, shading="nearest")  # fmt: skip
+    axes.set(xscale="log")
+    if y.max() < 1:
+        axes.set(yscale="log")
+
+
+def _grid(cells: Sequence[tuple[float, float, float]]) -> tuple[Any, Any, Any]:
+    """Axes and values of cells (x, y, value); NaN where there is none."""
+    x, y = (np.unique([cell[axis] for cell in cells]) for axis in (0, 1))
+    value = np.full((len(y), len(x)), np.nan)
+    for a, b, v in cells:
+        value[np.searchsorted(y, b), np.searchsorted(x, a)] = v
+    return x, y, value
+
+
+def _legend(figure: Figure, names: Sequence[str]) -> None:
+    figure.legend(handles=[Patch(color=_COLOURS[name], label=name) for name in names],
+                  loc="outside lower center", ncols=len(names), frameon=False)  # fmt: skip

@@ -1,0 +1,99 @@
+"""Map where methods fail: `python -m mjsim.stability`."""
+
+import logging
+import multiprocessing
+import os
+import sys
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mjsim.accuracy import mapped, maps
+from mjsim.accuracy.figure import save
+from mjsim.accuracy.rows import append, read
+from mjsim.cli import bar, choose, fail, parse
+
+PROGRAM = "python -m mjsim.stability"
+KINDS: dict[str, type[Any]] = {"integrators": maps.Tried, "robots": maps.Standing}
+
+
+@dataclass(frozen=True)
+class Options:
+    """Walk the default gait over grids of settings and of robots, and map how each walk came out.
+
+    integrators: time step over links and over stiffness, for each integrator, with the time step
+    beyond which its highest mode is predicted to grow. robots: pressure over weight, where the
+    reference's stable branch ends, where MuJoCo topples, and how far the seed's modes lie below the
+    ground. Walks are appended to a table as they come, and a run that was stopped goes on where it
+    was. Exit code 0: done; 2: bad input.
+
+    Example: python -m mjsim.stability --map robots --quick --out /tmp/maps
+    """
+
+    map: str = "all"
+    """integrators, robots, or all"""
+    cycles: int = 3
+    """of the walks of the integrators' map"""
+    out: Path = Path("docs")
+    """folder for tables and figures"""
+    fresh: bool = False
+    """walk everything anew"""
+    quick: bool = False
+    """only a few walks of each map"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    options = parse(Options, PROGRAM, argv)
+    try:
+        names = choose("map", options.map, KINDS)
+        if options.cycles < 1:
+            raise ValueError(f"cycles must be at least 1, got {options.cycles}")
+        known = {name: _known(options, name) for name in names}
+        options.out.mkdir(parents=True, exist_ok=True)
+    except (ValueError, OSError) as error:
+        fail(PROGRAM, str(error))
+    for name in names:
+        rows = known[name]
+        seen = {row.key for row in rows}
+        todo = [row for row in _grid(options, name) if row.key not in seen]
+        with _pool() as pool, bar(name, len(todo)) as advance:
+            for row in append(pool.map(KINDS[name].done, todo, chunksize=2), _table(options, name)):
+                rows.append(row)
+                advance(1)
+        picture = options.out / f"stability_{name}.png"
+        save(mapped.DRAW[name](rows), picture)
+        print(picture)
+    return 0
+
+
+def _table(options: Options, name: str) -> Path:
+    return options.out / f"stability_{name}.csv"
+
+
+def _known(options: Options, name: str) -> list[Any]:
+    if options.fresh:
+        _table(options, name).unlink(missing_ok=True)
+    return read(_table(options, name), KINDS[name])
+
+
+def _grid(options: Options, name: str) -> list[Any]:
+    if name == "robots":
+        return list(maps.robots(options.quick))
+    return list(dict.fromkeys(maps.integrators(options.quick, options.cycles)))
+
+
+def _pool() -> ProcessPoolExecutor:
+    context = multiprocessing.get_context("forkserver")
+    return ProcessPoolExecutor(os.cpu_count(), mp_context=context, initializer=_quiet)
+
+
+def _quiet() -> None:
+    """Divergence is an outcome here, not a warning."""
+    logging.getLogger("absl").setLevel(logging.ERROR)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
