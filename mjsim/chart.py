@@ -1,22 +1,18 @@
 """Measure speed against accuracy and draw it: `python -m mjsim.chart`."""
 
 import logging
-import os
-import platform
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
 from pathlib import Path
-from typing import Any
 
-from mjsim.accuracy import figure, grid, settling, walking
+from mjsim.accuracy import figure, grid, heavy, settling, walking
 from mjsim.accuracy.rows import MEASURED, Row, append, read
 from mjsim.cli import bar, choose, fail, parse
-from mjsim.provenance import origin
+from mjsim.provenance import machine, signature
 
 PROGRAM = "python -m mjsim.chart"
-WORKS = (settling.WORK, grid.WORK)
+WORKS = (heavy.WORK, grid.WORK)
 
 
 @dataclass(frozen=True)
@@ -57,7 +53,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     seen = {row.key for row in known}
     todo = [job for job in _jobs(works, options.quick) if job[0] not in seen]
     with bar("measuring", len(todo)) as advance:
-        for row in append((replace(run(), **_signature()) for _, run in todo), options.rows):
+        for row in append(
+            (replace(run(), machine=machine(), **signature()) for _, run in todo), options.rows
+        ):
             known.append(row)
             advance(1)
     options.out.mkdir(parents=True, exist_ok=True)
@@ -72,22 +70,13 @@ Job = tuple[tuple[str, str, str, str, int, float], Callable[[], Row]]
 
 
 def _jobs(works: Sequence[str], quick: bool) -> Iterator[Job]:
-    if settling.WORK in works:
+    if heavy.WORK in works:
         for setting in settling.settings(quick):
             yield setting.key, lambda setting=setting: settling.run(setting)  # type: ignore[misc]
     if grid.WORK in works:
         for step in grid.settings(quick):
             for ground in grid.GROUNDS:
                 yield step.key(ground), lambda s=step, g=ground: walking.run(s, g)  # type: ignore[misc]
-
-
-@cache
-def _signature() -> dict[str, Any]:
-    """Where rows are measured, and of what."""
-    made = origin()
-    versions = " ".join(f"{name}={version}" for name, version in made["versions"].items())
-    machine = f"{platform.machine()} {platform.system()} {os.cpu_count()} cores"
-    return {"machine": machine, "versions": versions, "commit": made["commit"] or ""}
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
 """What a result was made from: versions, commit, resolved configuration."""
 
+import os
 import platform
 import subprocess
 from dataclasses import asdict
+from functools import cache
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -20,6 +22,19 @@ def origin() -> dict[str, Any]:
         "versions": {"python": platform.python_version(), **_versions()},
         "commit": _commit(),
     }
+
+
+@cache
+def signature() -> dict[str, Any]:
+    """The same as words for a table's columns, `versions` and `commit`."""
+    made = origin()
+    versions = " ".join(f"{name}={version}" for name, version in made["versions"].items())
+    return {"versions": versions, "commit": made["commit"] or ""}
+
+
+def machine() -> str:
+    """What kind of machine this is, in a few words."""
+    return f"{platform.machine()} {platform.system()} {os.cpu_count()} cores"
 
 
 def provenance(scene: Scene, numerics: Numerics) -> dict[str, Any]:

@@ -6,7 +6,7 @@ import os
 import sys
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,7 @@ from mjsim.accuracy import mapped, maps
 from mjsim.accuracy.figure import save
 from mjsim.accuracy.rows import append, read
 from mjsim.cli import bar, choose, fail, parse
+from mjsim.provenance import signature
 
 PROGRAM = "python -m mjsim.stability"
 KINDS: dict[str, type[Any]] = {"integrators": maps.Tried, "robots": maps.Standing}
@@ -60,7 +61,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         seen = {row.key for row in rows}
         todo = [row for row in _grid(options, name) if row.key not in seen]
         with _pool() as pool, bar(name, len(todo)) as advance:
-            for row in append(pool.map(KINDS[name].done, todo, chunksize=2), _table(options, name)):
+            found = pool.map(KINDS[name].done, todo, chunksize=2)
+            signed = (replace(row, **signature()) for row in found)
+            for row in append(signed, _table(options, name)):
                 rows.append(row)
                 advance(1)
         picture = options.out / f"stability_{name}.png"

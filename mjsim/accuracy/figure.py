@@ -7,7 +7,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from mjsim.accuracy import grid, settling
+from mjsim.accuracy import grid, heavy
 from mjsim.accuracy.rows import Row
 from mjsim.config import Numerics
 from mjsim.figures.style import FONT
@@ -23,7 +23,7 @@ _COLOUR = {
 _MARKER = {"discrete": "o", "Euler": "s", "implicitfast": "^", "implicit": "v", "RK4": "D"}
 _FAILED = {"diverged": "x", "toppled": "1", "drifting": "2"}
 _TITLE = {
-    settling.WORK: ("heavy clamped strip, settling", "distance of the tip from its place / L"),
+    heavy.WORK: ("heavy clamped strip, settling", "distance of the tip from its place / L"),
     grid.WORK: ("one cycle of the default gait", "relative error of displacement per cycle"),
 }
 

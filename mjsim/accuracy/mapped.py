@@ -13,7 +13,8 @@ from mjsim.accuracy import maps
 from mjsim.accuracy.grid import Setting, numerics_of
 from mjsim.accuracy.outcome import OUTCOMES, highest_frequency, predicted_limit, stiffened
 
-_COLOURS = dict(zip((*OUTCOMES, "finished"),
+_TICKS = (2, 5, 10, 20, 50)
+_COLOURS = dict(zip(OUTCOMES,
                     ("#66a182", "#edae49", "#e76f51", "#8d6a9f", "#30343f", "#d9d2c5"),
                     strict=True))  # fmt: skip
 
@@ -37,7 +38,7 @@ def draw_integrators(rows: Sequence[maps.Tried]) -> Figure:
         bottom.set_xlabel("stiffness / default")
     for left in axes[:, 0]:
         left.set_ylabel("time step [s]")
-    _legend(figure, OUTCOMES)
+    _legend(figure, OUTCOMES[:-1])
     return figure
 
 
@@ -45,8 +46,7 @@ def draw_robots(rows: Sequence[maps.Standing]) -> Figure:
     """Elastica, MuJoCo, and the depth of the modes, over pressure and Gamma."""
     figure = Figure(figsize=(11, 3.9), layout="constrained", dpi=110)
     theory, simulated, sunk = figure.subplots(1, 3, sharey=True)
-    of = {"ok": "accurate", "branch_end": "toppled", "rolled_up": "diverged"}
-    _tiles(theory, [(r.gamma, 1e-3 * r.pressure, of.get(r.elastica, "wrong direction"))
+    _tiles(theory, [(r.gamma, 1e-3 * r.pressure, "accurate" if r.elastica == "ok" else "toppled")
                     for r in rows])  # fmt: skip
     _tiles(simulated, [(r.gamma, 1e-3 * r.pressure, r.planar) for r in rows])
     x, y, depth = _grid([(r.gamma, 1e-3 * r.pressure, r.sunk) for r in rows])
@@ -56,10 +56,12 @@ def draw_robots(rows: Sequence[maps.Standing]) -> Figure:
     titles = "elastica's stable branch", "MuJoCo, against elastica", "the seed's modes"
     for axes, title in zip((theory, simulated, sunk), titles, strict=True):
         axes.set(xscale="log", xlabel=r"$\Gamma = w L^3 / D_0$")
+        axes.set_xticks(_TICKS, [f"{tick:g}" for tick in _TICKS])
+        axes.minorticks_off()
         axes.set_title(title, fontsize=9)
         axes.contour(x, y, beyond, levels=[0.5], colors="black", linewidths=1.2)
     theory.set_ylabel("peak pressure [kPa]")
-    _legend(figure, (*OUTCOMES, "finished"))
+    _legend(figure, OUTCOMES)
     return figure
 
 

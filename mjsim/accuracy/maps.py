@@ -20,7 +20,7 @@ USUAL_LINKS = 12  # of the maps that do not vary them; chosen
 
 @dataclass(frozen=True)
 class Tried:
-    """One walk of the default gait: timestep [s], stiffness over the default's, and its outcome."""
+    """One walk of the default gait: its time step [s], stiffness over the default's, outcome."""
 
     integrator: str
     links: int
@@ -28,6 +28,8 @@ class Tried:
     stiffness: float
     cycles: int
     outcome: str = ""
+    versions: str = ""
+    commit: str = ""
 
     @property
     def key(self) -> tuple[str, int, float, float, int]:
@@ -45,8 +47,9 @@ class Standing:
 
     Attributes:
         elastica: "ok", or the flag where its stable branch ends.
-        planar: MuJoCo's outcome; beyond the branch, where there is no reference, "finished".
+        planar: MuJoCo's outcome.
         sunk: how far the seed's modes lie below the ground at worst, over L.
+        versions, commit: of what it was found with.
     """
 
     gamma: float
@@ -54,6 +57,8 @@ class Standing:
     elastica: str = ""
     planar: str = ""
     sunk: float = 0.0
+    versions: str = ""
+    commit: str = ""
 
     @property
     def key(self) -> tuple[float, float]:
@@ -75,7 +80,7 @@ class Standing:
         return replace(
             self,
             elastica="ok" if known else "+".join(f.name.lower() for f in exact.flags if f.name),
-            planar=found if known or found in ("toppled", "diverged") else "finished",
+            planar=found,
             sunk=-float(np.nanmin(height)) / robot.length,
         )
 

@@ -1,7 +1,8 @@
 """How one simulated walk came out, by written criteria, and the time step at which it should not.
 
 Outcomes: accurate, within NEAR of the reference's displacement; drifting, finite but farther off;
-wrong, the opposite way by more than a standstill; toppled, an end left the ground; diverged.
+wrong, the opposite way by more than a standstill; toppled, an end left the ground; diverged;
+finished, where there is no reference to be near to.
 """
 
 import math
@@ -20,7 +21,7 @@ from mjsim.measures import measure
 from mjsim.simulate import simulate
 from mjsim.trajectory import Status
 
-OUTCOMES = ("accurate", "drifting", "wrong direction", "toppled", "diverged")
+OUTCOMES = ("accurate", "drifting", "wrong direction", "toppled", "diverged", "finished")
 NEAR = 0.05  # relative error of an accurate displacement; chosen
 GROUND = "gelatin"
 
@@ -30,12 +31,14 @@ def outcome(scene: Scene, numerics: Numerics, reference: float) -> str:
 
     Args:
         scene, numerics: the walk.
-        reference: the displacement per cycle over L that it should have.
+        reference: the displacement per cycle over L that it should have, NaN if there is none.
     """
     walk = simulate(scene, numerics)
     found = measure(walk)
     if found is None:
         return "diverged" if walk.status is Status.DIVERGED else "toppled"
+    if math.isnan(reference):
+        return "finished"
     if abs(found.displacement / reference - 1) <= NEAR:
         return "accurate"
     opposite = {direction(found.displacement, 1.0), direction(reference, 1.0)}

@@ -1,26 +1,18 @@
-"""The work of settling: a heavy strip, clamped level at its left end, sags to rest; no contact.
-
-The load is w L^3 / D = 32.96, for which tables of heavy cantilevers give the tip; here it is the
-boundary value problem of the elastica that gives it. One clamp for all: the direction of the strip
-at the wall is that of the first link, which is centred on the wall or has half an element's length
-or less; a whole link welded to the wall would be of first order. One damping for all: by strain
-rate, with the time constant DAMPING.
-"""
+"""The work of settling: the heavy strip of mjsim.accuracy.heavy in each of MuJoCo's bodies."""
 
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from functools import cache
+from dataclasses import replace
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_bvp
 
-from analytic import Robot, pneunet
+from analytic import pneunet
 from analytic.cantilever import solve_cantilever
 from analytic.chain import joint_springs
+from mjsim.accuracy.heavy import DAMPING, DURATION, Setting, row, strip
 from mjsim.accuracy.rows import Row
 from mjsim.accuracy.timing import Timing, repeated
 from mjsim.assembly import BODY_MODULES, robot_mjcf
@@ -28,29 +20,10 @@ from mjsim.config import BODIES, INTEGRATORS, Scene, default_numerics
 
 Array = NDArray[np.float64]
 
-WORK = "settle"
-LOAD = 32.96  # w L^3 / D0; chosen, a load for which tips are published
-DAMPING = 0.2  # s; chosen, about critical for the lowest mode
-DURATION = 6.0  # s, after which what still moves is below 1e-6 L; chosen
 _STEADY = 1e-3  # speed of the tip, over L a second, above which it has not come to rest; chosen
 STOCK = "stock cable"
 _PARTS = 20  # of a run, after each of which it is looked at
 _PER_VERTEX = 4  # numbers of flex_bending a vertex, see mjsim.rod
-
-
-@dataclass(frozen=True)
-class Setting:
-    """A method at one setting: a body, MuJoCo's own cable, or the elastica (links alone)."""
-
-    method: str
-    links: int
-    timestep: float = 0.0
-    integrator: str = ""
-
-    @property
-    def key(self) -> tuple[str, str, str, str, int, float]:
-        """That of its row."""
-        return WORK, "tip", self.method, self.integrator, self.links, self.timestep
 
 
 def settings(quick: bool = False) -> Iterator[Setting]:
@@ -72,50 +45,10 @@ def settings(quick: bool = False) -> Iterator[Setting]:
                         yield Setting(method, n, timestep, integrator)
 
 
-def strip() -> Robot:
-    """The default robot without pressure, as heavy as LOAD asks."""
-    base = Robot()
-    unit = pneunet.base_rigidity(base) / base.length**3
-    return replace(base, weight_per_length=LOAD * unit)
-
-
-@cache
-def exact() -> tuple[float, float]:
-    """(x, y) of the tip over L: theta'' = -LOAD (1 - s) cos(theta), theta(0) = theta'(1) = 0.
-
-    The elastica of a heavy strip, theta downwards: the weight w (L - s) of the rest bends it.
-    """
-    s = np.linspace(0, 1, 401)
-    found = None
-    state = np.zeros((2, len(s)))
-    for load in np.linspace(0, LOAD, 12)[1:]:
-        found = solve_bvp(
-            lambda s, u, load=load: np.array([u[1], -load * (1 - s) * np.cos(u[0])]),
-            lambda a, b: np.array([a[0], b[1]]),
-            s, state, tol=1e-10, max_nodes=100_000,
-        )  # fmt: skip
-        state = found.sol(s)
-    fine = np.linspace(0, 1, 20_001)
-    theta = found.sol(fine)[0]  # type: ignore[union-attr]  # downwards, so y is minus its sine
-    weights = np.ones(len(fine))
-    weights[1:-1:2], weights[2:-1:2] = 4, 2
-    weights /= weights.sum()
-    return float(weights @ np.cos(theta)), -float(weights @ np.sin(theta))
-
-
 def run(setting: Setting) -> Row:
     """Measure one setting."""
     tip, timing, status = (_static if setting.method == "elastica" else _dynamic)(setting)
     return row(setting, tip, timing, status)
-
-
-def row(setting: Setting, tip: tuple[float, float], timing: Timing, status: str) -> Row:
-    """The row of a tip (x, y) over L; also for peers."""
-    error = math.dist(tip, exact()) if status == "ok" else math.nan
-    return Row(
-        WORK, "tip", setting.method, setting.integrator, setting.links, setting.timestep,
-        error, 0.0, error, timing.least, timing.median, status,
-    )  # fmt: skip
 
 
 def _static(setting: Setting) -> tuple[tuple[float, float], Timing, str]:

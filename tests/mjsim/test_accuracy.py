@@ -1,0 +1,162 @@
+"""Accuracy against cost: the work has exact answers, rows come back whole, auto keeps its word."""
+
+import json
+import math
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from analytic import SURFACES
+from mjsim import chart, cli, run
+from mjsim.accuracy import figure, heavy, settling
+from mjsim.accuracy.choice import cheapest, choices
+from mjsim.accuracy.grid import GROUNDS, numerics_of
+from mjsim.accuracy.rows import Row, append, read
+from mjsim.config import Scene
+from mjsim.measures import measure
+from mjsim.simulate import simulate
+
+
+def test_the_exact_tip_is_the_published_one():
+    assert heavy.exact() == pytest.approx((0.32218, -0.88079), abs=5e-5)
+
+
+@pytest.mark.parametrize("method", ["elastica", "planar", "cable", "stock cable"])
+def test_a_settled_strip_is_of_second_order_in_its_elements(method):
+    errors = []
+    for links in (6, 12, 24):
+        timestep, integrator = (0.0, "") if method == "elastica" else (0.02, "discrete")
+        row = settling.run(heavy.Setting(method, links, timestep, integrator))
+        assert row.status == "ok"
+        errors.append(row.error)
+    assert errors[1] / errors[2] == pytest.approx(4, rel=0.15)
+    assert errors[2] < 0.002
+
+
+def test_the_planar_chain_settles_where_the_elastica_of_as_many_links_does():
+    theory = settling.run(heavy.Setting("elastica", 24))
+    for integrator in ("discrete", "implicitfast"):
+        found = settling.run(heavy.Setting("planar", 24, 0.01, integrator))
+        assert found.error == pytest.approx(theory.error, rel=1e-3)
+
+
+def test_a_strip_that_cannot_settle_is_no_number():
+    row = settling.run(heavy.Setting("planar", 24, 0.01, "RK4"))
+    assert row.status == "diverged"
+    assert math.isnan(row.error)
+
+
+def some_row(**changes):
+    row = Row("walk", "felt", "planar", "discrete", 24, 0.01, 0.0411, 0.0418, 0.0157, 2e-3, 2e-3,
+              "ok", "a machine", "mujoco=3.17.0", "abc")  # fmt: skip
+    return replace(row, **changes)
+
+
+def test_rows_come_back_from_their_file_and_more_are_added(tmp_path):
+    path = tmp_path / "rows.csv"
+    rows = [some_row(), some_row(links=12, error=math.nan, status="toppled")]
+    for row in rows:
+        assert list(append([row], path)) == [row]
+    back = read(path)
+    assert back[0] == rows[0]
+    assert back[1].status == "toppled"
+    assert math.isnan(back[1].error)
+
+
+def test_a_table_of_something_else_is_refused(tmp_path):
+    path = tmp_path / "rows.csv"
+    path.write_text("a,b\n1,2\n")
+    with pytest.raises(ValueError, match="no table of rows"):
+        read(path)
+    with pytest.raises(SystemExit) as stop:
+        chart.main(["--rows", str(path), "--out", str(tmp_path)])
+    assert stop.value.code == cli.BAD_INPUT
+
+
+points = st.lists(
+    st.tuples(st.floats(1e-5, 1e2), st.floats(1e-6, 1e1), st.sampled_from(["ok", "diverged"]))
+)
+
+
+@given(points)
+def test_nothing_is_both_cheaper_and_more_accurate_than_a_point_of_the_front(drawn):
+    rows = [some_row(cost=cost, error=error, status=status) for cost, error, status in drawn]
+    fine = [row for row in rows if row.status == "ok"]
+    front = figure.pareto(rows)
+    assert bool(front) == bool(fine)
+    for row in front:
+        assert not any(o.cost < row.cost and o.error < row.error for o in fine)
+    for row in fine:
+        assert any(f.cost <= row.cost and f.error <= row.error for f in front)
+
+
+def test_the_committed_rows_say_where_they_are_from_and_hold_every_method():
+    rows = read()
+    assert {"planar", "cable", "rod", "stock cable", "modes", "elastica"} <= {
+        row.method for row in rows
+    }
+    assert all(row.machine and "=" in row.versions and row.commit for row in rows)
+    assert len({row.key for row in rows}) == len(rows)
+    assert all((row.status == "ok") == math.isfinite(row.error) for row in rows)
+
+
+@pytest.mark.parametrize("tolerance", [0.1, 0.02])
+def test_auto_meets_its_tolerance_when_it_is_run_again(tolerance):
+    choice = cheapest(tolerance)
+    numerics = numerics_of(choice.setting)
+    for ground in GROUNDS:
+        scene = Scene(surface=SURFACES[ground], body=choice.setting.method)
+        reference = next(row.reference for row in read() if row.scene == ground)
+        found = measure(simulate(scene, numerics)).displacement
+        assert found == pytest.approx(reference, rel=tolerance)
+
+
+def test_a_looser_tolerance_never_costs_more():
+    best = min(choice.error for choice in choices())
+    costs = [cheapest(tolerance).cost for tolerance in (best, 0.02, 0.05, 0.5)]
+    assert costs == sorted(costs, reverse=True)
+
+
+def test_a_setting_that_failed_anywhere_is_never_picked():
+    rows = [some_row(error=0.001), some_row(scene="gelatin", status="toppled", error=math.nan)]
+    with pytest.raises(ValueError, match="tolerance must be"):
+        cheapest(0.5, rows)
+
+
+def test_the_command_picks_a_body(tmp_path, capsys):
+    words = ["--body", "auto", "--tolerance", "0.05", "--json", "--no-video"]
+    assert run.main([*words, "--surface", "gelatin", "--out", str(tmp_path)]) == 0
+    row, setting = json.loads(capsys.readouterr().out), cheapest(0.05).setting
+    assert (row["body"], row["links"], row["timestep_s"]) == (
+        setting.method, setting.links, setting.timestep,
+    )  # fmt: skip
+    assert abs(row["error_over_L"]) < 0.05 * abs(row["predicted_displacement_over_L"])
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [(["--tolerance", "0.1"], "planar"), (["--body", "auto", "--links", "12"], "links"),
+     (["--body", "auto", "--tolerance", "1e-9"], "1e-09"),
+     (["--body", "auto", "--tolerance", "nan"], "nan"),
+     (["--body", "auto", "--friction", "coulomb"], "coulomb")],
+)  # fmt: skip
+def test_what_auto_cannot_do_gets_one_line(tmp_path, capsys, words, named):
+    with pytest.raises(SystemExit) as stop:
+        run.main([*words, "--no-video", "--out", str(tmp_path)])
+    said = capsys.readouterr().err
+    assert stop.value.code == cli.BAD_INPUT
+    assert len(said.strip().splitlines()) == 1
+    assert named in said
+
+
+@pytest.mark.slow
+def test_the_quick_chart_is_made_and_goes_on_where_it_was(tmp_path, capsys):
+    words = ["--quick", "--out", str(tmp_path), "--rows", str(tmp_path / "rows.csv")]
+    assert chart.main(words) == 0
+    first = (tmp_path / "rows.csv").read_text()
+    assert chart.main(words) == 0
+    assert (tmp_path / "rows.csv").read_text() == first
+    assert {"settle.png", "walk.png"} <= {path.name for path in tmp_path.iterdir()}
+    assert "elastica" in capsys.readouterr().out

@@ -1,0 +1,112 @@
+"""Where methods fail: predicted limits of the time step, and outcomes either side of boundaries."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from analytic import SURFACES
+from mjsim import cli, stability
+from mjsim.accuracy.grid import Setting, numerics_of
+from mjsim.accuracy.maps import Standing
+from mjsim.accuracy.outcome import (
+    highest_frequency,
+    measured_limit,
+    outcome,
+    predicted_limit,
+    stiffened,
+    tried,
+)
+from mjsim.config import Numerics, Scene
+from mjsim.simulate import simulate
+from mjsim.trajectory import Status
+
+UNDAMPED = 1e-6  # s; as good as none
+
+
+@pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "implicit", "RK4"])
+@pytest.mark.parametrize("damping", [UNDAMPED, Numerics().damping_time])
+def test_the_chain_bursts_where_its_highest_mode_is_predicted_to(integrator, damping):
+    numerics = Numerics(links=12, damping_time=damping)
+    predicted = predicted_limit(integrator, highest_frequency(Scene(), numerics), damping)
+    assert measured_limit(integrator, 12, damping) == pytest.approx(predicted, rel=0.1)
+
+
+def test_without_damping_that_is_2_over_omega_max():
+    omega = highest_frequency(Scene(), Numerics(links=12))
+    assert predicted_limit("Euler", omega, 0.0) == pytest.approx(2 / omega)
+    assert measured_limit("Euler", 12, UNDAMPED) == pytest.approx(2 / omega, rel=0.1)
+
+
+def test_the_discrete_integrator_has_no_limit():
+    assert measured_limit("discrete", 12, UNDAMPED) == math.inf
+
+
+def test_twice_the_links_have_four_times_the_highest_frequency():
+    low, high = (highest_frequency(Scene(), Numerics(links=n)) for n in (12, 24))
+    assert high == pytest.approx(4 * low, rel=0.01)
+
+
+def test_stiffness_raises_frequencies_by_its_root():
+    numerics = Numerics(links=12)
+    soft, stiff = (highest_frequency(stiffened(f), numerics) for f in (1.0, 100.0))
+    assert stiff == pytest.approx(10 * soft, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("integrator", "links", "timestep", "expected"),
+    [("discrete", 12, 0.02, {"accurate"}), ("discrete", 6, 0.1, {"accurate", "drifting"}),
+     ("RK4", 12, 0.002, {"diverged"}), ("Euler", 24, 0.02, {"diverged", "toppled"}),
+     ("Euler", 12, 0.001, {"drifting", "wrong direction"})],
+)  # fmt: skip
+def test_walks_fail_as_the_map_says(integrator, links, timestep, expected):
+    assert tried(integrator, links, timestep) in expected
+
+
+def test_what_is_accurate_is_so_by_the_written_bound():
+    scene, numerics = Scene(surface=SURFACES["gelatin"]), Numerics(links=12)
+    exact = -0.0418
+    assert outcome(scene, numerics, exact) == "accurate"
+    assert outcome(scene, numerics, 1.2 * exact) == "drifting"
+    assert outcome(scene, numerics, -exact) == "wrong direction"
+    heavy = replace(scene, robot=replace(scene.robot, peak_pressure=75e3))
+    assert outcome(heavy, numerics, exact) == "toppled"
+
+
+@pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "RK4"])
+def test_a_walk_that_bursts_is_never_called_ok(integrator):
+    """Left alone, MuJoCo starts anew from its first state, which looks like a robot at rest."""
+    numerics = numerics_of(Setting("planar", 24, 0.05, integrator))
+    assert simulate(Scene(), numerics).status in (Status.DIVERGED, Status.TOPPLED)
+
+
+def test_the_default_robot_stands_at_55_kilopascals_and_not_at_75():
+    """Either side of the end of the stable branch, by theory and in MuJoCo."""
+    low, high = (Standing(11.44, pressure).done() for pressure in (55e3, 75e3))
+    assert (low.elastica, low.planar) == ("ok", "accurate")
+    assert "branch_end" in high.elastica
+    assert high.planar == "toppled"
+
+
+def test_the_seed_s_modes_sink_where_the_robot_is_heavy():
+    assert Standing(8.0, 40e3).done().sunk < 1e-3
+    assert Standing(30.0, 40e3).done().sunk > 0.01
+
+
+def test_an_unknown_map_gets_one_line(tmp_path, capsys):
+    for words in (["--map", "atlas"], ["--cycles", "0"]):
+        with pytest.raises(SystemExit) as stop:
+            stability.main([*words, "--out", str(tmp_path)])
+        assert stop.value.code == cli.BAD_INPUT
+        assert len(capsys.readouterr().err.strip().splitlines()) == 1
+
+
+@pytest.mark.slow
+def test_the_quick_maps_are_made_and_go_on_where_they_were(tmp_path):
+    words = ["--quick", "--cycles", "1", "--out", str(tmp_path)]
+    assert stability.main(words) == 0
+    tables = {path: path.read_text() for path in tmp_path.glob("*.csv")}
+    assert len(tables) == 2
+    assert stability.main(words) == 0
+    assert all(path.read_text() == text for path, text in tables.items())
+    assert len(list(tmp_path.glob("*.png"))) == 2
