@@ -1,6 +1,6 @@
 PY := .venv/bin/python
 
-.PHONY: run test check numbers scenes bench models gallery figures clean
+.PHONY: run test check numbers scenes bench models gallery figures chart maps clean
 
 run: .venv/ready
 	$(PY) -m mjsim.run --surface all
@@ -31,6 +31,14 @@ models: .venv/ready
 # the seed's figures, as docs/figures.md shows them
 figures: .venv/ready
 	$(PY) -m mjsim.figures --out docs
+
+# speed against accuracy: what is not yet in mjsim/accuracy/rows.csv, and the figures
+chart: .venv/ready
+	$(PY) -m mjsim.chart
+
+# where methods fail
+maps: .venv/ready
+	$(PY) -m mjsim.stability
 
 # the videos and the picture of the README
 gallery: .venv/ready

@@ -45,8 +45,9 @@ def draw(rows: Sequence[Row], work: str) -> Figure:
                 axes.plot(row.cost, max(row.error, _LEAST), marker, color=colour, ms=4.5,
                           alpha=0.75, mec="none", label=_name(*kind))  # fmt: skip
             else:
-                axes.plot(row.cost, 2 * worst, _FAILED.get(row.status, "+"), color=colour, ms=5,
-                          mew=0.8, label=row.status)  # fmt: skip
+                marker = _FAILED.get(row.status, "+")
+                axes.plot(row.cost, 2 * worst, marker, color=colour, ms=5, mew=0.8)
+                axes.plot([], [], marker, color="0.4", ms=5, mew=0.8, label=row.status)
         front = pareto(here)
         axes.step([r.cost for r in front], [max(r.error, _LEAST) for r in front], color="0.3",
                   lw=1, where="post", zorder=0)  # fmt: skip
