@@ -87,4 +87,4 @@ def _plain(message: str) -> str:
     if number is None:
         return f"{message} (see --help)"
     name, kind, word = number.groups()
-    return f"{name} must be a {'whole ' if kind == 'int' else ''}number, got {word}"
+    return f"{name} must be a {'whole ' if kind.lower() == 'int' else ''}number, got {word}"
