@@ -10,14 +10,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from mjsim.accuracy import mapped, maps
+from mjsim.accuracy import knobs, mapped, maps
 from mjsim.accuracy.figure import save
 from mjsim.accuracy.rows import append, read
 from mjsim.cli import bar, choose, fail, parse
 from mjsim.provenance import signature
 
 PROGRAM = "python -m mjsim.stability"
-KINDS: dict[str, type[Any]] = {"integrators": maps.Tried, "robots": maps.Standing}
+KINDS: dict[str, type[Any]] = {
+    "integrators": maps.Tried, "robots": maps.Standing, "knobs": knobs.Turned,
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -27,14 +29,15 @@ class Options:
     integrators: time step over links and over stiffness, for each integrator, with the time step
     beyond which its highest mode is predicted to grow. robots: pressure over weight, where the
     reference's stable branch ends, where MuJoCo topples, and how far the seed's modes lie below the
-    ground. Walks are appended to a table as they come, and a run that was stopped goes on where it
-    was. Exit code 0: done; 2: bad input.
+    ground. knobs: the error over gait time, friction, softness and what else may matter. Walks are
+    appended to a table as they come, and a run that was stopped goes on where it was. Exit code 0:
+    done; 2: bad input.
 
     Example: python -m mjsim.stability --map robots --quick --out /tmp/maps
     """
 
     map: str = "all"
-    """integrators, robots, or all"""
+    """integrators, robots, knobs, or all"""
     cycles: int = 3
     """of the walks of the integrators' map"""
     out: Path = Path("docs")
@@ -85,6 +88,8 @@ def _known(options: Options, name: str) -> list[Any]:
 def _grid(options: Options, name: str) -> list[Any]:
     if name == "robots":
         return list(maps.robots(options.quick))
+    if name == "knobs":
+        return list(knobs.turns(options.quick))
     return list(dict.fromkeys(maps.integrators(options.quick, options.cycles)))
 
 

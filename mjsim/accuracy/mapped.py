@@ -9,10 +9,12 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from mjsim.accuracy import maps
+from mjsim.accuracy import knobs, maps
 from mjsim.accuracy.grid import Setting, numerics_of
 from mjsim.accuracy.outcome import OUTCOMES, highest_frequency, predicted_limit, stiffened
+from mjsim.config import default_numerics
 
+_CLIP, _FAILED = 20.0, "s"  # % that panels of knobs show; marker of a failed walk
 _TICKS = (2, 5, 10, 20, 50)
 _COLOURS = dict(zip(OUTCOMES,
                     ("#66a182", "#edae49", "#e76f51", "#8d6a9f", "#30343f", "#d9d2c5"),
@@ -65,9 +67,41 @@ def draw_robots(rows: Sequence[maps.Standing]) -> Figure:
     return figure
 
 
+def draw_knobs(rows: Sequence[knobs.Turned]) -> Figure:
+    """Error of the distance over each knob; the default of each is dotted."""
+    figure = Figure(figsize=(11, 5.4), layout="constrained", dpi=110)
+    panels = figure.subplots(2, 3, sharey=True).ravel()
+    for axes, (knob, (_, _, label)) in zip(panels, knobs.KNOBS.items(), strict=True):
+        for ground, colour in (("felt", "#8b5e34"), ("gelatin", "#3a7ca5")):
+            mine = [row for row in rows if (row.knob, row.ground) == (knob, ground)]
+            mine.sort(key=lambda row: row.value)
+            fine = [row for row in mine if row.status == "ok"]
+            axes.plot([r.value for r in fine], [100 * r.error for r in fine], "o-", ms=3.5, lw=1,
+                      color=colour, label=ground)  # fmt: skip
+            for row in mine:
+                if row.status != "ok":
+                    axes.plot(row.value, -_CLIP, _FAILED, color=colour, mfc="none", clip_on=False)
+        axes.axhspan(-2, 2, color="0.92", zorder=0, lw=0)
+        axes.axvline(_usual(knob), color="0.2", lw=1, ls=":")
+        axes.set(xscale="log", xlabel=label, ylim=(-_CLIP, _CLIP))
+    for left in panels[::3]:
+        left.set_ylabel("error of displacement [%]")
+    panels[0].legend(frameon=False)
+    return figure
+
+
+def _usual(knob: str) -> float:
+    law = "coulomb" if knob == "impratio" else "paper"
+    scene, numerics = knobs.scene_of(law, "felt"), default_numerics("planar", law)
+    if knob == "leg_time":
+        return float(scene.gait.leg_times[0])
+    return float(getattr(scene if hasattr(scene, knob) else numerics, knob))
+
+
 DRAW: dict[str, Callable[[Sequence[Any]], Figure]] = {
     "integrators": draw_integrators,
     "robots": draw_robots,
+    "knobs": draw_knobs,
 }
 
 

@@ -8,6 +8,7 @@ import pytest
 from analytic import SURFACES
 from mjsim import cli, stability
 from mjsim.accuracy.grid import Setting, numerics_of
+from mjsim.accuracy.knobs import Turned
 from mjsim.accuracy.maps import Standing
 from mjsim.accuracy.outcome import (
     highest_frequency,
@@ -93,6 +94,16 @@ def test_the_seed_s_modes_sink_where_the_robot_is_heavy():
     assert Standing(30.0, 40e3).done().sunk > 0.01
 
 
+@pytest.mark.parametrize(
+    ("knob", "good", "bad"),
+    [("leg_time", 8.0, 0.5), ("side_angle", 1e-3, 0.1), ("friction_number", 1.5, 0.03)],
+)
+def test_a_knob_changes_the_answer_beyond_its_range_and_not_within(knob, good, bad):
+    near, far = (abs(Turned(knob, value, "felt").done().error) for value in (good, bad))
+    assert near < 0.02
+    assert not far < 0.05
+
+
 def test_an_unknown_map_gets_one_line(tmp_path, capsys):
     for words in (["--map", "atlas"], ["--cycles", "0"]):
         with pytest.raises(SystemExit) as stop:
@@ -106,7 +117,7 @@ def test_the_quick_maps_are_made_and_go_on_where_they_were(tmp_path):
     words = ["--quick", "--cycles", "1", "--out", str(tmp_path)]
     assert stability.main(words) == 0
     tables = {path: path.read_text() for path in tmp_path.glob("*.csv")}
-    assert len(tables) == 2
+    assert len(tables) == 3
     assert stability.main(words) == 0
     assert all(path.read_text() == text for path, text in tables.items())
-    assert len(list(tmp_path.glob("*.png"))) == 2
+    assert len(list(tmp_path.glob("*.png"))) == 3
