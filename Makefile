@@ -1,6 +1,6 @@
 PY := .venv/bin/python
 
-.PHONY: run test check numbers scenes bench models gallery figures chart maps clean
+.PHONY: run test check numbers scenes loop bench models gallery figures chart maps clean
 
 run: .venv/ready
 	$(PY) -m mjsim.run --surface all
@@ -20,6 +20,9 @@ numbers: .venv/ready
 
 scenes: .venv/ready
 	$(PY) benchmarks/scenes.py
+
+loop: .venv/ready
+	$(PY) benchmarks/loop.py
 
 bench: .venv/ready
 	$(PY) -m pytest benchmarks --benchmark-only -o addopts="" --benchmark-columns=min,median,rounds
