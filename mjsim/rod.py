@@ -60,6 +60,11 @@ def complete(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
     add_friction_tendons(spec, scene, bodies[0], bodies[-1], (0.0, 0.0, 0.0))
 
 
+def half_stiffness(model: mujoco.MjModel) -> Array:
+    """Half the stiffness of each inner vertex, (N,) [N m/rad], to be written to."""
+    return model.flex_bending[_PER_VERTEX::_PER_VERTEX]
+
+
 class Drive:
     """What pressure does to the vertices, step by step; see mjsim.planar.Drive."""
 
@@ -79,7 +84,7 @@ class Drive:
         stiffness = stiffness * cos2 / (1 + 3 * tan**2)  # over g'(r)
         couple = np.zeros((len(pressure), links + 2))  # none at the two ends
         couple[:, 1:-1] = stiffness * 2 * tan / cos2
-        bending = model.flex_bending[_PER_VERTEX::_PER_VERTEX]
+        bending = half_stiffness(model)
         qpos, force = data.qpos.reshape(-1, 3), data.qfrc_applied.reshape(-1, 3)
 
         def set_springs(step: int) -> None:

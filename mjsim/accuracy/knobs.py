@@ -52,7 +52,7 @@ class Turned:
 
     def done(self) -> "Turned":
         """The same with what became of it."""
-        law = "coulomb" if self.knob == "impratio" else "paper"
+        law = law_of(self.knob)
         scene, numerics = scene_of(law, self.ground), default_numerics("planar", law)
         turned: dict[str, Any] = {self.knob: self.value}
         if self.knob == "leg_time":
@@ -74,6 +74,11 @@ def turns(quick: bool = False) -> Iterator[Turned]:
         for value in np.geomspace(low, high, 3 if quick else _PLACES):
             for ground in GROUNDS if knob != "impratio" else GROUNDS[1:]:
                 yield Turned(knob, float(f"{value:.4g}"), ground)
+
+
+def law_of(knob: str) -> str:
+    """The friction law that a knob belongs to."""
+    return "coulomb" if knob == "impratio" else "paper"
 
 
 def scene_of(law: str, ground: str) -> Scene:

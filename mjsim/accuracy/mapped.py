@@ -91,7 +91,7 @@ def draw_knobs(rows: Sequence[knobs.Turned]) -> Figure:
 
 
 def _usual(knob: str) -> float:
-    law = "coulomb" if knob == "impratio" else "paper"
+    law = knobs.law_of(knob)
     scene, numerics = knobs.scene_of(law, "felt"), default_numerics("planar", law)
     if knob == "leg_time":
         return float(scene.gait.leg_times[0])

@@ -84,10 +84,10 @@ def predicted_limit(integrator: str, omega: float, damping_time: float) -> float
     """Largest stable time step of a mode, inf where there is none [s].
 
     x'' + damping_time omega^2 x' + omega^2 x = 0. Euler's step is semi-implicit with the damping
-    at the step's end, 1 + dt^2 omega^2 / a stable while dt^2 omega^2 < 2 a + 2 with
-    a = 1 + dt damping_time omega^2; it is 2/omega without damping. implicitfast and implicit take
-    the same derivatives of damping alone. RK4 is stable to 2.785 on the negative real axis, where
-    damping_time omega > 2 puts it, and to 2 sqrt(2) / omega without damping.
+    at the step's end, and stable while dt^2 omega^2 < 2 a + 2 with a = 1 + dt damping_time omega^2,
+    which is 2/omega without damping. implicitfast and implicit do the same here. RK4 is stable to
+    2.785 on the negative real axis, where damping_time omega > 2 puts it, and to 2 sqrt(2) / omega
+    without damping.
     """
     if integrator == "discrete":
         return math.inf
@@ -102,7 +102,7 @@ def measured_limit(integrator: str, links: int, damping_time: float) -> float:
     """Largest time step at which a strip free of ground and weight stays finite [s], to 5 %.
 
     Its springs pull it from a slightly bent shape; a step counts as stable if the shape never
-    grows to twice that in 400 steps.
+    grows to 30 times that in 400 steps.
     """
     scene = Scene(friction="coulomb", surface=SURFACES[GROUND])  # no dry friction on the ends
 

@@ -17,13 +17,13 @@ from mjsim.accuracy.rows import Row
 from mjsim.accuracy.timing import Timing, repeated
 from mjsim.assembly import BODY_MODULES, robot_mjcf
 from mjsim.config import BODIES, INTEGRATORS, Scene, default_numerics
+from mjsim.rod import half_stiffness
 
 Array = NDArray[np.float64]
 
 _STEADY = 1e-3  # speed of the tip, over L a second, above which it has not come to rest; chosen
 STOCK = "stock cable"
 _PARTS = 20  # of a run, after each of which it is looked at
-_PER_VERTEX = 4  # numbers of flex_bending a vertex, see mjsim.rod
 
 
 def settings(quick: bool = False) -> Iterator[Setting]:
@@ -117,7 +117,7 @@ def _clamped(setting: Setting) -> mujoco.MjModel:
     model = spec.compile()
     if setting.method == "rod":
         stiffness, _ = joint_springs(scene.robot, setting.links, np.zeros((1, 3)))
-        model.flex_bending[_PER_VERTEX::_PER_VERTEX] = 0.5 * stiffness[0]
+        half_stiffness(model)[:] = 0.5 * stiffness[0]
     return model
 
 

@@ -1,9 +1,12 @@
-"""Simulations that several tests look at, run once."""
+"""Simulations that several tests look at, run once, and what a command refuses."""
 
 from dataclasses import replace
 from functools import cache
 
+import pytest
+
 from analytic import GAITS, SURFACES, Gait, Robot, Surface
+from mjsim import cli, run
 from mjsim.config import Numerics, Scene, default_numerics
 from mjsim.measures import Measures, measure
 from mjsim.simulate import simulate
@@ -46,3 +49,13 @@ def measured(*args, **kwargs) -> Measures:
     found = measure(result)
     assert found is not None
     return found
+
+
+def refusal(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:
+    """What `mjsim.run` says of bad input, having left with its code after one line."""
+    with pytest.raises(SystemExit) as stop:
+        run.main(words)
+    said = capsys.readouterr().err
+    assert stop.value.code == cli.BAD_INPUT
+    assert len(said.strip().splitlines()) == 1
+    return said
