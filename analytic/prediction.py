@@ -25,7 +25,7 @@ RUNGS: dict[str, Solver] = {
     "obstacle": solve_obstacle,  # small slopes, exact contact
     "elastica": solve_elastica,  # finite rotations, exact contact: the reference
 }
-REFERENCE = "elastica"
+REFERENCE, LINKS = "elastica", 60
 
 
 class Prediction(NamedTuple):
@@ -51,7 +51,7 @@ def predict(
     rung: str = REFERENCE,
     n_per_leg: int = 50,
     refinement: int = 32,
-    solver: Solver | None = None,
+    links: int = LINKS,
     friction: Friction = PAPER,
     gas: str = "affine",
     path: ArrayLike | None = None,
@@ -66,7 +66,7 @@ def predict(
         rung: a name of RUNGS.
         n_per_leg: states per ramp of the gait in the first pass.
         refinement: parts of an increment in which the anchor changes.
-        solver: used instead of the rung's own, for instance with more links.
+        links: of the elastica's chain.
         friction: law, number and slope; "coulomb" needs a rung that knows forces, and elastica
             alone lets friction bend the strip.
         gas: what the air does, see analytic.chain; elastica only, but for "affine".
@@ -78,11 +78,11 @@ def predict(
     """
     if rung not in RUNGS:
         raise ValueError(f"rung must be one of {', '.join(RUNGS)}; got {rung!r}")
-    if (friction.number or gas != "affine") and (rung != REFERENCE or solver):
+    if (friction.number or gas != "affine") and rung != REFERENCE:
         raise ValueError(f"{REFERENCE} alone knows gases and bending friction, got rung {rung!r}")
-    solve = solver or RUNGS[rung]
-    if rung == REFERENCE and not solver:
-        solve = partial(solve_elastica, gas=gas, surface=surface, friction=friction)
+    solve = RUNGS[rung]
+    if rung == REFERENCE:
+        solve = partial(solve_elastica, links=links, gas=gas, surface=surface, friction=friction)
     path = robot.peak_pressure * gait.pressures(n_per_leg) if path is None else np.asarray(path)
     shapes = solve(robot, path)
     changes = np.flatnonzero(_undecided_within(shapes, surface, friction))

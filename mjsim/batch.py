@@ -71,9 +71,10 @@ def rollout(
         [controls(s, numerics, command) for s, (_, command) in zip(scenes, commands, strict=True)]
     )
     scratch = [mujoco.MjData(models[0]) for _ in range(threads or os.cpu_count() or 1)]
-    started = clock.perf_counter()
+    started, worked = clock.perf_counter(), clock.process_time()
     found, _ = mujoco_rollout.rollout(models, scratch, np.array(states), sequence)
     wall_time = (clock.perf_counter() - started) / len(scenes)
+    cpu_time = (clock.process_time() - worked) / len(scenes)
     walks = []
     for scene, model, (time, command), state in zip(scenes, models, commands, found, strict=True):
         unknown = np.full(len(time), np.nan)
@@ -89,6 +90,7 @@ def rollout(
                 contact_right=unknown,
                 left_share=unknown,
                 wall_time=wall_time,
+                cpu_time=cpu_time,
             )
         )
     return walks

@@ -4,31 +4,34 @@ import logging
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
-from mjsim.accuracy import figure, grid, heavy, settling, walking
+from mjsim.accuracy import figure, grid, heavy, scenes, settling, walking
 from mjsim.accuracy.rows import MEASURED, Row, append, read
+from mjsim.accuracy.setting import Setting
 from mjsim.cli import bar, choose, fail, parse
 from mjsim.provenance import machine, signature
 
 PROGRAM = "python -m mjsim.chart"
-WORKS = (heavy.WORK, grid.WORK)
+WORKS = (heavy.WORK, *scenes.GROUNDS)
 
 
 @dataclass(frozen=True)
 class Options:
-    """Measure every method over links and time steps on two pieces of work, and draw the fronts.
+    """Measure every method over links and time steps on three pieces of work, and draw the fronts.
 
     settle: a heavy clamped strip sags to rest, without contact; error of its tip, whose place is
-    known exactly. walk: one cycle of the default gait on felt and on gelatin; error of the
-    displacement against the converged elastica. Rows are appended to a table as they come, and a
+    known exactly. walk: one slow cycle of the default gait on felt and on gelatin; error of the
+    displacement against the converged elastica. coulomb: the same on gelatin by Coulomb's law,
+    which peers know as well. Rows are appended to a table as they come, and a
     run that was stopped goes on where it was. Exit code 0: done; 2: bad input.
 
     Example: python -m mjsim.chart --quick --out /tmp/chart
     """
 
     work: str = "all"
-    """settle, walk, or all"""
+    """settle, walk, coulomb, or all"""
     out: Path = Path("docs")
     """folder for the figures"""
     rows: Path = MEASURED
@@ -66,17 +69,18 @@ def main(argv: Sequence[str] | None = None) -> int:
     return 0
 
 
-Job = tuple[tuple[str, str, str, str, int, float], Callable[[], Row]]
+Job = tuple[tuple[str, str, Setting], Callable[[], Row]]
 
 
 def _jobs(works: Sequence[str], quick: bool) -> Iterator[Job]:
-    if heavy.WORK in works:
-        for setting in settling.settings(quick):
-            yield setting.key, lambda setting=setting: settling.run(setting)  # type: ignore[misc]
-    if grid.WORK in works:
-        for step in grid.settings(quick):
-            for ground in grid.GROUNDS:
-                yield step.key(ground), lambda s=step, g=ground: walking.run(s, g)  # type: ignore[misc]
+    for work in works:
+        if work == heavy.WORK:
+            for setting in settling.settings(quick):
+                yield (work, heavy.TIP, setting), partial(settling.run, setting)
+        else:
+            for setting in grid.settings(work, quick):
+                for ground in scenes.GROUNDS[work]:
+                    yield (work, ground, setting), partial(walking.run, work, ground, setting)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic import GAITS, REFERENCE, RUNGS, SURFACES, Gait, Robot, Surface, direction, predict
-from analytic.elastica import solve_elastica
 from mjsim.cli import bar, choose, fail, parse
 from mjsim.config import BODIES, Scene
 from mjsim.measures import measure
@@ -100,9 +99,7 @@ def _uncertainty(robot: Robot, gait: Gait, surface: Surface, fine: Row) -> float
     """What half the links and half the states would change in the reference, over L."""
     if fine.displacement_over_L is None:
         return None
-    coarse = predict(
-        robot, gait, surface, n_per_leg=25, solver=lambda r, p: solve_elastica(r, p, links=30)
-    )
+    coarse = predict(robot, gait, surface, n_per_leg=25, links=30)
     gap = abs(fine.displacement_over_L - coarse.locomotion.per_cycle / robot.length)
     return gap if np.isfinite(gap) else None
 

@@ -11,6 +11,7 @@ MIN_LINKS, MAX_LINKS = 6, 384
 BODIES = ("planar", "cable", "rod")
 DRIVES = ("springs", "actuators")
 INTEGRATORS = ("discrete", "Euler", "implicitfast", "implicit", "RK4")
+CONES = ("elliptic", "pyramidal")
 
 
 @dataclass(frozen=True)
@@ -108,6 +109,7 @@ class Numerics:
     steep_contact_time: float = 2.0  # that of an end steeper than steep_angle [timestep]; chosen
     steep_angle: float = 0.3  # rad; chosen
     pad_radius: float = 1e-3  # of the contact pads, centred on the neutral line [m]; chosen
+    cone: str = "elliptic"  # of the Coulomb law: the shape of its friction cones
     impratio: float = 100.0  # of the Coulomb law: firmness of friction over the normal; chosen
     contact_depth: float = 4e-5  # of its contacts, in which they grow firm [m]; chosen
     edge_time: float = 0.5  # time constant of the rod's edges, critically damped [timestep]; chosen
@@ -119,8 +121,9 @@ class Numerics:
                 f"links must be a whole number from {MIN_LINKS} to {MAX_LINKS}, got {links!r}"
             )
         _choose("integrator", self.integrator, INTEGRATORS)
+        _choose("cone", self.cone, CONES)
         for item in fields(self):
-            if item.name not in ("links", "integrator"):
+            if item.name not in ("links", "integrator", "cone"):
                 _positive(item.name, getattr(self, item.name))
         if self.timestep > 0.1:
             raise ValueError(f"timestep must be at most 0.1 s, got {self.timestep!r}")

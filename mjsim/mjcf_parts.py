@@ -24,7 +24,7 @@ def template(name: str, scene: Scene, numerics: Numerics) -> mjcf.RootElement:
     along, down = math.sin(scene.slope), math.cos(scene.slope)
     root.option.gravity = (0.0 - scene.gravity * along, 0, -scene.gravity * down)
     if scene.friction == "coulomb":
-        root.option.cone, root.option.impratio = "elliptic", numerics.impratio
+        root.option.cone, root.option.impratio = numerics.cone, numerics.impratio
     pads: Any = root.default.geom
     if pads.solref is not None:  # the template of the strip has its pads there
         pads.condim, pads.solref, pads.solimp = contact(scene, numerics)

@@ -54,7 +54,8 @@ class Options:
     """model of the strip: planar, a chain of hinged links; cable, links with ball joints in space;
     rod, point masses in space; auto, the cheapest that was measured to meet the tolerance"""
     tolerance: float | None = None
-    """of body auto: relative error of the displacement per cycle; if not given, 0.02"""
+    """of body auto: relative error of the displacement per cycle that the numerics may make, beside
+    what inertia does; if not given, 0.02"""
     friction: str = "paper"
     """friction law: paper, constant at a tip and by area on a side; coulomb, by load"""
     friction_number: float = Scene().friction_number

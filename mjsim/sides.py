@@ -39,7 +39,10 @@ class Sides:
         self._nodes: list[float] = np.repeat(nodes, abreast).tolist()
         self._radius = numerics.pad_radius
         self._heights = data.geom_xpos[first : first + len(self._nodes), 2]
-        self._rows = 3 if scene.friction == "coulomb" else 1  # the normal's comes first
+        # of a contact: a pyramid's edges add up to the normal force, else its row is the first
+        self._rows, self._edges = 1, 1
+        if scene.friction == "coulomb":
+            self._rows, self._edges = (4, 4) if numerics.cone == "pyramidal" else (3, 1)
 
     def lengths(self, left: bool, right: bool) -> tuple[float, float]:
         """Lengths of side contact of the ends that may have one, 0 of the others [m]."""
@@ -48,7 +51,11 @@ class Sides:
         if top <= self._radius:
             half = 0.5 * self._length
             return half * left, half * right
-        force = data.efc_force[data.ne + data.nf :: self._rows].tolist()
+        rows = data.efc_force[data.ne + data.nf :]
+        if self._edges > 1:
+            force = rows.reshape(-1, self._rows).sum(axis=1).tolist()
+        else:
+            force = rows[:: self._rows].tolist()
         one = self._length_of(heights, force, top) if left else 0.0
         if not right:
             return one, 0.0

@@ -79,7 +79,7 @@ def simulate(
     low, high = (numerics.pad_radius + sign * _FALLEN * scene.robot.length for sign in (-1, 1))
     step, share, at = -1, 0.0, length.item(right)
 
-    started = clock.perf_counter()
+    started, worked = clock.perf_counter(), clock.process_time()
     for step in range(len(time)):
         set_springs(step)
         now = hold(step)
@@ -100,7 +100,7 @@ def simulate(
             break
         if progress and step % _REPORT_EVERY == _REPORT_EVERY - 1:
             progress(_REPORT_EVERY)
-    wall_time = clock.perf_counter() - started
+    wall_time, cpu_time = clock.perf_counter() - started, clock.process_time() - worked
 
     done = slice(0, step + 1)
     contact_left, contact_right, left_share = np.array(held).T
@@ -115,6 +115,7 @@ def simulate(
         contact_right=contact_right,
         left_share=left_share,
         wall_time=wall_time,
+        cpu_time=cpu_time,
     )
 
 

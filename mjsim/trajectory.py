@@ -42,7 +42,8 @@ class Trajectory:
             (T, N + 2, 3) [m].
         contact_left, contact_right: length of side contact, 0 for a tip, (T,) [m].
         left_share: part of a change of separation that the friction law gave to the left end, (T,).
-        wall_time: seconds the loop took, assembly and compilation excluded.
+        wall_time, cpu_time: seconds the loop took, by the clock and of all cores together,
+            assembly and compilation excluded.
     """
 
     scene: Scene
@@ -56,6 +57,7 @@ class Trajectory:
     contact_right: Array
     left_share: Array
     wall_time: float
+    cpu_time: float
 
     @property
     def start(self) -> int:
@@ -89,7 +91,8 @@ class Trajectory:
         }
         for name, (dims, values, units, text) in columns.items():
             data[name] = xr.Variable(dims, values, {"units": units, "long_name": text})
-        data["wall_time"] = xr.Variable((), self.wall_time, {"units": "s"})
+        for name in ("wall_time", "cpu_time"):
+            data[name] = xr.Variable((), getattr(self, name), {"units": "s"})
         data.attrs = {"status": str(self.status), "provenance": json.dumps(provenance)}
         return data
 
@@ -117,5 +120,6 @@ def load(path: Path) -> Trajectory:
             time=data["time"].values,
             position=np.stack([data[name].values for name in ("x", "y", "height")], axis=-1),
             wall_time=float(data["wall_time"]),
+            cpu_time=float(data["cpu_time"]),
             **{name: data[name].values for name in fields},
         )

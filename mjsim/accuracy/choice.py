@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from mjsim.accuracy.grid import GROUNDS, WORK, Setting
-from mjsim.accuracy.rows import Row, read
+from mjsim.accuracy.rows import Row, everywhere, read
+from mjsim.accuracy.scenes import WALK
+from mjsim.accuracy.setting import Setting
 from mjsim.config import BODIES
 
 
@@ -18,15 +19,11 @@ class Choice(NamedTuple):
 
 def choices(rows: Sequence[Row] | None = None) -> list[Choice]:
     """Every MuJoCo setting that was measured on all grounds and failed on none, cheapest first."""
-    found: dict[Setting, dict[str, Row]] = {}
-    for row in read() if rows is None else rows:
-        if row.work == WORK and row.method in BODIES and row.status == "ok":
-            setting = Setting(row.method, row.links, row.timestep, row.integrator)
-            found.setdefault(setting, {})[row.scene] = row
+    groups = everywhere(read() if rows is None else rows, WALK)
     whole = [
-        Choice(setting, max(row.error for row in on.values()), max(row.cost for row in on.values()))
-        for setting, on in found.items()
-        if len(on) == len(GROUNDS)
+        Choice(setting, max(row.error for row in group), max(row.cost for row in group))
+        for setting, group in groups.items()
+        if setting.method in BODIES and all(row.status == "ok" for row in group)
     ]
     return sorted(whole, key=lambda choice: choice.cost)
 

@@ -7,9 +7,9 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from mjsim.accuracy import grid, heavy
-from mjsim.accuracy.rows import Row
-from mjsim.config import Numerics
+from mjsim.accuracy import grid, heavy, scenes
+from mjsim.accuracy.rows import Row, everywhere
+from mjsim.config import default_numerics
 from mjsim.figures.style import FONT
 from mjsim.files import whole
 
@@ -21,29 +21,35 @@ _COLOUR = {
     "Drake": "#5e548e", "PyElastica": "#00798c", "PyBullet": "#b56576",
 }  # fmt: skip
 _MARKER = {"discrete": "o", "Euler": "s", "implicitfast": "^", "implicit": "v", "RK4": "D"}
+_CONE = {
+    ("elliptic", 1.0): "<", ("elliptic", 10.0): ">", ("elliptic", 1000.0): "*",
+    ("pyramidal", 1.0): "p", ("pyramidal", 10.0): "h", ("pyramidal", 100.0): "H",
+    ("pyramidal", 1000.0): "8",
+}  # fmt: skip
 _FAILED = {"diverged": "x", "toppled": "1", "drifting": "2"}
 _TITLE = {
     heavy.WORK: ("heavy clamped strip, settling", "distance of the tip from its place / L"),
-    grid.WORK: ("one cycle of the default gait", "relative error of displacement per cycle"),
+    scenes.WALK: ("one cycle of the default gait", "relative error of displacement per cycle"),
+    scenes.COULOMB: ("one cycle, Coulomb's law", "relative error of displacement per cycle"),
 }
 
 
 def draw(rows: Sequence[Row], work: str) -> Figure:
     """Error over seconds of one core per simulated second, a panel a scene, with the front."""
-    scenes = list(dict.fromkeys(row.scene for row in rows if row.work == work))
-    figure = Figure(figsize=(2 + 4.2 * len(scenes), 4.6), layout="constrained", dpi=110)
+    names = list(dict.fromkeys(row.scene for row in rows if row.work == work))
+    figure = Figure(figsize=(2 + 4.2 * len(names), 4.6), layout="constrained", dpi=110)
     title, label = _TITLE[work]
-    panels = figure.subplots(1, max(1, len(scenes)), sharey=True, squeeze=False)[0]
-    for axes, scene in zip(panels, scenes, strict=False):
+    panels = figure.subplots(1, max(1, len(names)), sharey=True, squeeze=False)[0]
+    for axes, scene in zip(panels, names, strict=False):
         here = [row for row in rows if (row.work, row.scene) == (work, scene)]
         worst = max((row.error for row in here if row.status == "ok"), default=1.0)
         for row in here:
-            kind = (row.method, row.integrator)
             colour = _COLOUR.get(row.method, "0.5")
             if row.status == "ok":
-                marker = _MARKER.get(row.integrator, "P")
+                usual = _MARKER.get(row.integrator, "P")
+                marker = _CONE.get((row.cone, row.impratio), usual)
                 axes.plot(row.cost, max(row.error, _LEAST), marker, color=colour, ms=4.5,
-                          alpha=0.75, mec="none", label=_name(*kind))  # fmt: skip
+                          alpha=0.75, mec="none", label=_name(row))  # fmt: skip
             else:
                 marker = _FAILED.get(row.status, "+")
                 axes.plot(row.cost, 2 * worst, marker, color=colour, ms=5, mew=0.8)
@@ -56,14 +62,14 @@ def draw(rows: Sequence[Row], work: str) -> Figure:
                 axes.plot(row.cost, max(row.error, _LEAST), "o", ms=13, mfc="none", mec="0.1")
                 axes.annotate("default", (row.cost, max(row.error, _LEAST)), xytext=(9, 6),
                               textcoords="offset points", fontsize=8)  # fmt: skip
-        axes.set(xscale="log", yscale="log", xlabel="seconds of one core per simulated second")
-        axes.set_title(title if scene == "tip" else f"{title}, {scene}", fontsize=9)
+        axes.set(xscale="log", yscale="log", xlabel="CPU seconds per simulated second")
+        axes.set_title(title if scene == heavy.TIP else f"{title}, {scene}", fontsize=9)
         axes.grid(which="major", color="0.92", lw=0.6)
     panels[0].set_ylabel(label)
     handles: dict[str, Any] = {}
     for axes in panels:
-        found, names = axes.get_legend_handles_labels()
-        handles |= dict(zip(names, found, strict=True))
+        found, labels = axes.get_legend_handles_labels()
+        handles |= dict(zip(labels, found, strict=True))
     figure.legend(list(handles.values()), list(handles), loc="outside right upper", frameon=False,
                   fontsize=FONT["font.size"] - 2)  # fmt: skip
     return figure
@@ -80,15 +86,16 @@ def pareto(rows: Iterable[Row]) -> list[Row]:
 
 def is_default(row: Row) -> bool:
     """Whether a row is what `python -m mjsim.run` does unless told otherwise."""
-    usual = Numerics()
-    setting = (row.work, row.method, row.integrator, row.links, row.timestep)
-    return setting == (grid.WORK, "planar", usual.integrator, usual.links, usual.timestep)
+    if row.work not in scenes.GROUNDS or row.method != "planar":
+        return False
+    usual = default_numerics("planar", "coulomb" if row.cone else "paper")
+    return grid.numerics_of(row.setting) == usual
 
 
 def cheapest(rows: Sequence[Row], work: str, goal: float) -> dict[str, Row]:
     """The cheapest row of each method whose error is within a goal, on its worst scene."""
     best: dict[str, Row] = {}
-    for group in _groups(rows, work):
+    for group in everywhere(rows, work).values():
         worst = max(group, key=lambda row: row.cost)
         if all(row.status == "ok" and row.error <= goal for row in group):
             name = worst.method
@@ -99,7 +106,7 @@ def cheapest(rows: Sequence[Row], work: str, goal: float) -> dict[str, Row]:
 
 def table(rows: Sequence[Row], work: str) -> str:
     """The cheapest way of each method to each goal, and its cost over the cheapest of all."""
-    head = f"{work:<13}" + "".join(f"{f'{goal:.1%}':>34}" for goal in GOALS)
+    head = f"{work:<13}" + "".join(f"{f'{goal:.1%}':>40}" for goal in GOALS)
     found = [cheapest(rows, work, goal) for goal in GOALS]
     methods = dict.fromkeys(row.method for row in rows if row.work == work)
     lines = [head]
@@ -108,7 +115,7 @@ def table(rows: Sequence[Row], work: str) -> str:
         for best in found:
             row = best.get(method)
             least = next(iter(best.values())).cost if best else math.nan
-            cells.append(f"{'-' if row is None else _cell(row, least):>34}")
+            cells.append(f"{'-' if row is None else _cell(row, least):>40}")
         lines.append(f"{method:<13}{''.join(cells)}")
     return "\n".join(lines)
 
@@ -122,19 +129,10 @@ def save(figure: Figure, path: Path) -> None:
 def _cell(row: Row, least: float) -> str:
     how = f"{row.links}" if row.links else ""
     how += f"/{1e3 * row.timestep:g} ms/{row.integrator}" if row.timestep else ""
+    how += f"/{row.cone[:1]}{row.impratio:g}" if row.cone else ""
     return f"{how} {row.cost:.2g} s ×{row.cost / least:.3g}"
 
 
-def _name(method: str, integrator: str) -> str:
-    return f"{method}, {integrator}" if integrator else method
-
-
-def _groups(rows: Sequence[Row], work: str) -> list[list[Row]]:
-    """Rows of one setting on every scene of a work; settings not measured on all are left out."""
-    found: dict[tuple[str, str, int, float], list[Row]] = {}
-    scenes = {row.scene for row in rows if row.work == work}
-    for row in rows:
-        if row.work == work:
-            key = row.method, row.integrator, row.links, row.timestep
-            found.setdefault(key, []).append(row)
-    return [group for group in found.values() if {row.scene for row in group} == scenes]
+def _name(row: Row) -> str:
+    name = f"{row.method}, {row.integrator}" if row.integrator else row.method
+    return f"{name}, {row.cone} {row.impratio:g}" if row.cone else name

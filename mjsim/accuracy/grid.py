@@ -1,56 +1,77 @@
 """Settings that walking is measured at, and that `auto` picks from; needs no MuJoCo."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 from analytic import REFERENCE, RUNGS
-from mjsim.config import Numerics, default_numerics
+from mjsim.accuracy.scenes import COULOMB, WALK
+from mjsim.accuracy.setting import Setting
+from mjsim.config import CONES, INTEGRATORS, Numerics, default_numerics
 
-WORK = "walk"
-GROUNDS = ("felt", "gelatin")
 _FIRM, _STEEP = 0.005, 0.02  # s, contact times of the default; the other integrators need ...
 _FIRM_STEPS, _STEEP_STEPS = 2.0, 4.0  # ... at least so many steps; measured
+_IMPRATIO = Numerics.impratio
 
 
-@dataclass(frozen=True)
-class Setting:
-    """A method at one setting: a body with its numerics, or a quasi-static rung."""
+class Block(NamedTuple):
+    """A method over links and time steps."""
 
     method: str
-    links: int = 0
-    timestep: float = 0.0
-    integrator: str = ""
-
-    def key(self, ground: str) -> tuple[str, str, str, str, int, float]:
-        """That of its row on a ground."""
-        return WORK, ground, self.method, self.integrator, self.links, self.timestep
+    integrator: str
+    links: tuple[int, ...]
+    timesteps: tuple[float, ...]
+    cone: str = ""
+    impratio: float = 0.0
 
 
-def settings(quick: bool = False) -> Iterator[Setting]:
-    """Every setting that is measured, cheap ones first within a method."""
-    for rung in RUNGS:
-        for count in (0,) if rung != REFERENCE else (12, 24, 60):
+_BODIES = {
+    WALK: [
+        Block("planar", "discrete", (6, 12, 18, 24, 48, 96),
+              (0.05, 0.02, 0.01, 0.005, 0.002, 0.001)),
+        Block("cable", "discrete", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005)),
+        Block("rod", "discrete", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005, 0.002)),
+        *(Block("planar", name, (12, 24), (0.005, 0.002, 0.001, 0.0005))
+          for name in INTEGRATORS[1:]),
+    ],
+    COULOMB: [
+        Block("planar", "discrete", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005, 0.002, 0.001),
+              CONES[0], _IMPRATIO),
+        *(Block("planar", "discrete", (12, 24), (0.02, 0.01, 0.005, 0.002), cone, impratio)
+          for cone in CONES for impratio in (1.0, 10.0, 100.0, 1000.0)
+          if (cone, impratio) != (CONES[0], _IMPRATIO)),
+        Block("cable", "discrete", (6, 12, 24), (0.01, 0.005, 0.002), CONES[0], _IMPRATIO),
+        Block("rod", "discrete", (6, 12, 24), (0.01, 0.005, 0.002), CONES[0], _IMPRATIO),
+        *(Block("planar", name, (12,), (0.002, 0.001, 0.0005), CONES[0], _IMPRATIO)
+          for name in INTEGRATORS[1:]),
+    ],
+}  # fmt: skip
+_QUICK = {
+    WALK: [Block("planar", "discrete", (6, 12), (0.02, 0.01)),
+           Block("cable", "discrete", (6,), (0.02,)), Block("rod", "discrete", (6,), (0.01,)),
+           Block("planar", "Euler", (6,), (0.01,))],
+    COULOMB: [Block("planar", "discrete", (6, 12), (0.02, 0.01), CONES[0], _IMPRATIO)],
+}  # fmt: skip
+
+
+def settings(work: str, quick: bool = False) -> Iterator[Setting]:
+    """Every setting that is measured on a work, cheap ones first within a method."""
+    for rung in RUNGS if work == WALK else (REFERENCE,):
+        for count in (12, 24, 60) if rung == REFERENCE else (0,):
             yield Setting(rung, count)
-    grid = [
-        ("planar", "discrete", (6, 12, 18, 24, 48), (0.05, 0.02, 0.01, 0.005, 0.002, 0.001)),
-        ("cable", "discrete", (6, 12, 24), (0.02, 0.01, 0.005)),
-        ("rod", "discrete", (6, 12, 24), (0.02, 0.01, 0.005, 0.002)),
-    ]
-    grid += [("planar", name, (12, 24), (0.005, 0.002, 0.001, 0.0005))
-             for name in ("Euler", "implicitfast", "implicit", "RK4")]  # fmt: skip
-    if quick:
-        grid = [("planar", "discrete", (6, 12), (0.02, 0.01)), ("cable", "discrete", (6,), (0.02,)),
-                ("rod", "discrete", (6,), (0.01,)), ("planar", "Euler", (6,), (0.01,))]  # fmt: skip
-    for method, integrator, links, timesteps in grid:
-        for n in links:
-            for timestep in timesteps:
-                yield Setting(method, n, timestep, integrator)
+    for block in (_QUICK if quick else _BODIES)[work]:
+        for links in block.links:
+            for timestep in block.timesteps:
+                yield Setting(block.method, links, timestep, block.integrator, block.cone,
+                              block.impratio)  # fmt: skip
 
 
 def numerics_of(setting: Setting) -> Numerics:
-    """The numerics of a body at a setting."""
-    usual = default_numerics(setting.method)
-    if setting.integrator != usual.integrator:
+    """The numerics of a body at a setting: under Coulomb's law if it has a cone."""
+    usual = default_numerics(setting.method, "coulomb" if setting.cone else "paper")
+    if setting.cone:
+        usual = replace(usual, cone=setting.cone, impratio=setting.impratio)
+    elif setting.integrator != usual.integrator:
         usual = replace(
             usual,
             contact_time=max(_FIRM_STEPS, _FIRM / setting.timestep),

@@ -8,35 +8,21 @@ rate, with the time constant DAMPING.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 from scipy.integrate import solve_bvp
 
 from analytic import Robot, pneunet
-from mjsim.accuracy.rows import Row
+from mjsim.accuracy.rows import Row, row
+from mjsim.accuracy.setting import Setting
 from mjsim.accuracy.timing import Timing
 
-WORK = "settle"
+WORK, TIP = "settle", "tip"
 LOAD = 32.96  # w L^3 / D0; chosen, a load for which tips are published
 DAMPING = 0.2  # s; chosen, about critical for the lowest mode
 DURATION = 6.0  # s, after which what still moves is below 1e-6 L; chosen
-
-
-@dataclass(frozen=True)
-class Setting:
-    """A method at one setting: a body, MuJoCo's own cable, or the elastica (links alone)."""
-
-    method: str
-    links: int
-    timestep: float = 0.0
-    integrator: str = ""
-
-    @property
-    def key(self) -> tuple[str, str, str, str, int, float]:
-        """That of its row."""
-        return WORK, "tip", self.method, self.integrator, self.links, self.timestep
 
 
 def strip() -> Robot:
@@ -70,10 +56,7 @@ def exact() -> tuple[float, float]:
     return float(weights @ np.cos(theta)), -float(weights @ np.sin(theta))
 
 
-def row(setting: Setting, tip: tuple[float, float], timing: Timing, status: str) -> Row:
-    """The row of a tip (x, y) over L; also for peers."""
-    error = math.dist(tip, exact()) if status == "ok" else math.nan
-    return Row(
-        WORK, "tip", setting.method, setting.integrator, setting.links, setting.timestep,
-        error, 0.0, error, timing.least, timing.median, status,
-    )  # fmt: skip
+def settled(setting: Setting, tip: tuple[float, float], timing: Timing, status: str) -> Row:
+    """The row of a tip (x, y) over L."""
+    error = math.dist(tip, exact())
+    return row(WORK, TIP, setting, error, 0.0, error, timing, status)

@@ -3,14 +3,12 @@
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cache
 from typing import Any
 
 import numpy as np
 
-from analytic import SURFACES, Friction, predict
-from mjsim.accuracy.grid import GROUNDS
-from mjsim.accuracy.walking import exact
+from analytic import SURFACES
+from mjsim.accuracy import scenes
 from mjsim.config import Scene, default_numerics
 from mjsim.measures import measure
 from mjsim.simulate import simulate
@@ -21,10 +19,10 @@ KNOBS = {  # name: least value, greatest, what it is called
     "contact_time": (0.3, 30.0, "contact time constant [time steps]"),
     "side_angle": (1e-4, 0.1, "side angle [rad]"),
     "damping_time": (3e-4, 0.3, "joint damping time [s]"),
-    "impratio": (1.0, 3000.0, "impratio (Coulomb's law, 8 s a leg)"),
+    "impratio": (1.0, 3000.0, "impratio (Coulomb's law, 16 s a leg)"),
 }
 _PLACES = 13
-_SLOW = 8.0  # s a leg, so that what an anchor creeps is not inertia
+_WORK = {"paper": scenes.WALK, "coulomb": scenes.COULOMB}
 
 
 @dataclass(frozen=True)
@@ -63,7 +61,7 @@ class Turned:
             numerics = replace(numerics, **turned)
         walk = simulate(scene, numerics)
         found = measure(walk)
-        reference = exact(self.ground) if law == "paper" else _coulomb(self.ground)
+        reference = scenes.exact(_WORK[law], self.ground)
         error = found.displacement / reference - 1 if found else math.nan
         return replace(self, error=error, status=str(walk.status))
 
@@ -72,7 +70,7 @@ def turns(quick: bool = False) -> Iterator[Turned]:
     """Every knob on every ground; Coulomb's law leaves felt undecided."""
     for knob, (low, high, _) in KNOBS.items():
         for value in np.geomspace(low, high, 3 if quick else _PLACES):
-            for ground in GROUNDS if knob != "impratio" else GROUNDS[1:]:
+            for ground in scenes.GROUNDS[_WORK[law_of(knob)]]:
                 yield Turned(knob, float(f"{value:.4g}"), ground)
 
 
@@ -83,14 +81,5 @@ def law_of(knob: str) -> str:
 
 def scene_of(law: str, ground: str) -> Scene:
     """The default scene under a law."""
-    scene = Scene(surface=SURFACES[ground], friction=law)
-    slow = replace(scene, gait=replace(scene.gait, leg_time=_SLOW))
-    return slow if law == "coulomb" else scene
-
-
-@cache
-def _coulomb(ground: str) -> float:
-    scene = scene_of("coulomb", ground)
-    friction = Friction("coulomb", scene.friction_number)
-    walk = predict(scene.robot, scene.gait, scene.surface, friction=friction)
-    return walk.locomotion.per_cycle / scene.robot.length
+    slow = law == "coulomb"  # so that what an anchor creeps is not inertia
+    return scenes.scene_of(scenes.COULOMB, ground) if slow else Scene(surface=SURFACES[ground])

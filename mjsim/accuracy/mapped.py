@@ -10,8 +10,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from mjsim.accuracy import knobs, maps
-from mjsim.accuracy.grid import Setting, numerics_of
+from mjsim.accuracy.grid import numerics_of
 from mjsim.accuracy.outcome import OUTCOMES, highest_frequency, predicted_limit, stiffened
+from mjsim.accuracy.setting import Setting
 from mjsim.config import default_numerics
 
 _CLIP, _FAILED = 20.0, "s"  # % that panels of knobs show; marker of a failed walk

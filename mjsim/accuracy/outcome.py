@@ -13,8 +13,9 @@ import numpy as np
 from scipy.linalg import eigh
 
 from analytic import SURFACES, Robot, direction
-from mjsim.accuracy.grid import Setting, numerics_of
-from mjsim.accuracy.walking import exact
+from mjsim.accuracy.grid import numerics_of
+from mjsim.accuracy.scenes import WALK, exact
+from mjsim.accuracy.setting import Setting
 from mjsim.assembly import compile_model
 from mjsim.config import Numerics, Scene
 from mjsim.measures import measure
@@ -54,7 +55,7 @@ def tried(
     and with them the reference, while the strip's frequencies rise with its square root.
     """
     numerics = numerics_of(Setting("planar", links, timestep, integrator))
-    return outcome(replace(stiffened(stiffness), cycles=cycles), numerics, exact(GROUND))
+    return outcome(replace(stiffened(stiffness), cycles=cycles), numerics, exact(WALK, GROUND))
 
 
 def stiffened(stiffness: float) -> Scene:

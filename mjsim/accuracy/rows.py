@@ -1,10 +1,14 @@
 """Measured rows: one method at one setting on one piece of work, kept as CSV that grows."""
 
 import csv
-from collections.abc import Iterable, Iterator
+import math
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
+
+from mjsim.accuracy.setting import Setting
+from mjsim.accuracy.timing import Timing
 
 HERE = Path(__file__).resolve().parent
 MEASURED = HERE / "rows.csv"  # what `python -m mjsim.chart` measured last, kept with the code
@@ -15,15 +19,13 @@ class Row:
     """One measurement.
 
     Attributes:
-        work: "settle" or "walk".
+        work: "settle", "walk" or "coulomb".
         scene: of the work: the surface, or "tip".
-        method: body or rung, and what of it is not usual.
-        integrator: of MuJoCo or of the peer; "" where there is none.
-        links: elements.
-        timestep: [s]; 0 for a quasi-static method.
+        method, integrator, cone, impratio, links, timestep: see Setting.
         value, reference: displacement per cycle, or distance of the tip from its exact place [L].
         error: relative on displacement, over L for the tip; NaN where it failed.
-        cost, median: least and median seconds of one core per simulated second.
+        cost, median, wall: least and median CPU seconds, and least seconds by the clock, per
+            simulated second.
         status: "ok", or how it failed.
         machine, versions, commit: where and of what.
     """
@@ -32,6 +34,8 @@ class Row:
     scene: str
     method: str
     integrator: str
+    cone: str
+    impratio: float
     links: int
     timestep: float
     value: float
@@ -39,15 +43,51 @@ class Row:
     error: float
     cost: float
     median: float
+    wall: float
     status: str
     machine: str = ""
     versions: str = ""
     commit: str = ""
 
     @property
-    def key(self) -> tuple[str, str, str, str, int, float]:
+    def setting(self) -> Setting:
+        """The method and its numerics."""
+        return Setting(self.method, self.links, self.timestep, self.integrator, self.cone,
+                       self.impratio)  # fmt: skip
+
+    @property
+    def key(self) -> tuple[str, str, Setting]:
         """What tells this measurement from others."""
-        return self.work, self.scene, self.method, self.integrator, self.links, self.timestep
+        return self.work, self.scene, self.setting
+
+
+def row(
+    work: str,
+    scene: str,
+    setting: Setting,
+    value: float,
+    reference: float,
+    error: float,
+    timing: Timing,
+    status: str,
+) -> Row:
+    """The row of a measurement; where it failed it has no error."""
+    return Row(
+        work, scene, setting.method, setting.integrator, setting.cone, setting.impratio,
+        setting.links, setting.timestep, value, reference,
+        error if status == "ok" else math.nan,
+        timing.least, timing.median, timing.wall, status,
+    )  # fmt: skip
+
+
+def everywhere(rows: Sequence[Row], work: str) -> dict[Setting, list[Row]]:
+    """Rows of each setting that was measured on every scene of a work."""
+    found: dict[Setting, list[Row]] = {}
+    for one in rows:
+        if one.work == work:
+            found.setdefault(one.setting, []).append(one)
+    scenes = {one.scene for one in rows if one.work == work}
+    return {key: group for key, group in found.items() if {one.scene for one in group} == scenes}
 
 
 def read(path: Path = MEASURED, kind: type[Any] = Row) -> list[Any]:

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from analytic import pneunet
 from analytic.cantilever import solve_cantilever
 from analytic.chain import joint_springs
-from mjsim.accuracy.heavy import DAMPING, DURATION, Setting, row, strip
+from mjsim.accuracy.heavy import DAMPING, DURATION, settled, strip
 from mjsim.accuracy.rows import Row
+from mjsim.accuracy.setting import Setting
 from mjsim.accuracy.timing import Timing, repeated
 from mjsim.assembly import BODY_MODULES, robot_mjcf
 from mjsim.config import BODIES, INTEGRATORS, Scene, default_numerics
@@ -48,7 +49,7 @@ def settings(quick: bool = False) -> Iterator[Setting]:
 def run(setting: Setting) -> Row:
     """Measure one setting."""
     tip, timing, status = (_static if setting.method == "elastica" else _dynamic)(setting)
-    return row(setting, tip, timing, status)
+    return settled(setting, tip, timing, status)
 
 
 def _static(setting: Setting) -> tuple[tuple[float, float], Timing, str]:

@@ -1,53 +1,50 @@
-"""The work of walking: one cycle of the default gait on felt and on gelatin."""
+"""The works of walking, measured: one cycle of the gait on a ground."""
 
 import math
-from functools import cache, partial
 
-from analytic import RUNGS, SURFACES, predict, solve_elastica
-from mjsim.accuracy.grid import WORK, Setting, numerics_of
-from mjsim.accuracy.rows import Row
-from mjsim.accuracy.timing import Timing, repeated
-from mjsim.config import Scene
+from analytic import REFERENCE, RUNGS, Friction, predict
+from mjsim.accuracy.grid import numerics_of
+from mjsim.accuracy.rows import Row, row
+from mjsim.accuracy.scenes import exact, scene_of
+from mjsim.accuracy.setting import Setting
+from mjsim.accuracy.timing import Spent, Timing, repeated
 from mjsim.measures import measure
 from mjsim.simulate import simulate
 
 
-@cache
-def exact(ground: str) -> float:
-    """Displacement per cycle over L of the reference, finer than it is used elsewhere."""
-    scene = Scene(surface=SURFACES[ground])
-    walk = predict(scene.robot, scene.gait, scene.surface, n_per_leg=100,
-                   solver=lambda robot, p: solve_elastica(robot, p, links=120))  # fmt: skip
-    return walk.locomotion.per_cycle / scene.robot.length
-
-
-def run(setting: Setting, ground: str) -> Row:
+def run(work: str, ground: str, setting: Setting) -> Row:
     """Measure one setting on one ground."""
-    value, timing, status = (_rung if setting.method in RUNGS else _body)(setting, ground)
-    reference = exact(ground)
-    error = abs(value / reference - 1) if status == "ok" else math.nan
-    return Row(
-        WORK, ground, setting.method, setting.integrator, setting.links, setting.timestep,
-        value, reference, error, timing.least, timing.median, status,
-    )  # fmt: skip
+    found = (_rung if setting.method in RUNGS else _body)(work, ground, setting)
+    return walked(work, ground, setting, *found)
 
 
-def _body(setting: Setting, ground: str) -> tuple[float, Timing, str]:
-    scene, numerics = Scene(surface=SURFACES[ground], body=setting.method), numerics_of(setting)
+def walked(
+    work: str, ground: str, setting: Setting, value: float, timing: Timing, status: str
+) -> Row:
+    """The row of a displacement per cycle over L."""
+    reference = exact(work, ground)
+    error = abs(value / reference - 1)
+    return row(work, ground, setting, value, reference, error, timing, status)
+
+
+def _body(work: str, ground: str, setting: Setting) -> tuple[float, Timing, str]:
+    scene, numerics = scene_of(work, ground, setting.method), numerics_of(setting)
     walk, timing = repeated(
-        lambda: simulate(scene, numerics), scene.duration, lambda walk: walk.wall_time
+        lambda: simulate(scene, numerics),
+        scene.duration,
+        lambda walk: Spent(walk.wall_time, walk.cpu_time),
     )
     found = measure(walk)
     return found.displacement if found else math.nan, timing, str(walk.status)
 
 
-def _rung(setting: Setting, ground: str) -> tuple[float, Timing, str]:
-    scene = Scene(surface=SURFACES[ground])
-    solver = None
-    if setting.links:
-        solver = partial(solve_elastica, links=setting.links)
+def _rung(work: str, ground: str, setting: Setting) -> tuple[float, Timing, str]:
+    scene = scene_of(work, ground)
+    finest = setting.method == REFERENCE
+    bent = Friction(scene.friction, scene.friction_number if finest else 0.0)
     walk, timing = repeated(
-        lambda: predict(scene.robot, scene.gait, scene.surface, setting.method, solver=solver),
+        lambda: predict(scene.robot, scene.gait, scene.surface, setting.method,
+                        links=setting.links, friction=bent, gas=scene.gas),
         scene.gait.period,
-    )
+    )  # fmt: skip
     return walk.locomotion.per_cycle / scene.robot.length, timing, "ok"

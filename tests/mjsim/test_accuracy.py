@@ -9,13 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from walks import refusal
 
-from analytic import SURFACES
 from mjsim import chart, cli, run
 from mjsim.accuracy import figure, heavy, settling
 from mjsim.accuracy.choice import cheapest, choices
-from mjsim.accuracy.grid import GROUNDS, numerics_of
+from mjsim.accuracy.grid import numerics_of
 from mjsim.accuracy.rows import Row, append, read
-from mjsim.config import Scene
+from mjsim.accuracy.scenes import GROUNDS, WALK, scene_of
+from mjsim.accuracy.setting import Setting
 from mjsim.measures import measure
 from mjsim.simulate import simulate
 
@@ -29,7 +29,7 @@ def test_a_settled_strip_is_of_second_order_in_its_elements(method):
     errors = []
     for links in (6, 12, 24):
         timestep, integrator = (0.0, "") if method == "elastica" else (0.02, "discrete")
-        row = settling.run(heavy.Setting(method, links, timestep, integrator))
+        row = settling.run(Setting(method, links, timestep, integrator))
         assert row.status == "ok"
         errors.append(row.error)
     assert errors[1] / errors[2] == pytest.approx(4, rel=0.15)
@@ -37,21 +37,21 @@ def test_a_settled_strip_is_of_second_order_in_its_elements(method):
 
 
 def test_the_planar_chain_settles_where_the_elastica_of_as_many_links_does():
-    theory = settling.run(heavy.Setting("elastica", 24))
+    theory = settling.run(Setting("elastica", 24))
     for integrator in ("discrete", "implicitfast"):
-        found = settling.run(heavy.Setting("planar", 24, 0.01, integrator))
+        found = settling.run(Setting("planar", 24, 0.01, integrator))
         assert found.error == pytest.approx(theory.error, rel=1e-3)
 
 
 def test_a_strip_that_cannot_settle_is_no_number():
-    row = settling.run(heavy.Setting("planar", 24, 0.01, "RK4"))
+    row = settling.run(Setting("planar", 24, 0.01, "RK4"))
     assert row.status == "diverged"
     assert math.isnan(row.error)
 
 
 def some_row(**changes):
-    row = Row("walk", "felt", "planar", "discrete", 24, 0.01, 0.0411, 0.0418, 0.0157, 2e-3, 2e-3,
-              "ok", "a machine", "mujoco=3.17.0", "abc")  # fmt: skip
+    row = Row("walk", "felt", "planar", "discrete", "", 0.0, 24, 0.01, 0.0411, 0.0418, 0.0157,
+              2e-3, 2e-3, 2e-3, "ok", "a machine", "mujoco=3.17.0", "abc")  # fmt: skip
     return replace(row, **changes)
 
 
@@ -107,8 +107,8 @@ def test_the_committed_rows_say_where_they_are_from_and_hold_every_method():
 def test_auto_meets_its_tolerance_when_it_is_run_again(tolerance):
     choice = cheapest(tolerance)
     numerics = numerics_of(choice.setting)
-    for ground in GROUNDS:
-        scene = Scene(surface=SURFACES[ground], body=choice.setting.method)
+    for ground in GROUNDS[WALK]:
+        scene = scene_of(WALK, ground, choice.setting.method)
         reference = next(row.reference for row in read() if row.scene == ground)
         found = measure(simulate(scene, numerics)).displacement
         assert found == pytest.approx(reference, rel=tolerance)
@@ -154,5 +154,5 @@ def test_the_quick_chart_is_made_and_goes_on_where_it_was(tmp_path, capsys):
     first = (tmp_path / "rows.csv").read_text()
     assert chart.main(words) == 0
     assert (tmp_path / "rows.csv").read_text() == first
-    assert {"settle.png", "walk.png"} <= {path.name for path in tmp_path.iterdir()}
+    assert {"settle.png", "walk.png", "coulomb.png"} <= {path.name for path in tmp_path.iterdir()}
     assert "elastica" in capsys.readouterr().out

@@ -7,7 +7,7 @@ import pytest
 
 from analytic import SURFACES
 from mjsim import cli, stability
-from mjsim.accuracy.grid import Setting, numerics_of
+from mjsim.accuracy.grid import numerics_of
 from mjsim.accuracy.knobs import Turned
 from mjsim.accuracy.maps import Standing
 from mjsim.accuracy.outcome import (
@@ -18,6 +18,7 @@ from mjsim.accuracy.outcome import (
     stiffened,
     tried,
 )
+from mjsim.accuracy.setting import Setting
 from mjsim.config import Numerics, Scene
 from mjsim.simulate import simulate
 from mjsim.trajectory import Status
