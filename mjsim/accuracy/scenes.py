@@ -8,10 +8,14 @@ from dataclasses import replace
 from functools import cache
 
 from analytic import SURFACES, Friction, predict
+from mjsim.accuracy.rows import Row, row
+from mjsim.accuracy.setting import Setting
+from mjsim.accuracy.timing import Timing
 from mjsim.config import Scene
 
 WALK, COULOMB = "walk", "coulomb"
 GROUNDS = {WALK: ("felt", "gelatin"), COULOMB: ("gelatin",)}  # Coulomb's law leaves felt undecided
+FAR = 0.5  # relative error of a displacement that is none; chosen
 _LEG = {WALK: 8.0, COULOMB: 16.0}  # s; chosen, inertia is below 0.1 % and below 0.4 % by then
 
 
@@ -33,3 +37,14 @@ def exact(work: str, ground: str) -> float:
     walk = predict(scene.robot, scene.gait, scene.surface, n_per_leg=100, links=120,
                    friction=friction, gas=scene.gas)  # fmt: skip
     return walk.locomotion.per_cycle / scene.robot.length
+
+
+def walked(
+    work: str, ground: str, setting: Setting, value: float, timing: Timing, status: str
+) -> Row:
+    """The row of a displacement per cycle over L; one that is FAR off is no walk of this gait."""
+    reference = exact(work, ground)
+    error = abs(value / reference - 1)
+    if status == "ok" and error > FAR:
+        status = "drifting"
+    return row(work, ground, setting, value, reference, error, timing, status)

@@ -4,8 +4,8 @@ import math
 
 from analytic import REFERENCE, RUNGS, Friction, predict
 from mjsim.accuracy.grid import numerics_of
-from mjsim.accuracy.rows import Row, row
-from mjsim.accuracy.scenes import exact, scene_of
+from mjsim.accuracy.rows import Row
+from mjsim.accuracy.scenes import scene_of, walked
 from mjsim.accuracy.setting import Setting
 from mjsim.accuracy.timing import Spent, Timing, repeated
 from mjsim.measures import measure
@@ -16,15 +16,6 @@ def run(work: str, ground: str, setting: Setting) -> Row:
     """Measure one setting on one ground."""
     found = (_rung if setting.method in RUNGS else _body)(work, ground, setting)
     return walked(work, ground, setting, *found)
-
-
-def walked(
-    work: str, ground: str, setting: Setting, value: float, timing: Timing, status: str
-) -> Row:
-    """The row of a displacement per cycle over L."""
-    reference = exact(work, ground)
-    error = abs(value / reference - 1)
-    return row(work, ground, setting, value, reference, error, timing, status)
 
 
 def _body(work: str, ground: str, setting: Setting) -> tuple[float, Timing, str]:

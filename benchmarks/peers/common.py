@@ -1,0 +1,32 @@
+"""What the peers' runners share: the works, the rest of the gait at its knots, the way to time."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mjsim.accuracy.heavy import DAMPING, DURATION, strip
+from mjsim.accuracy.timing import Spent, repeated, stopwatch
+
+__all__ = ["DAMPING", "DURATION", "Walked", "heavy_links", "knots", "repeated", "stopwatch",
+           "strip"]  # fmt: skip
+
+
+class Walked(NamedTuple):
+    """Displacement per cycle and greatest height of an end, over L; NaN where it burst."""
+
+    displacement: float
+    height: float
+    spent: Spent
+
+
+def heavy_links(links):
+    """Length of a link of the heavy strip, the first of which is centred on the wall."""
+    return strip().length / (links - 0.5)
+
+
+def knots(scene, rest):
+    """Times at which a leg begins or ends, from the start of the run on, and rest(pressures)."""
+    ends = np.arange(scene.gait.legs + 1) * scene.gait.leg_times[0]
+    times = np.concatenate([[0.0], scene.settle_time + ends])
+    stages = np.array([scene.gait.stages[0], *scene.gait.stages])
+    return times, rest(scene.robot.peak_pressure * stages)

@@ -1,0 +1,80 @@
+"""Measure the peers on the works of the chart, and append what was found to its rows.
+
+All have the same load, rigidity, rest curvature, gait and friction. Settling: the first element is
+centred on the wall. Walking: Coulomb's law, with the links of our own chain where links are rigid.
+"""
+
+import argparse
+import math
+import sys
+from dataclasses import replace
+from importlib import import_module, metadata
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parents[1])]
+
+from mjsim.accuracy import heavy, scenes  # noqa: E402
+from mjsim.accuracy.rows import MEASURED, append, read  # noqa: E402
+from mjsim.accuracy.setting import Setting  # noqa: E402
+from mjsim.provenance import machine, origin  # noqa: E402
+
+FAR = 0.1  # over L: of a tip from its place, or of an end from the ground
+GROUND = "gelatin"
+GRIDS = {  # module: links and time steps of settling, and of walking
+    "drake_chain": (((6, 12, 24, 48), (0.05, 0.02, 0.01, 0.005, 0.002)),
+                    ((6, 12, 24), (0.02, 0.01, 0.005, 0.002, 0.001))),
+    "cosserat_rod": (((6, 12, 24, 48), (1e-4, 5e-5, 2e-5)),
+                     ((6, 12, 18, 24), (1e-4, 7e-5, 5e-5))),
+    "bullet_chain": (((6, 12), (2e-3, 5e-4, 1e-4)), ((6, 12), (1e-3, 2e-4))),
+}  # fmt: skip
+NAMES = {"drake_chain": "Drake", "cosserat_rod": "PyElastica", "bullet_chain": "PyBullet"}
+
+
+def rows(seen):
+    """A row for each setting that is not yet there."""
+    for name, grids in GRIDS.items():
+        peer = import_module(name)
+        made = f"{peer.PACKAGE}={metadata.version(peer.PACKAGE)} numpy={np.__version__}"
+        works = (heavy.WORK, heavy.TIP, settled), (scenes.COULOMB, GROUND, walked)
+        for (work, scene, run), (links, timesteps) in zip(works, grids, strict=True):
+            for n in links:
+                for timestep in timesteps:
+                    setting = Setting(NAMES[name], n, timestep, peer.INTEGRATOR)
+                    if (work, scene, setting) in seen:
+                        continue
+                    found = run(peer, setting)
+                    print(work, found.method, n, timestep, f"{found.value:.4g}",
+                          f"{found.error:.2g}", f"{found.cost:.3g}", found.status,
+                          flush=True)  # fmt: skip
+                    commit = origin()["commit"] or ""
+                    yield replace(found, machine=machine(), versions=made, commit=commit)
+
+
+def settled(peer, setting):
+    """A tip that is nowhere, or not near where gravity takes it, is no result."""
+    tip, timing = peer.settle(setting.links, setting.timestep)
+    status = "ok" if math.dist(tip, heavy.exact()) < FAR else "drifting"
+    if not (np.isfinite(tip).all() and np.abs(tip).sum() < 2):
+        status = "diverged"
+    return heavy.settled(setting, tip, timing, status)
+
+
+def walked(peer, setting):
+    """A strip that is nowhere, or has an end in the air, does not walk."""
+    scene = scenes.scene_of(scenes.COULOMB, GROUND)
+    found, timing = peer.walk(scene, setting.links, setting.timestep)
+    status = "ok" if found.height < FAR else "toppled"
+    if not (math.isfinite(found.displacement) and math.isfinite(found.height)):
+        status = "diverged"
+    return scenes.walked(scenes.COULOMB, GROUND, setting, found.displacement, timing, status)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rows", type=Path, default=MEASURED, help="the chart's table")
+    path = parser.parse_args().rows
+    for _ in append(rows({known.key for known in read(path)}), path):
+        pass
