@@ -63,9 +63,11 @@ def solve_elastica(
     force = np.full((count, links + 2), np.nan)
     residual = np.full(count, np.nan)
     status = np.full(count, int(Status.BRANCH_END))
+    iterations = np.zeros(count, dtype=int)
 
     state, last, here = chain.flat(), None, np.zeros(len(robot.segments))
     for i in range(count):
+        begun = chain.iterations
         chain.load_at(p[i])
         guess = state if last is None else _extrapolate(last, state, p, i)
         found = _unless_it_leaps(state, chain.equilibrium(guess))
@@ -73,6 +75,7 @@ def solve_elastica(
             found = _in_smaller_steps(chain, state, here, p[i])
         if found is not None and drag is not None:
             found = drag.apply(state, found)
+        iterations[i] = chain.iterations - begun
         if found is None:
             break
         last, state, here = state, found, p[i]
@@ -99,6 +102,7 @@ def solve_elastica(
         nodes=nodes,
         force=newtons,
         residual=residual,
+        iterations=iterations,
     )
 
 

@@ -55,6 +55,9 @@ class Chain:
         clamped: hold the first node and the direction of the first link, which is that of the
             strip's end, and take the ground away: a heavy cantilever, to verify the rest by.
         slope: angle by which the ground rises towards +x [rad].
+
+    Attributes:
+        iterations: Newton steps so far.
     """
 
     def __init__(
@@ -85,6 +88,7 @@ class Chain:
         self.weight *= math.cos(slope)
         self.stiffness, self.rest = np.zeros(links), np.zeros(links)
         self.pressure, self.tension = np.zeros(len(robot.segments)), 0.0
+        self.iterations = 0
 
     def flat(self) -> ChainState:
         """The strip without pressure on the ground, or sticking out from the wall."""
@@ -129,6 +133,7 @@ class Chain:
 
     def _newton(self, state: ChainState) -> ChainState | None:
         """One step for the nodes held, all unknowns at once."""
+        self.iterations += 1
         n, l = self.links + 1, self.length  # noqa: E741
         size = 3 * n + 1
         cosine, sine = l * np.cos(state.theta), l * np.sin(state.theta)

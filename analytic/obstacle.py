@@ -54,9 +54,10 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
     values = np.zeros((len(p), elements + 1, 2))  # y and y' at the nodes
     force = np.zeros((len(p), elements + 1))
     status = np.full(len(p), int(Status.OK))
+    iterations = np.zeros(len(p), dtype=int)
     last = np.zeros((elements + 1, 2))
     for i in range(len(p)):
-        last, force[i], done = _solve(rigidity[i], curvature[i], load, last)
+        last, force[i], iterations[i], done = _solve(rigidity[i], curvature[i], load, last)
         values[i] = last
         if not done:
             status[i] = Status.NOT_CONVERGED
@@ -80,6 +81,7 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
         nodes=nodes,
         force=newtons,
         residual=_residual(values, force, load),
+        iterations=iterations,
     )
 
 
@@ -126,8 +128,10 @@ def _times(band: Array, u: Array) -> Array:
 
 def _solve(
     rigidity: Array, curvature: Array, weight: float, start: Array
-) -> tuple[Array, Array, bool]:
-    """Primal active set method from a feasible start (n+1, 2): (values, forces, converged).
+) -> tuple[Array, Array, int, bool]:
+    """Primal active set method from a feasible start (n+1, 2).
+
+    Returns values, forces, the number of minima looked for, and whether the last one is right.
 
     A node is let go only at the minimum for the nodes held, so that the energy falls from one such
     minimum to the next and none comes back: the method cannot cycle.
@@ -135,7 +139,7 @@ def _solve(
     band, load = _stiffness(rigidity), _load(rigidity, curvature, weight)
     u = start.ravel().copy()
     active = u[0::2] <= 0.0
-    for _ in range(_EXCHANGES):
+    for count in range(1, _EXCHANGES + 1):
         target = _minimum(band, load, active)
         sinks = ~active & (target[0::2] < -_ROUNDING)
         if sinks.any():
@@ -149,9 +153,9 @@ def _solve(
         u = target
         force = np.where(active, (_times(band, u) - load)[0::2], 0.0)
         if force.min() >= -_ROUNDING * weight:
-            return u.reshape(-1, 2), force, True
+            return u.reshape(-1, 2), force, count, True
         active[int(np.argmin(force))] = False
-    return u.reshape(-1, 2), force, False
+    return u.reshape(-1, 2), force, _EXCHANGES, False
 
 
 def _minimum(band: Array, load: Array, active: Mask) -> Array:

@@ -81,8 +81,11 @@ class ContactShapes(Shapes):
         force: of the ground on each node, upwards, shape (B, S) [N].
         residual: largest violation of the conditions of contact and balance, with heights over L
             and forces over the strip's weight, shape (B,) [1].
+        iterations: linear systems that were solved for each state, those of attempts that failed
+            included, shape (B,).
     """
 
     nodes: Array
     force: Array
     residual: Array
+    iterations: NDArray[np.int_]

@@ -89,8 +89,8 @@ def report(all_cases: list[Case], leg: float, numerics: Numerics) -> tuple[float
 
 def main() -> None:
     drawn = cases()
-    for leg, timestep in ((2.0, 0.010), (4.0, 0.005), (8.0, 0.005)):
-        report(drawn, leg, Numerics(timestep=timestep))
+    for leg in (2.0, 4.0, 8.0):
+        report(drawn, leg, Numerics())
 
 
 if __name__ == "__main__":

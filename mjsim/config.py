@@ -101,7 +101,7 @@ class Numerics:
     """
 
     links: int = 24
-    timestep: float = 0.010  # s; chosen
+    timestep: float = 0.005  # s; chosen
     damping_time: float = 0.005  # joint damping over joint stiffness [s]; chosen
     side_angle: float = 1e-3  # an end less steep than this lies on its side [rad]; chosen
     integrator: str = "discrete"  # MuJoCo's; the others need softer contacts and smaller steps
@@ -150,7 +150,6 @@ def default_numerics(body: str = "planar", law: str = "paper") -> Numerics:
     friction acts at the bottom of a pad, so its pads are points: no lever arm.
     """
     return Numerics(
-        timestep=0.005 if law == "coulomb" else Numerics.timestep,
         steep_contact_time=4.0 if body == "cable" else Numerics.steep_contact_time,
         pad_radius=1e-5 if law == "coulomb" else Numerics.pad_radius,
     )

@@ -39,10 +39,10 @@ def contact(scene: Scene, numerics: Numerics) -> tuple[int, Pair, Triple]:
     stiffness; a pad that is lifted off loses its load for a step and falls. So those are given
     little damping, and grow firm over a depth greater than that.
     """
-    dt = numerics.timestep
+    time = numerics.contact_time * numerics.timestep
     if scene.friction == "coulomb":
-        return 3, (-0.5 / dt**2, -1.0 / dt), (0.9, 0.999, numerics.contact_depth)
-    return 1, (numerics.contact_time * dt, 1.0), (0.999, 0.999, 0.001)
+        return 3, (-0.125 / time**2, -0.5 / time), (0.9, 0.999, numerics.contact_depth)
+    return 1, (time, 1.0), (0.999, 0.999, 0.001)
 
 
 def tendon_bound(scene: Scene) -> float:

@@ -65,6 +65,12 @@ def half_stiffness(model: mujoco.MjModel) -> Array:
     return model.flex_bending[_PER_VERTEX::_PER_VERTEX]
 
 
+def rest_stiffness(model: mujoco.MjModel, scene: Scene, links: int) -> None:
+    """Give the vertices the stiffness of a strip without pressure, which compiling does not."""
+    stiffness, _ = joint_springs(scene.robot, links, np.zeros((1, len(scene.robot.segments))))
+    half_stiffness(model)[:] = 0.5 * stiffness[0]
+
+
 class Drive:
     """What pressure does to the vertices, step by step; see mjsim.planar.Drive."""
 

@@ -73,8 +73,7 @@ class Options:
     """length of a link is the strip's over this; multiples of 6 are the most accurate. If not
     given, 24, and of body auto what it picks"""
     timestep: float | None = None
-    """time step [s]; if not given, 0.01, 0.005 under the coulomb law, and of body auto what it
-    picks"""
+    """time step [s]; if not given, 0.005, and of body auto what it picks"""
     out: Path = Path("videos")
     """folder for the video and the trajectory, made if need be"""
     json: bool = False

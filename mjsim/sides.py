@@ -73,6 +73,8 @@ class Sides:
         contact = 0
         for pad, height in enumerate(heights):
             if height < radius:
+                if contact == len(force):
+                    break  # the step burst half-way: pads moved that have no contacts yet
                 push = force[contact]
                 contact += 1
                 total += push

@@ -14,11 +14,12 @@ from mjsim.accuracy import knobs, mapped, maps
 from mjsim.accuracy.figure import save
 from mjsim.accuracy.rows import append, read
 from mjsim.cli import bar, choose, fail, parse
+from mjsim.config import BODIES
 from mjsim.provenance import signature
 
 PROGRAM = "python -m mjsim.stability"
 KINDS: dict[str, type[Any]] = {
-    "integrators": maps.Tried, "robots": maps.Standing, "knobs": knobs.Turned,
+    **dict.fromkeys(BODIES, maps.Tried), "robots": maps.Standing, "knobs": knobs.Turned,
 }  # fmt: skip
 
 
@@ -26,20 +27,20 @@ KINDS: dict[str, type[Any]] = {
 class Options:
     """Walk the default gait over grids of settings and of robots, and map how each walk came out.
 
-    integrators: time step over links and over stiffness, for each integrator, with the time step
-    beyond which its highest mode is predicted to grow. robots: pressure over weight, where the
-    reference's stable branch ends, where MuJoCo topples, and how far the seed's modes lie below the
-    ground. knobs: the error over gait time, friction, softness and what else may matter. Walks are
-    appended to a table as they come, and a run that was stopped goes on where it was. Exit code 0:
-    done; 2: bad input.
+    planar, cable, rod: time step over links and over stiffness of that body, for each integrator,
+    with the time step beyond which its highest mode is predicted to grow. robots: pressure over
+    weight, where the reference's stable branch ends, where MuJoCo topples, how far the seed's modes
+    lie below the ground, and what the solvers of the theory have to do. knobs: the error over gait
+    time, friction, softness and what else may matter. Walks are appended to a table as they come,
+    and a run that was stopped goes on where it was. Exit code 0: done; 2: bad input.
 
     Example: python -m mjsim.stability --map robots --quick --out /tmp/maps
     """
 
     map: str = "all"
-    """integrators, robots, knobs, or all"""
+    """planar, cable, rod, robots, knobs, or all"""
     cycles: int = 3
-    """of the walks of the integrators' map"""
+    """of the walks of the bodies' maps"""
     out: Path = Path("docs")
     """folder for tables and figures"""
     fresh: bool = False
@@ -70,7 +71,7 @@ def main(argv: Sequence[str] | None = None) -> int:
                 rows.append(row)
                 advance(1)
         picture = options.out / f"stability_{name}.png"
-        save(mapped.DRAW[name](rows), picture)
+        save(mapped.draw(name, rows), picture)
         print(picture)
     return 0
 
@@ -90,7 +91,7 @@ def _grid(options: Options, name: str) -> list[Any]:
         return list(maps.robots(options.quick))
     if name == "knobs":
         return list(knobs.turns(options.quick))
-    return list(dict.fromkeys(maps.integrators(options.quick, options.cycles)))
+    return list(dict.fromkeys(maps.integrators(name, options.quick, options.cycles)))
 
 
 def _pool() -> ProcessPoolExecutor:

@@ -23,8 +23,7 @@ _COLOUR = {
 _MARKER = {"discrete": "o", "Euler": "s", "implicitfast": "^", "implicit": "v", "RK4": "D"}
 _CONE = {
     ("elliptic", 1.0): "<", ("elliptic", 10.0): ">", ("elliptic", 1000.0): "*",
-    ("pyramidal", 1.0): "p", ("pyramidal", 10.0): "h", ("pyramidal", 100.0): "H",
-    ("pyramidal", 1000.0): "8",
+    ("pyramidal", 1.0): "p", ("pyramidal", 100.0): "H",
 }  # fmt: skip
 _FAILED = {"diverged": "x", "toppled": "1", "drifting": "2"}
 _TITLE = {

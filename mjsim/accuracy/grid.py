@@ -27,8 +27,9 @@ class Block(NamedTuple):
 
 _BODIES = {
     WALK: [
-        Block("planar", "discrete", (6, 12, 18, 24, 48, 96),
+        Block("planar", "discrete", (6, 12, 18, 24, 48),
               (0.05, 0.02, 0.01, 0.005, 0.002, 0.001)),
+        Block("planar", "discrete", (96,), (0.05, 0.02, 0.01, 0.005, 0.002)),
         Block("cable", "discrete", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005)),
         Block("rod", "discrete", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005, 0.002)),
         *(Block("planar", name, (12, 24), (0.005, 0.002, 0.001, 0.0005))
@@ -37,9 +38,10 @@ _BODIES = {
     COULOMB: [
         Block("planar", "discrete", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005, 0.002, 0.001),
               CONES[0], _IMPRATIO),
-        *(Block("planar", "discrete", (12, 24), (0.02, 0.01, 0.005, 0.002), cone, impratio)
-          for cone in CONES for impratio in (1.0, 10.0, 100.0, 1000.0)
-          if (cone, impratio) != (CONES[0], _IMPRATIO)),
+        *(Block("planar", "discrete", (12, 24), (0.02, 0.01, 0.005, 0.002), CONES[0], impratio)
+          for impratio in (1.0, 10.0, 1000.0)),
+        *(Block("planar", "discrete", (12,), (0.01, 0.005, 0.002, 0.001), CONES[1], impratio)
+          for impratio in (1.0, _IMPRATIO)),
         Block("cable", "discrete", (6, 12, 24), (0.01, 0.005, 0.002), CONES[0], _IMPRATIO),
         Block("rod", "discrete", (6, 12, 24), (0.01, 0.005, 0.002), CONES[0], _IMPRATIO),
         *(Block("planar", name, (12,), (0.002, 0.001, 0.0005), CONES[0], _IMPRATIO)
@@ -71,11 +73,12 @@ def numerics_of(setting: Setting) -> Numerics:
     usual = default_numerics(setting.method, "coulomb" if setting.cone else "paper")
     if setting.cone:
         usual = replace(usual, cone=setting.cone, impratio=setting.impratio)
-    elif setting.integrator != usual.integrator:
+    if setting.integrator != usual.integrator:
         usual = replace(
             usual,
             contact_time=max(_FIRM_STEPS, _FIRM / setting.timestep),
             steep_contact_time=max(_STEEP_STEPS, _STEEP / setting.timestep),
+            edge_time=_FIRM_STEPS,
         )
     return replace(usual, links=setting.links, timestep=setting.timestep,
                    integrator=setting.integrator)  # fmt: skip

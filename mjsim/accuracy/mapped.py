@@ -1,6 +1,7 @@
 """The stability maps drawn: pure functions of their rows and of the predicted limits."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,32 +12,56 @@ from matplotlib.patches import Patch
 
 from mjsim.accuracy import knobs, maps
 from mjsim.accuracy.grid import numerics_of
-from mjsim.accuracy.outcome import OUTCOMES, highest_frequency, predicted_limit, stiffened
+from mjsim.accuracy.limits import highest_frequency, predicted_limit
+from mjsim.accuracy.outcome import OUTCOMES, stiffened
 from mjsim.accuracy.setting import Setting
-from mjsim.config import default_numerics
+from mjsim.config import INTEGRATORS, default_numerics
 
 _CLIP, _FAILED = 20.0, "s"  # % that panels of knobs show; marker of a failed walk
 _TICKS = (2, 5, 10, 20, 50)
 _COLOURS = dict(zip(OUTCOMES,
                     ("#66a182", "#edae49", "#e76f51", "#8d6a9f", "#30343f", "#d9d2c5"),
                     strict=True))  # fmt: skip
+_COLOURS["rolled up"] = "#3a7ca5"
+_BRANCH = {"ok": "accurate", "branch_end": "toppled", "rolled_up": "rolled up"}
+_ROBOTS = (
+    "elastica: where its stable branch ends", "MuJoCo, against elastica",
+    "the seed's modes: depth below the ground / L", "elastica: Newton steps a state",
+    "obstacle: exchanges a state", "the seed's modes: states without lift-off",
+)  # fmt: skip
+
+
+def draw(name: str, rows: Sequence[Any]) -> Figure:
+    """The map of a name of mjsim.stability."""
+    if name == "robots":
+        return draw_robots(rows)
+    return draw_knobs(rows) if name == "knobs" else draw_integrators(rows)
 
 
 def draw_integrators(rows: Sequence[maps.Tried]) -> Figure:
-    """Outcome over time step and links (top) and stiffness (bottom), a column an integrator."""
-    figure = Figure(figsize=(12, 6.4), layout="constrained", dpi=110)
-    axes = figure.subplots(2, len(maps.MAPPED), sharey=True)
-    for column, integrator in enumerate(maps.MAPPED):
-        mine = [row for row in rows if row.integrator == integrator]
+    """Outcome over time step and links (top) and stiffness (bottom), a column an integrator.
+
+    A cross: a walk of maps.LONG cycles came out otherwise.
+    """
+    figure = Figure(figsize=(13, 6.2), layout="constrained", dpi=100)
+    axes = figure.subplots(2, len(INTEGRATORS), sharey=True)
+    for column, integrator in enumerate(INTEGRATORS):
+        every = [row for row in rows if row.integrator == integrator]
+        mine = [row for row in every if row.cycles < maps.LONG]
         top, bottom = axes[0, column], axes[1, column]
         _tiles(top, [(r.links, r.timestep, r.outcome) for r in mine if r.stiffness == 1.0])
         _tiles(bottom, [(r.stiffness, r.timestep, r.outcome) for r in mine
                         if r.links == maps.USUAL_LINKS])  # fmt: skip
         top.set_title(integrator, fontsize=10)
         links = sorted({row.links for row in mine if row.stiffness == 1.0})
-        _limit(top, integrator, [(n, n, 1.0) for n in links])
+        _limit(top, rows[0].body, integrator, [(n, n, 1.0) for n in links])
         soft = sorted({row.stiffness for row in mine})
-        _limit(bottom, integrator, [(f, maps.USUAL_LINKS, f) for f in soft])
+        _limit(bottom, rows[0].body, integrator, [(f, maps.USUAL_LINKS, f) for f in soft])
+        short = {row.timestep: row.outcome for row in mine
+                 if (row.links, row.stiffness) == (maps.USUAL_LINKS, 1.0)}  # fmt: skip
+        for row in every:
+            if row.cycles == maps.LONG and short.get(row.timestep, row.outcome) != row.outcome:
+                top.plot(row.links, row.timestep, "x", color="black", ms=5)
         top.set_xlabel("links")
         bottom.set_xlabel("stiffness / default")
     for left in axes[:, 0]:
@@ -46,25 +71,31 @@ def draw_integrators(rows: Sequence[maps.Tried]) -> Figure:
 
 
 def draw_robots(rows: Sequence[maps.Standing]) -> Figure:
-    """Elastica, MuJoCo, and the depth of the modes, over pressure and Gamma."""
-    figure = Figure(figsize=(11, 3.9), layout="constrained", dpi=110)
-    theory, simulated, sunk = figure.subplots(1, 3, sharey=True)
-    _tiles(theory, [(r.gamma, 1e-3 * r.pressure, "accurate" if r.elastica == "ok" else "toppled")
+    """What becomes of robots over pressure and Gamma (top), and what it costs theory (bottom)."""
+    figure = Figure(figsize=(11, 6.8), layout="constrained", dpi=100)
+    panels = figure.subplots(2, 3, sharex=True, sharey=True)
+    theory, simulated = panels[0, :2]
+    _tiles(theory, [(r.gamma, 1e-3 * r.pressure, _BRANCH.get(r.elastica, r.elastica))
                     for r in rows])  # fmt: skip
     _tiles(simulated, [(r.gamma, 1e-3 * r.pressure, r.planar) for r in rows])
-    x, y, depth = _grid([(r.gamma, 1e-3 * r.pressure, r.sunk) for r in rows])
-    shown = sunk.pcolormesh(x, y, depth, cmap="cividis", shading="nearest")
-    figure.colorbar(shown, ax=sunk, label="depth below the ground / L")
+    shaded = (panels[0, 2], "sunk"), *zip(panels[1], ("newton", "exchanges", "rootless"),
+                                          strict=True)  # fmt: skip
+    for axes, column in shaded:
+        x, y, z = _grid([(r.gamma, 1e-3 * r.pressure, getattr(r, column)) for r in rows])
+        shown = axes.pcolormesh(x, y, z, cmap="cividis", shading="nearest")
+        figure.colorbar(shown, ax=axes)
     x, y, beyond = _grid([(r.gamma, 1e-3 * r.pressure, float(r.elastica != "ok")) for r in rows])
-    titles = "elastica's stable branch", "MuJoCo, against elastica", "the seed's modes"
-    for axes, title in zip((theory, simulated, sunk), titles, strict=True):
-        axes.set(xscale="log", xlabel=r"$\Gamma = w L^3 / D_0$")
+    for axes, title in zip(panels.ravel(), _ROBOTS, strict=True):
+        axes.set(xscale="log")
         axes.set_xticks(_TICKS, [f"{tick:g}" for tick in _TICKS])
         axes.minorticks_off()
         axes.set_title(title, fontsize=9)
         axes.contour(x, y, beyond, levels=[0.5], colors="black", linewidths=1.2)
-    theory.set_ylabel("peak pressure [kPa]")
-    _legend(figure, OUTCOMES)
+    for axes in panels[:, 0]:
+        axes.set_ylabel("peak pressure [kPa]")
+    for axes in panels[1]:
+        axes.set_xlabel(r"$\Gamma = w L^3 / D_0$")
+    _legend(figure, [name for name in _COLOURS if name != "diverged"])
     return figure
 
 
@@ -99,20 +130,13 @@ def _usual(knob: str) -> float:
     return float(getattr(scene if hasattr(scene, knob) else numerics, knob))
 
 
-DRAW: dict[str, Callable[[Sequence[Any]], Figure]] = {
-    "integrators": draw_integrators,
-    "robots": draw_robots,
-    "knobs": draw_knobs,
-}
-
-
-def _limit(axes: Axes, integrator: str, at: Sequence[tuple[float, int, float]]) -> None:
+def _limit(axes: Axes, body: str, integrator: str, at: Sequence[tuple[float, int, float]]) -> None:
     """Predicted limits of the time step: with the damping, and 2/omega_max without."""
     damped, bare = [], []
     for _, links, stiffness in at:
-        numerics = numerics_of(Setting("planar", links, 1e-3, integrator))
-        omega = highest_frequency(stiffened(stiffness), numerics)
-        damped.append(predicted_limit(integrator, omega, numerics.damping_time))
+        numerics = numerics_of(Setting(body, links, 1e-3, integrator))
+        omega = highest_frequency(replace(stiffened(stiffness), body=body), numerics)
+        damped.append(predicted_limit(integrator, omega, numerics.damping_time, body))
         bare.append(2 / omega)
     x = [place for place, _, _ in at]
     low, high = axes.get_ylim()

@@ -5,23 +5,26 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from analytic import GAITS, SURFACES, Robot, pneunet, predict
+from analytic import GAITS, SURFACES, ContactShapes, Prediction, Robot, Status, pneunet, predict
 from mjsim.accuracy.outcome import GROUND, outcome, tried
-from mjsim.config import Numerics, Scene
+from mjsim.config import INTEGRATORS, Numerics, Scene
 
-MAPPED = ("discrete", "Euler", "implicitfast", "RK4")
-LINKS = (6, 12, 18, 24, 30, 36, 42, 48, 60, 72, 84, 96)
-TIMESTEPS = tuple(float(f"{dt:.4g}") for dt in np.geomspace(5e-4, 0.1, 12))
+_PLANAR = ((6, 12, 18, 24, 30, 36, 42, 48, 60, 72, 84, 96), 5e-4)
+_SPATIAL = (tuple(range(6, 73, 6)), 1e-3)
+REACH = {"planar": _PLANAR, "cable": _SPATIAL, "rod": _SPATIAL}  # links, and least time step [s]
+_GREATEST, _STEPS = 0.1, 12  # time step [s], and how many of them
 STIFFNESSES = tuple(float(f"{f:.4g}") for f in np.geomspace(0.01, 100, 12))
 GAMMAS = tuple(float(f"{g:.4g}") for g in np.geomspace(2, 60, 12))
 PRESSURES = tuple(float(f"{p:.4g}") for p in np.linspace(12e3, 78e3, 12))
 USUAL_LINKS = 12  # of the maps that do not vary them; chosen
+LONG = 20  # cycles that the walks of USUAL_LINKS links go on for, to see what lasts
 
 
 @dataclass(frozen=True)
 class Tried:
     """One walk of the default gait: its time step [s], stiffness over the default's, outcome."""
 
+    body: str
     integrator: str
     links: int
     timestep: float
@@ -32,9 +35,10 @@ class Tried:
     commit: str = ""
 
     @property
-    def key(self) -> tuple[str, int, float, float, int]:
+    def key(self) -> tuple[str, str, int, float, float, int]:
         """What tells this walk from others."""
-        return self.integrator, self.links, self.timestep, self.stiffness, self.cycles
+        return (self.body, self.integrator, self.links, self.timestep, self.stiffness,
+                self.cycles)  # fmt: skip
 
     def done(self) -> "Tried":
         """The same with its outcome."""
@@ -46,9 +50,13 @@ class Standing:
     """One robot on every rung, the pressure in Pa.
 
     Attributes:
-        elastica: "ok", or the flag where its stable branch ends.
+        elastica: "ok", or the flag of the first state that has no shape.
         planar: MuJoCo's outcome.
         sunk: how far the seed's modes lie below the ground at worst, over L.
+        rootless: part of the states in which the seed's modes find no lift-off.
+        newton: linear systems a state that the elastica solves, where it has shapes.
+        exchanges: the same of the obstacle's active set.
+        unconverged: part of the states in which that gives up.
         versions, commit: of what it was found with.
     """
 
@@ -57,6 +65,10 @@ class Standing:
     elastica: str = ""
     planar: str = ""
     sunk: float = 0.0
+    rootless: float = 0.0
+    newton: float = 0.0
+    exchanges: float = 0.0
+    unconverged: float = 0.0
     versions: str = ""
     commit: str = ""
 
@@ -71,29 +83,59 @@ class Standing:
         unit = pneunet.base_rigidity(base) / base.length**3
         robot = replace(base, weight_per_length=self.gamma * unit, peak_pressure=self.pressure)
         gait, surface = GAITS["wave"], SURFACES[GROUND]
-        exact = predict(robot, gait, surface)
-        modes = predict(robot, gait, surface, "modes").shapes
-        _, height = modes.curve(np.linspace(0, robot.length, 121))
+        exact, obstacle, modes = (
+            predict(robot, gait, surface, rung) for rung in ("elastica", "obstacle", "modes")
+        )
+        _, height = modes.shapes.curve(np.linspace(0, robot.length, 121))
         reference = exact.locomotion.per_cycle / robot.length
-        found = outcome(Scene(robot, gait, surface), Numerics(), reference)
-        known = not exact.flags
         return replace(
             self,
-            elastica="ok" if known else "+".join(f.name.lower() for f in exact.flags if f.name),
-            planar=found,
+            elastica=_first_flag(exact),
+            planar=outcome(Scene(robot, gait, surface), Numerics(), reference),
             sunk=-float(np.nanmin(height)) / robot.length,
+            rootless=_part(modes, Status.NO_ROOT),
+            newton=_work(exact),
+            exchanges=_work(obstacle),
+            unconverged=_part(obstacle, Status.NOT_CONVERGED),
         )
 
 
-def integrators(quick: bool = False, cycles: int = 3) -> Iterator[Tried]:
-    """Time step over links, and over stiffness, for each integrator."""
+def _first_flag(walk: Prediction) -> str:
+    status = walk.shapes.status
+    failed = np.flatnonzero(status)
+    return Status(int(status[failed[0]])).name.lower() if len(failed) else "ok"  # type: ignore[union-attr]
+
+
+def _part(walk: Prediction, flag: Status) -> float:
+    """Part of the states that carry a flag."""
+    return float(np.mean(walk.shapes.status & int(flag) > 0))
+
+
+def _work(walk: Prediction) -> float:
+    """Mean number of linear systems of the states that have a shape."""
+    shapes = walk.shapes
+    assert isinstance(shapes, ContactShapes)
+    return float(shapes.iterations[shapes.status == 0].mean())
+
+
+def timesteps(body: str) -> list[float]:
+    """Those of a body's map, greatest first [s]."""
+    steps = np.geomspace(_GREATEST, REACH[body][1], _STEPS)
+    return [float(f"{timestep:.4g}") for timestep in steps]
+
+
+def integrators(body: str, quick: bool = False, cycles: int = 3) -> Iterator[Tried]:
+    """Time step over links, and over stiffness, for each integrator; and some walks for LONG."""
     skip = 5 if quick else 1
-    for integrator in MAPPED:
-        for timestep in TIMESTEPS[::-1][::skip]:
-            for links in LINKS[:6:2] if quick else LINKS:
-                yield Tried(integrator, links, timestep, 1.0, cycles)
+    links = REACH[body][0]
+    for integrator in INTEGRATORS:
+        for timestep in timesteps(body)[::skip]:
+            for n in links[:6:2] if quick else links:
+                yield Tried(body, integrator, n, timestep, 1.0, cycles)
             for stiffness in STIFFNESSES[::skip]:
-                yield Tried(integrator, USUAL_LINKS, timestep, stiffness, cycles)
+                yield Tried(body, integrator, USUAL_LINKS, timestep, stiffness, cycles)
+            if not quick:
+                yield Tried(body, integrator, USUAL_LINKS, timestep, 1.0, LONG)
 
 
 def robots(quick: bool = False) -> Iterator[Standing]:

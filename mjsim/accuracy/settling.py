@@ -11,14 +11,13 @@ from numpy.typing import NDArray
 
 from analytic import pneunet
 from analytic.cantilever import solve_cantilever
-from analytic.chain import joint_springs
 from mjsim.accuracy.heavy import DAMPING, DURATION, settled, strip
 from mjsim.accuracy.rows import Row
 from mjsim.accuracy.setting import Setting
 from mjsim.accuracy.timing import Timing, repeated
 from mjsim.assembly import BODY_MODULES, robot_mjcf
 from mjsim.config import BODIES, INTEGRATORS, Scene, default_numerics
-from mjsim.rod import half_stiffness
+from mjsim.rod import rest_stiffness
 
 Array = NDArray[np.float64]
 
@@ -117,8 +116,7 @@ def _clamped(setting: Setting) -> mujoco.MjModel:
                 spec.delete(joint)
     model = spec.compile()
     if setting.method == "rod":
-        stiffness, _ = joint_springs(scene.robot, setting.links, np.zeros((1, 3)))
-        half_stiffness(model)[:] = 0.5 * stiffness[0]
+        rest_stiffness(model, scene, setting.links)
     return model
 
 

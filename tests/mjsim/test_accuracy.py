@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from walks import refusal
 
 from mjsim import chart, cli, run
-from mjsim.accuracy import figure, heavy, settling
+from mjsim.accuracy import figure, heavy, settling, walking
 from mjsim.accuracy.choice import cheapest, choices
 from mjsim.accuracy.grid import numerics_of
 from mjsim.accuracy.rows import Row, append, read
-from mjsim.accuracy.scenes import GROUNDS, WALK, scene_of
+from mjsim.accuracy.scenes import COULOMB, GROUNDS, WALK, scene_of
 from mjsim.accuracy.setting import Setting
 from mjsim.measures import measure
 from mjsim.simulate import simulate
@@ -101,6 +101,34 @@ def test_the_committed_rows_say_where_they_are_from_and_hold_every_method():
     assert all(row.machine and "=" in row.versions and row.commit for row in rows)
     assert len({row.key for row in rows}) == len(rows)
     assert all((row.status == "ok") == math.isfinite(row.error) for row in rows)
+
+
+@pytest.mark.parametrize("work", [WALK, COULOMB])
+def test_the_error_of_a_slow_walk_is_of_second_order_in_the_links(work):
+    """Against the elastica that the same friction bends: nothing is left but the numerics."""
+    errors = []
+    for links in (6, 12, 24):
+        cone = ("elliptic", 1000.0) if work == COULOMB else ()
+        row = walking.run(work, "gelatin", Setting("planar", links, 0.005, "discrete", *cone))
+        errors.append(row.error)
+    assert errors[0] / errors[1] > 3
+    assert errors[1] < 0.011
+    assert errors[2] < 0.004
+
+
+def test_the_default_is_on_the_front():
+    """Nothing that was measured is both cheaper and more accurate."""
+    for ground in GROUNDS[WALK]:
+        front = figure.pareto([row for row in read() if (row.work, row.scene) == (WALK, ground)])
+        assert any(figure.is_default(row) for row in front)
+
+
+def test_engines_that_share_no_code_agree_with_the_elastica_on_the_distance():
+    best: dict[str, float] = {}
+    for row in read():
+        if row.work == COULOMB and row.status == "ok":
+            best[row.method] = min(best.get(row.method, math.inf), row.error)
+    assert max(best[name] for name in ("planar", "cable", "Drake", "PyElastica")) < 0.01
 
 
 @pytest.mark.parametrize("tolerance", [0.1, 0.02])

@@ -9,6 +9,6 @@ from mjsim.config import Numerics
 @pytest.mark.slow
 def test_random_scenes_at_4_s_a_leg_are_the_elastica_s():
     """At 2 s a leg inertia adds to it; see docs/accuracy.md."""
-    middle, high = report(cases(), 4.0, Numerics(timestep=0.005))
+    middle, high = report(cases(), 4.0, Numerics())
     assert middle < 0.02
     assert high < 0.06

@@ -24,7 +24,7 @@ def test_the_direction_is_the_theory_s(surface, gait, reverse):
 
 
 @pytest.mark.parametrize("surface", ["felt", "gelatin"])
-@pytest.mark.parametrize(("links", "timestep"), [(24, 0.010), (12, 0.020), (48, 0.005)])
+@pytest.mark.parametrize(("links", "timestep"), [(24, 0.005), (12, 0.020), (48, 0.010)])
 def test_the_distance_is_the_elastica_s_within_2_percent(surface, links, timestep):
     found = measured(surface, links=links, timestep=timestep).displacement
     assert found == pytest.approx(predicted(surface), rel=0.02)
