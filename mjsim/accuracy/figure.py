@@ -20,7 +20,10 @@ _COLOUR = {
     "modes": "#8d99ae", "obstacle": "#3a7ca5", "elastica": "black",
     "Drake": "#5e548e", "PyElastica": "#00798c", "PyBullet": "#b56576",
 }  # fmt: skip
-_MARKER = {"discrete": "o", "Euler": "s", "implicitfast": "^", "implicit": "v", "RK4": "D"}
+_MARKER = {
+    "discrete": "o", "Euler": "s", "implicitfast": "^", "implicit": "v", "RK4": "D",
+    "SAP": "X", "Verlet": "X", "explicit": "X",
+}  # fmt: skip
 _CONE = {
     ("elliptic", 1.0): "<", ("elliptic", 10.0): ">", ("elliptic", 1000.0): "*",
     ("pyramidal", 1.0): "p", ("pyramidal", 100.0): "H",
@@ -69,6 +72,8 @@ def draw(rows: Sequence[Row], work: str) -> Figure:
     for axes in panels:
         found, labels = axes.get_legend_handles_labels()
         handles |= dict(zip(labels, found, strict=True))
+    failed = {row.status for row in rows} - {"ok"}
+    handles = {name: handles[name] for name in sorted(handles, key=lambda name: name in failed)}
     figure.legend(list(handles.values()), list(handles), loc="outside right upper", frameon=False,
                   fontsize=FONT["font.size"] - 2)  # fmt: skip
     return figure

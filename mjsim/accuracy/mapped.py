@@ -27,7 +27,7 @@ _BRANCH = {"ok": "accurate", "branch_end": "toppled", "rolled_up": "rolled up"}
 _ROBOTS = (
     "elastica: where its stable branch ends", "MuJoCo, against elastica",
     "the seed's modes: depth below the ground / L", "elastica: Newton steps a state",
-    "obstacle: exchanges a state", "the seed's modes: states without lift-off",
+    "obstacle: exchanges a state", "the seed's modes: part of states below it",
 )  # fmt: skip
 
 
@@ -78,7 +78,7 @@ def draw_robots(rows: Sequence[maps.Standing]) -> Figure:
     _tiles(theory, [(r.gamma, 1e-3 * r.pressure, _BRANCH.get(r.elastica, r.elastica))
                     for r in rows])  # fmt: skip
     _tiles(simulated, [(r.gamma, 1e-3 * r.pressure, r.planar) for r in rows])
-    shaded = (panels[0, 2], "sunk"), *zip(panels[1], ("newton", "exchanges", "rootless"),
+    shaded = (panels[0, 2], "sunk"), *zip(panels[1], ("newton", "exchanges", "penetrating"),
                                           strict=True)  # fmt: skip
     for axes, column in shaded:
         x, y, z = _grid([(r.gamma, 1e-3 * r.pressure, getattr(r, column)) for r in rows])

@@ -9,10 +9,8 @@ from analytic import GAITS, SURFACES, ContactShapes, Prediction, Robot, Status, 
 from mjsim.accuracy.outcome import GROUND, outcome, tried
 from mjsim.config import INTEGRATORS, Numerics, Scene
 
-_PLANAR = ((6, 12, 18, 24, 30, 36, 42, 48, 60, 72, 84, 96), 5e-4)
-_SPATIAL = (tuple(range(6, 73, 6)), 1e-3)
-REACH = {"planar": _PLANAR, "cable": _SPATIAL, "rod": _SPATIAL}  # links, and least time step [s]
-_GREATEST, _STEPS = 0.1, 12  # time step [s], and how many of them
+LINKS = tuple(range(6, 73, 6))
+TIMESTEPS = tuple(float(f"{dt:.4g}") for dt in np.geomspace(0.1, 1e-3, 12))
 STIFFNESSES = tuple(float(f"{f:.4g}") for f in np.geomspace(0.01, 100, 12))
 GAMMAS = tuple(float(f"{g:.4g}") for g in np.geomspace(2, 60, 12))
 PRESSURES = tuple(float(f"{p:.4g}") for p in np.linspace(12e3, 78e3, 12))
@@ -53,7 +51,7 @@ class Standing:
         elastica: "ok", or the flag of the first state that has no shape.
         planar: MuJoCo's outcome.
         sunk: how far the seed's modes lie below the ground at worst, over L.
-        rootless: part of the states in which the seed's modes find no lift-off.
+        penetrating: part of the states in which they do.
         newton: linear systems a state that the elastica solves, where it has shapes.
         exchanges: the same of the obstacle's active set.
         unconverged: part of the states in which that gives up.
@@ -65,7 +63,7 @@ class Standing:
     elastica: str = ""
     planar: str = ""
     sunk: float = 0.0
-    rootless: float = 0.0
+    penetrating: float = 0.0
     newton: float = 0.0
     exchanges: float = 0.0
     unconverged: float = 0.0
@@ -93,7 +91,7 @@ class Standing:
             elastica=_first_flag(exact),
             planar=outcome(Scene(robot, gait, surface), Numerics(), reference),
             sunk=-float(np.nanmin(height)) / robot.length,
-            rootless=_part(modes, Status.NO_ROOT),
+            penetrating=_part(modes, Status.PENETRATES),
             newton=_work(exact),
             exchanges=_work(obstacle),
             unconverged=_part(obstacle, Status.NOT_CONVERGED),
@@ -118,19 +116,12 @@ def _work(walk: Prediction) -> float:
     return float(shapes.iterations[shapes.status == 0].mean())
 
 
-def timesteps(body: str) -> list[float]:
-    """Those of a body's map, greatest first [s]."""
-    steps = np.geomspace(_GREATEST, REACH[body][1], _STEPS)
-    return [float(f"{timestep:.4g}") for timestep in steps]
-
-
 def integrators(body: str, quick: bool = False, cycles: int = 3) -> Iterator[Tried]:
     """Time step over links, and over stiffness, for each integrator; and some walks for LONG."""
     skip = 5 if quick else 1
-    links = REACH[body][0]
     for integrator in INTEGRATORS:
-        for timestep in timesteps(body)[::skip]:
-            for n in links[:6:2] if quick else links:
+        for timestep in TIMESTEPS[::skip]:
+            for n in LINKS[:6:2] if quick else LINKS:
                 yield Tried(body, integrator, n, timestep, 1.0, cycles)
             for stiffness in STIFFNESSES[::skip]:
                 yield Tried(body, integrator, USUAL_LINKS, timestep, stiffness, cycles)

@@ -1,13 +1,19 @@
 """Coulomb friction by MuJoCo's own contacts, against the quasi-static theory of the same law."""
 
+from dataclasses import replace
+
+import mujoco
 import numpy as np
 import pytest
 from walks import measured, walk
 
 from analytic import SURFACES, Friction, Gait, Robot, Surface, predict
 from analytic.locomotion import undecided
-from mjsim.config import BODIES, Scene
+from mjsim.assembly import compile_model
+from mjsim.config import BODIES, Scene, default_numerics
 from mjsim.report import record, table
+from mjsim.simulate import begin
+from mjsim.trajectory import Status
 
 SLOW = 8.0  # s a leg: no inertia to speak of
 
@@ -68,6 +74,28 @@ def test_creep_goes_as_one_over_impratio_and_is_negligible_at_the_default():
     assert soft == pytest.approx(10 * firm, rel=0.3)
     assert firm == pytest.approx(10 * firmer, rel=0.3)
     assert firmer < 5e-4
+
+
+def test_the_rows_of_either_cone_add_up_to_the_weight():
+    """What lengths of side contact are read from: the normal's row, or all edges of a pyramid."""
+    scene = Scene(surface=Surface("rough", 1.0, 1.0), friction="coulomb")
+    weight = scene.robot.weight_per_length * scene.robot.length
+    for cone, rows in (("elliptic", 3), ("pyramidal", 4)):
+        numerics = replace(default_numerics("planar", "coulomb"), cone=cone, links=6)
+        model = compile_model(scene, numerics)
+        data, _ = begin(model, scene)
+        for _ in range(400):
+            mujoco.mj_step(model, data)
+        force = data.efc_force[data.ne + data.nf :].reshape(-1, rows)
+        normal = force[:, 0] if cone == "elliptic" else force.sum(axis=1)
+        assert len(normal) == 8
+        assert normal.sum() == pytest.approx(weight, rel=0.01)
+
+
+def test_pyramids_burst_where_a_pad_has_no_friction():
+    """MuJoCo raises a coefficient of 0 to 1e-5, and a pyramid so thin has rows all but parallel."""
+    result = walk("gelatin", leg_time=SLOW, friction="coulomb", links=12, cone="pyramidal")
+    assert result.status in (Status.DIVERGED, Status.TOPPLED)
 
 
 def test_scaling_all_friction_only_changes_how_much_the_strip_is_bent():

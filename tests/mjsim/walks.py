@@ -26,7 +26,7 @@ def walk(
     body: str = "planar",
     friction: str = "paper",
     friction_number: float = Scene().friction_number,
-    **changes: float,
+    **changes: float | str,
 ) -> Trajectory:
     stages = GAITS[gait].reversed() if reverse else GAITS[gait]
     scene = Scene(
