@@ -39,8 +39,6 @@ class Options:
 
     map: str = "all"
     """planar, cable, rod, robots, knobs, or all"""
-    cycles: int = 3
-    """of the walks of the bodies' maps"""
     out: Path = Path("docs")
     """folder for tables and figures"""
     fresh: bool = False
@@ -54,8 +52,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     options = parse(Options, PROGRAM, argv)
     try:
         names = choose("map", options.map, KINDS)
-        if options.cycles < 1:
-            raise ValueError(f"cycles must be at least 1, got {options.cycles}")
         known = {name: _known(options, name) for name in names}
         options.out.mkdir(parents=True, exist_ok=True)
     except (ValueError, OSError) as error:
@@ -91,7 +87,7 @@ def _grid(options: Options, name: str) -> list[Any]:
         return list(maps.robots(options.quick))
     if name == "knobs":
         return list(knobs.turns(options.quick))
-    return list(dict.fromkeys(maps.integrators(name, options.quick, options.cycles)))
+    return list(dict.fromkeys(maps.integrators(name, options.quick)))
 
 
 def _pool() -> ProcessPoolExecutor:

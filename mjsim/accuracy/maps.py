@@ -15,7 +15,8 @@ STIFFNESSES = tuple(float(f"{f:.4g}") for f in np.geomspace(0.01, 100, 12))
 GAMMAS = tuple(float(f"{g:.4g}") for g in np.geomspace(2, 60, 12))
 PRESSURES = tuple(float(f"{p:.4g}") for p in np.linspace(12e3, 78e3, 12))
 USUAL_LINKS = 12  # of the maps that do not vary them; chosen
-LONG = 20  # cycles that the walks of USUAL_LINKS links go on for, to see what lasts
+LONG = 20  # cycles that a walk must last, if its first is accurate
+CYCLES = {"planar": LONG, "cable": 2, "rod": LONG}  # the cable is too slow for more everywhere
 
 
 @dataclass(frozen=True)
@@ -116,9 +117,10 @@ def _work(walk: Prediction) -> float:
     return float(shapes.iterations[shapes.status == 0].mean())
 
 
-def integrators(body: str, quick: bool = False, cycles: int = 3) -> Iterator[Tried]:
+def integrators(body: str, quick: bool = False) -> Iterator[Tried]:
     """Time step over links, and over stiffness, for each integrator; and some walks for LONG."""
     skip = 5 if quick else 1
+    cycles = 1 if quick else CYCLES[body]
     for integrator in INTEGRATORS:
         for timestep in TIMESTEPS[::skip]:
             for n in LINKS[:6:2] if quick else LINKS:
