@@ -29,10 +29,11 @@ _BODIES = {
     WALK: [
         Block("planar", "discrete", (6, 12, 18, 24, 48),
               (0.05, 0.02, 0.01, 0.005, 0.002, 0.001)),
-        Block("planar", "discrete", (96,), (0.05, 0.02, 0.01, 0.005, 0.002)),
-        Block("cable", "discrete", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005)),
+        Block("planar", "discrete", (96,), (0.05, 0.02, 0.01, 0.005)),
+        Block("cable", "discrete", (6, 12, 18, 24), (0.02, 0.01, 0.005)),
+        Block("cable", "discrete", (48,), (0.02, 0.01)),
         Block("rod", "discrete", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005, 0.002)),
-        *(Block("planar", name, (12, 24), (0.005, 0.002, 0.001, 0.0005))
+        *(Block("planar", name, (12,), (0.005, 0.002, 0.001, 0.0005))
           for name in INTEGRATORS[1:]),
     ],
     COULOMB: [

@@ -7,7 +7,7 @@ should find: what is measured is its numerical error, and not what inertia does 
 from dataclasses import replace
 from functools import cache
 
-from analytic import SURFACES, Friction, predict
+from analytic import SURFACES, predict
 from mjsim.accuracy.rows import Row, row
 from mjsim.accuracy.setting import Setting
 from mjsim.accuracy.timing import Timing
@@ -16,7 +16,7 @@ from mjsim.config import Scene
 WALK, COULOMB = "walk", "coulomb"
 GROUNDS = {WALK: ("felt", "gelatin"), COULOMB: ("gelatin",)}  # Coulomb's law leaves felt undecided
 FAR = 0.5  # relative error of a displacement that is none; chosen
-_LEG = {WALK: 8.0, COULOMB: 16.0}  # s; chosen, inertia is below 0.1 % and below 0.4 % by then
+_LEG = 16.0  # s; chosen, inertia is below 0.1 % by then, and below 0.4 % under Coulomb's law
 
 
 def scene_of(work: str, ground: str, body: str = "planar") -> Scene:
@@ -25,17 +25,16 @@ def scene_of(work: str, ground: str, body: str = "planar") -> Scene:
     That is Coulomb's, with chambers at constant pressure: the rest curvature alone follows them.
     """
     scene = Scene(surface=SURFACES[ground], body=body)
-    scene = replace(scene, gait=replace(scene.gait, leg_time=_LEG[work]))
+    scene = replace(scene, gait=replace(scene.gait, leg_time=_LEG))
     return replace(scene, friction="coulomb", gas="open") if work == COULOMB else scene
 
 
 @cache
 def exact(work: str, ground: str) -> float:
-    """Displacement per cycle over L of the elastica that friction bends, twice as fine as usual."""
+    """Displacement per cycle over L of the elastica, twice as fine as usual."""
     scene = scene_of(work, ground)
-    friction = Friction(scene.friction, scene.friction_number)
     walk = predict(scene.robot, scene.gait, scene.surface, n_per_leg=100, links=120,
-                   friction=friction, gas=scene.gas)  # fmt: skip
+                   friction=scene.hold, gas=scene.gas)  # fmt: skip
     return walk.locomotion.per_cycle / scene.robot.length
 
 

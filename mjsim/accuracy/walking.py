@@ -2,7 +2,7 @@
 
 import math
 
-from analytic import REFERENCE, RUNGS, Friction, predict
+from analytic import RUNGS, predict
 from mjsim.accuracy.grid import numerics_of
 from mjsim.accuracy.rows import Row
 from mjsim.accuracy.scenes import scene_of, walked
@@ -31,11 +31,9 @@ def _body(work: str, ground: str, setting: Setting) -> tuple[float, Timing, str]
 
 def _rung(work: str, ground: str, setting: Setting) -> tuple[float, Timing, str]:
     scene = scene_of(work, ground)
-    finest = setting.method == REFERENCE
-    bent = Friction(scene.friction, scene.friction_number if finest else 0.0)
     walk, timing = repeated(
         lambda: predict(scene.robot, scene.gait, scene.surface, setting.method,
-                        links=setting.links, friction=bent, gas=scene.gas),
+                        links=setting.links, friction=scene.hold, gas=scene.gas),
         scene.gait.period,
     )  # fmt: skip
     return walk.locomotion.per_cycle / scene.robot.length, timing, "ok"
