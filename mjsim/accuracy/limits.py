@@ -6,7 +6,7 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigh
+from scipy.linalg import eigh, null_space
 
 from analytic import SURFACES
 from mjsim.accuracy.grid import numerics_of
@@ -21,8 +21,13 @@ _TURN = 1e-6  # of a coordinate, to see what force it makes [m or rad]
 _GROWN, _STEPS = 30.0, 400  # a body is stable that never moves so many times faster, in so long
 
 
-def highest_frequency(scene: Scene, numerics: Numerics) -> float:
-    """omega_max of the flat strip, from the model's own mass and stiffness matrices [rad/s]."""
+def highest_frequency(scene: Scene, numerics: Numerics, standing: bool = False) -> float:
+    """omega_max of the flat strip, from the model's own mass and stiffness matrices [rad/s].
+
+    Args:
+        scene, numerics: of the body.
+        standing: on its two ends, which stay at their height; else free.
+    """
     model = _at_rest(scene, numerics)
     data = mujoco.MjData(model)
     stiffness = np.column_stack([_force(model, data, i) for i in range(model.nv)])
@@ -30,6 +35,9 @@ def highest_frequency(scene: Scene, numerics: Numerics) -> float:
     mujoco.mj_forward(model, data)
     mass = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, mass)
+    if standing:
+        may = null_space([_rise(model, data, end) for end in ("left", "right")])
+        stiffness, mass = may.T @ stiffness @ may, may.T @ mass @ may
     squares = eigh(0.5 * (stiffness + stiffness.T), mass, eigvals_only=True)
     return math.sqrt(float(squares[-1]))
 
@@ -91,6 +99,13 @@ def _at_rest(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
     if scene.body == "rod":
         rest_stiffness(model, scene, numerics.links)
     return model
+
+
+def _rise(model: mujoco.MjModel, data: mujoco.MjData, end: str) -> Array:
+    """How fast an end rises with each velocity of the flat strip, (nv,)."""
+    moves = np.zeros((3, model.nv))
+    mujoco.mj_jacSite(model, data, moves, None, model.site(f"robot/end_{end}").id)
+    return np.asarray(moves[2])
 
 
 def _force(model: mujoco.MjModel, data: mujoco.MjData, coordinate: int) -> Array:

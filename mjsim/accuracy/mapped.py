@@ -63,7 +63,7 @@ def draw_integrators(rows: Sequence[maps.Tried]) -> Figure:
         for row in every:
             if row.cycles > usual and short.get(row.timestep, row.outcome) != row.outcome:
                 top.plot(row.links, row.timestep, "x", color="black", ms=5)
-        top.set_xlabel("links")
+        top.set(xlabel="links", xscale="linear", xticks=[12, 24, 48, 72])
         bottom.set_xlabel("stiffness / default")
     for left in axes[:, 0]:
         left.set_ylabel("time step [s]")
@@ -136,7 +136,8 @@ def _limit(axes: Axes, body: str, integrator: str, at: Sequence[tuple[float, int
     damped, bare = [], []
     for _, links, stiffness in at:
         numerics = numerics_of(Setting(body, links, 1e-3, integrator))
-        omega = highest_frequency(replace(stiffened(stiffness), body=body), numerics)
+        scene = replace(stiffened(stiffness), body=body)
+        omega = highest_frequency(scene, numerics, standing=True)
         damped.append(predicted_limit(integrator, omega, numerics.damping_time, body))
         bare.append(2 / omega)
     x = [place for place, _, _ in at]

@@ -62,6 +62,18 @@ def test_walks_fail_as_the_map_says(integrator, links, timestep, expected):
     assert tried("planar", integrator, links, timestep) in expected
 
 
+@pytest.mark.parametrize("body", ["planar", "cable"])
+def test_a_walk_bursts_where_the_strip_on_its_ends_is_predicted_to(body):
+    """Within a factor of 1.5 either way; its light end links are what is fast, and they stand."""
+    numerics = Numerics(links=6)
+    omega = highest_frequency(Scene(body=body), numerics, standing=True)
+    limit = predicted_limit("RK4", omega, numerics.damping_time, body)
+    free = highest_frequency(Scene(body=body), numerics)
+    assert limit > 2 * predicted_limit("RK4", free, numerics.damping_time, body)
+    assert tried(body, "RK4", 6, round(limit / 1.5, 6)) in ("accurate", "drifting")
+    assert tried(body, "RK4", 6, round(limit * 1.5, 6)) in ("diverged", "toppled")
+
+
 def test_a_rod_that_bursts_within_a_step_is_an_outcome_and_no_error():
     """Its vertices are kilometres apart before its ends are seen to leave the ground."""
     assert tried("rod", "implicit", 12, 0.1, 43.29) in ("diverged", "toppled")
