@@ -16,7 +16,7 @@ GAMMAS = tuple(float(f"{g:.4g}") for g in np.geomspace(2, 60, 12))
 PRESSURES = tuple(float(f"{p:.4g}") for p in np.linspace(12e3, 78e3, 12))
 USUAL_LINKS = 12  # of the maps that do not vary them; chosen
 LONG = 20  # cycles that a walk must last, if its first is accurate
-CYCLES = {"planar": LONG, "cable": 2, "rod": 5}  # those are too slow for more everywhere
+CYCLES = {"planar": LONG, "cable": 1, "rod": 5}  # those are too slow for more everywhere
 
 
 @dataclass(frozen=True)
