@@ -2,8 +2,8 @@
 
 On the ground pads as small as points, Drake's own compliant contact and friction. Of stiffness 1e3,
 1e4 and 1e6 N/m, relaxation times of 0 to 0.1 s and its four contact approximations, these were the
-most accurate: SAP's creep falls with the time step, Lagged's stiction needs 1 ms as well, Similar
-and TAMSI do not walk. Rest angles are a trajectory that Drake follows: no Python in the loop.
+most accurate: SAP's error falls with the time step, Lagged needs 1 ms as well, Similar and TAMSI do
+not walk. Rest angles are a trajectory that Drake follows: no Python in the loop.
 """
 
 import logging
