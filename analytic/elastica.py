@@ -23,11 +23,13 @@ _LEAST_STEP = 1e-4  # of the way between two states, below which the branch is t
 _CURLED = 0.02  # slope that an end in flat contact does not have, even where it lifts off [rad]
 _LEAP = 0.3  # change of a direction in one step that may be a leap to another branch [rad]
 
+LINKS = 60  # of the chain, unless told otherwise; chosen
+
 
 def solve_elastica(
     robot: Robot,
     pressures_pa: ArrayLike,
-    links: int = 60,
+    links: int = LINKS,
     gas: str = "affine",
     surface: Surface | None = None,
     friction: Friction | None = None,

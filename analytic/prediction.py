@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.elastica import solve_elastica
+from analytic.elastica import LINKS, solve_elastica
 from analytic.friction import Friction, Surface
 from analytic.gait import Gait
 from analytic.locomotion import PAPER, Locomotion, anchor_share, locomotion, mean_share
@@ -25,7 +25,7 @@ RUNGS: dict[str, Solver] = {
     "obstacle": solve_obstacle,  # small slopes, exact contact
     "elastica": solve_elastica,  # finite rotations, exact contact: the reference
 }
-REFERENCE, LINKS = "elastica", 60
+REFERENCE = "elastica"
 
 
 class Prediction(NamedTuple):

@@ -50,7 +50,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         if options.fresh:
             options.rows.unlink(missing_ok=True)
         known = read(options.rows)
-    except ValueError as error:
+        options.out.mkdir(parents=True, exist_ok=True)
+    except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
     logging.getLogger("absl").setLevel(logging.ERROR)  # divergence is a row, not a warning
     seen = {row.key for row in known}
@@ -61,7 +62,6 @@ def main(argv: Sequence[str] | None = None) -> int:
         ):
             known.append(row)
             advance(1)
-    options.out.mkdir(parents=True, exist_ok=True)
     for work in works:
         figure.save(figure.draw(known, work), options.out / f"{work}.png")
         print(figure.table(known, work))

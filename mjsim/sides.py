@@ -40,9 +40,8 @@ class Sides:
         self._radius = numerics.pad_radius
         self._heights = data.geom_xpos[first : first + len(self._nodes), 2]
         # of a contact: a pyramid's edges add up to the normal force, else its row is the first
-        self._rows, self._edges = 1, 1
-        if scene.friction == "coulomb":
-            self._rows, self._edges = (4, 4) if numerics.cone == "pyramidal" else (3, 1)
+        self._pyramids = scene.friction == "coulomb" and numerics.cone == "pyramidal"
+        self._rows = 4 if self._pyramids else 3 if scene.friction == "coulomb" else 1
 
     def lengths(self, left: bool, right: bool) -> tuple[float, float]:
         """Lengths of side contact of the ends that may have one, 0 of the others [m]."""
@@ -52,7 +51,7 @@ class Sides:
             half = 0.5 * self._length
             return half * left, half * right
         rows = data.efc_force[data.ne + data.nf :]
-        if self._edges > 1:
+        if self._pyramids:
             force = rows.reshape(-1, self._rows).sum(axis=1).tolist()
         else:
             force = rows[:: self._rows].tolist()

@@ -6,7 +6,17 @@ underside; the end links have the friction of tips.
 
 import numpy as np
 import pybullet as p
-from common import DAMPING, DURATION, Walked, heavy_links, knots, repeated, stopwatch, strip
+from common import (
+    DAMPING,
+    DURATION,
+    GRAVITY,
+    Walked,
+    heavy_links,
+    knots,
+    repeated,
+    stopwatch,
+    strip,
+)
 
 from analytic import pneunet
 from analytic.chain import joint_springs, link_lengths
@@ -19,7 +29,7 @@ LOOKS = 1000  # steps between looks at whether it burst
 
 def _body(robot, lengths, springs, damping_time, box):
     """Links along +x, the first one's middle at the origin; boxes to touch with if asked."""
-    mass = (robot.weight_per_length / 9.81 * np.asarray(lengths)).tolist()
+    mass = (robot.weight_per_length / GRAVITY * np.asarray(lengths)).tolist()
     count = len(lengths) - 1
 
     def shape(h, at):
@@ -51,7 +61,7 @@ def _body(robot, lengths, springs, damping_time, box):
 
 def _begin(timestep):
     p.connect(p.DIRECT)
-    p.setGravity(0, 0, -9.81)
+    p.setGravity(0, 0, -GRAVITY)
     p.setTimeStep(timestep)
 
 
@@ -62,19 +72,17 @@ def _spring(body, joints, springs, rest):
 
 
 def _left(body, h):
-    place, turn = p.getBasePositionAndOrientation(body)
-    return np.array(place) + np.array(p.getMatrixFromQuaternion(turn)).reshape(3, 3) @ [
-        -h / 2,
-        0,
-        0,
-    ]
+    return _beside(*p.getBasePositionAndOrientation(body), -h / 2)
 
 
 def _right(body, joint, h):
     state = p.getLinkState(body, joint, computeForwardKinematics=True)
-    return np.array(state[4]) + np.array(p.getMatrixFromQuaternion(state[5])).reshape(3, 3) @ [
-        h, 0, 0,
-    ]  # fmt: skip
+    return _beside(state[4], state[5], h)
+
+
+def _beside(place, turn, along):
+    """The point so far along the x-axis of a frame."""
+    return np.array(place) + along * np.array(p.getMatrixFromQuaternion(turn)[::3])
 
 
 def settle(links, timestep):

@@ -6,9 +6,12 @@ import numpy as np
 
 from mjsim.accuracy.heavy import DAMPING, DURATION, strip
 from mjsim.accuracy.timing import Spent, repeated, stopwatch
+from mjsim.config import Scene
 
-__all__ = ["DAMPING", "DURATION", "Walked", "heavy_links", "knots", "repeated", "stopwatch",
-           "strip"]  # fmt: skip
+__all__ = ["DAMPING", "DURATION", "GRAVITY", "Walked", "heavy_links", "knots", "repeated",
+           "stopwatch", "strip"]  # fmt: skip
+
+GRAVITY = Scene().gravity  # m/s^2
 
 
 class Walked(NamedTuple):

@@ -7,7 +7,7 @@ PyElastica's own contact acts at the middle of elements and knows one coefficien
 
 import elastica as ea
 import numpy as np
-from common import DURATION, Walked, heavy_links, knots, repeated, stopwatch, strip
+from common import DURATION, GRAVITY, Walked, heavy_links, knots, repeated, stopwatch, strip
 from numba import njit
 
 from analytic import pneunet
@@ -27,14 +27,14 @@ def _rod(robot, n, length, start):
     """A straight rod of n elements from x = start on, in a system with weight."""
     radius = robot.thickness / 2
     young = pneunet.base_rigidity(robot) / (np.pi * radius**4 / 4)
-    density = robot.weight_per_length / 9.81 / (np.pi * radius**2)
+    density = robot.weight_per_length / GRAVITY / (np.pi * radius**2)
     rod = ea.CosseratRod.straight_rod(
         n, np.array([start, 0.0, 0.0]), np.array([1.0, 0, 0]), np.array([0.0, 1.0, 0]),
         length, radius, density, youngs_modulus=young, shear_modulus=young / 3,
     )  # fmt: skip
     system = System()
     system.append(rod)
-    system.add_forcing_to(rod).using(ea.GravityForces, acc_gravity=np.array([0, 0, -9.81]))
+    system.add_forcing_to(rod).using(ea.GravityForces, acc_gravity=np.array([0, 0, -GRAVITY]))
     return system, rod
 
 
@@ -100,7 +100,7 @@ def walk(scene, links, timestep):
     times, bent = knots(scene, lambda p: pneunet.natural_curvature(robot, p) @ shares.T)
     mu = np.full(n + 1, scene.friction_scale * scene.surface.area)
     mu[[0, -1]] = scene.friction_scale * scene.surface.tip
-    damping = np.sqrt(STIFFNESS * robot.weight_per_length / 9.81 * robot.length / n)
+    damping = np.sqrt(STIFFNESS * robot.weight_per_length / GRAVITY * robot.length / n)
 
     def go():
         system, rod = _rod(robot, n, robot.length, 0.0)

@@ -9,7 +9,17 @@ not walk. Rest angles are a trajectory that Drake follows: no Python in the loop
 import logging
 
 import numpy as np
-from common import DAMPING, DURATION, Walked, heavy_links, knots, repeated, stopwatch, strip
+from common import (
+    DAMPING,
+    DURATION,
+    GRAVITY,
+    Walked,
+    heavy_links,
+    knots,
+    repeated,
+    stopwatch,
+    strip,
+)
 from pydrake.geometry import AddContactMaterial, HalfSpace, ProximityProperties, Sphere
 from pydrake.math import RigidTransform, RotationMatrix
 from pydrake.multibody.plant import (
@@ -118,7 +128,7 @@ def _chain(plant, robot, lengths, springs, damping_time, hold):
     """Links along +x on hinges that turn x to z; `hold` fixes the first. The last, and all."""
     bodies = []
     for i, h in enumerate(lengths):
-        mass = robot.weight_per_length / 9.81 * h
+        mass = robot.weight_per_length / GRAVITY * h
         about_end = UnitInertia.ThinRod(h, [1, 0, 0]).ShiftFromCenterOfMass([h / 2, 0, 0])
         body = plant.AddRigidBody(f"link_{i}", SpatialInertia(mass, [h / 2, 0, 0], about_end))
         if i == 0:
@@ -136,7 +146,7 @@ def _chain(plant, robot, lengths, springs, damping_time, hold):
 
 
 def _finalize(plant):
-    plant.mutable_gravity_field().set_gravity_vector([0, 0, -9.81])
+    plant.mutable_gravity_field().set_gravity_vector([0, 0, -GRAVITY])
     plant.Finalize()
 
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
-from scipy.integrate import solve_bvp
+from scipy.integrate import simpson, solve_bvp
 
 from analytic import Robot, pneunet
 from mjsim.accuracy.rows import Row, row
@@ -50,10 +50,7 @@ def exact() -> tuple[float, float]:
         state = found.sol(s)
     fine = np.linspace(0, 1, 20_001)
     theta = found.sol(fine)[0]  # type: ignore[union-attr]  # downwards, so y is minus its sine
-    weights = np.ones(len(fine))
-    weights[1:-1:2], weights[2:-1:2] = 4, 2
-    weights /= weights.sum()
-    return float(weights @ np.cos(theta)), -float(weights @ np.sin(theta))
+    return float(simpson(np.cos(theta), x=fine)), -float(simpson(np.sin(theta), x=fine))
 
 
 def settled(setting: Setting, tip: tuple[float, float], timing: Timing, status: str) -> Row:

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from functools import cache
 
 import mujoco
 import numpy as np
@@ -21,6 +22,7 @@ _TURN = 1e-6  # of a coordinate, to see what force it makes [m or rad]
 _GROWN, _STEPS = 30.0, 400  # a body is stable that never moves so many times faster, in so long
 
 
+@cache
 def highest_frequency(scene: Scene, numerics: Numerics, standing: bool = False) -> float:
     """omega_max of the flat strip, from the model's own mass and stiffness matrices [rad/s].
 

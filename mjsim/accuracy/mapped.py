@@ -135,7 +135,8 @@ def _limit(axes: Axes, body: str, integrator: str, at: Sequence[tuple[float, int
     """Predicted limits of the time step: with the damping, and 2/omega_max without."""
     damped, bare = [], []
     for _, links, stiffness in at:
-        numerics = numerics_of(Setting(body, links, 1e-3, integrator))
+        # frequencies are no matter of the integrator: each is looked for once
+        numerics = numerics_of(Setting(body, links, 1e-3, "discrete"))
         scene = replace(stiffened(stiffness), body=body)
         omega = highest_frequency(scene, numerics, standing=True)
         damped.append(predicted_limit(integrator, omega, numerics.damping_time, body))
