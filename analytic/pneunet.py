@@ -5,6 +5,8 @@ Lengths along the strip enter only as the ratio c/x, so energies and volumes are
 arclength: multiply by x for the seed's values of one chamber.
 """
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -16,6 +18,12 @@ Array = NDArray[np.float64]
 def base_rigidity(robot: Robot) -> float:
     """D0 = E w t^3 / 12, rigidity of the strain-limiting layer alone [N m^2] (under (1))."""
     return robot.modulus * robot.width * robot.thickness**3 / 12
+
+
+def with_load(robot: Robot, load: float) -> Robot:
+    """The same robot, so heavy that w L^3 / D0 is the load [1]."""
+    unit = base_rigidity(robot) / robot.length**3
+    return replace(robot, weight_per_length=load * unit)
 
 
 def curvature_per_pressure(robot: Robot) -> float:

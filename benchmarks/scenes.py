@@ -35,14 +35,12 @@ def reference(robot: Robot, gait: Gait, surface: Surface) -> float:
 
 def cases() -> list[Case]:
     rng = np.random.default_rng(SEED)
-    base = Robot()
-    unit = pneunet.base_rigidity(base) / base.length**3
     found: list[Case] = []
     while len(found) < COUNT:
         gamma = float(np.exp(rng.uniform(np.log(4), np.log(40))))
         gait = GAITS[str(rng.choice(list(GAITS)))]
         gait = gait.reversed() if rng.random() < 0.5 else gait
-        robot = Robot(weight_per_length=gamma * unit, peak_pressure=float(rng.uniform(15e3, 70e3)))
+        robot = pneunet.with_load(Robot(peak_pressure=float(rng.uniform(15e3, 70e3))), gamma)
         tip = float(3 * rng.uniform(0, 1))
         walked = predict(robot, gait, Surface("any", tip, 1.0), n_per_leg=PER_LEG)
         height = walked.shapes.amplitude.max() / robot.length

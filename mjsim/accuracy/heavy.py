@@ -8,7 +8,6 @@ rate, with the time constant DAMPING.
 """
 
 import math
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -27,9 +26,7 @@ DURATION = 6.0  # s, after which what still moves is below 1e-6 L; chosen
 
 def strip() -> Robot:
     """The default robot without pressure, as heavy as LOAD asks."""
-    base = Robot()
-    unit = pneunet.base_rigidity(base) / base.length**3
-    return replace(base, weight_per_length=LOAD * unit)
+    return pneunet.with_load(Robot(), LOAD)
 
 
 @cache

@@ -78,9 +78,7 @@ class Standing:
 
     def done(self) -> "Standing":
         """The same with what became of it."""
-        base = Robot()
-        unit = pneunet.base_rigidity(base) / base.length**3
-        robot = replace(base, weight_per_length=self.gamma * unit, peak_pressure=self.pressure)
+        robot = pneunet.with_load(Robot(peak_pressure=self.pressure), self.gamma)
         gait, surface = GAITS["wave"], SURFACES[GROUND]
         exact, obstacle, modes = (
             predict(robot, gait, surface, rung) for rung in ("elastica", "obstacle", "modes")

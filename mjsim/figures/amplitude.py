@@ -47,12 +47,6 @@ _COARSE = (1, 2, 3, 5, 10, 100)
 _GAMMAS = (11.44, 4.0)
 
 
-def _with_load(gamma: float) -> Robot:
-    base = Robot()
-    load = gamma * pneunet.base_rigidity(base) / base.length**3
-    return replace(base, weight_per_length=load)
-
-
 def coarse_displacement(shapes: Shapes) -> float:
     """Displacement on felt over L with the rule taken at the end of each increment (2.2)."""
     share = anchor_share(shapes, SURFACES["felt"])[1:]
@@ -66,7 +60,7 @@ def make() -> xr.Dataset:
     shift, height = np.full(shape, np.nan), np.full(shape, np.nan)
     for i, gamma in enumerate(_GAMMAS):
         for k, pressure in enumerate(_PRESSURES):
-            robot = replace(_with_load(gamma), peak_pressure=float(pressure))
+            robot = replace(pneunet.with_load(Robot(), gamma), peak_pressure=float(pressure))
             for j, rung in enumerate(RUNGS):
                 walk = predict(robot, wave, felt, rung, n_per_leg=30)
                 shift[i, j, k] = walk.locomotion.per_cycle / robot.length
@@ -75,7 +69,7 @@ def make() -> xr.Dataset:
     slow = Gait(wave.name, wave.stages, leg_time=4.0)
     for i, gamma in enumerate(_GAMMAS):
         for k, pressure in enumerate(_SIMULATED):
-            robot = replace(_with_load(gamma), peak_pressure=float(pressure))
+            robot = replace(pneunet.with_load(Robot(), gamma), peak_pressure=float(pressure))
             found = measure(simulate(Scene(robot, slow, felt)))
             if found:
                 simulated[i, :, k] = found.displacement, found.amplitude

@@ -4,7 +4,7 @@ import matplotlib.image
 import numpy as np
 import pytest
 
-from analytic import GAITS, SURFACES, Mode, Robot, predict
+from analytic import GAITS, SURFACES, Mode, Robot, pneunet, predict
 from mjsim import cli
 from mjsim.figures import amplitude, contact
 from mjsim.figures.__main__ import FIGURES, main, make, page
@@ -54,7 +54,7 @@ def test_modes_iii_and_iv_lie_below_the_ground_and_the_others_do_not():
 def test_with_fine_increments_the_distance_has_no_peak_over_amplitude(gamma):
     shifts = []
     for pressure in np.linspace(25e3, 62e3, 12):
-        robot = amplitude._with_load(gamma)
+        robot = pneunet.with_load(Robot(), gamma)
         robot = type(robot)(weight_per_length=robot.weight_per_length, peak_pressure=pressure)
         walk = predict(robot, GAITS["wave"], SURFACES["felt"])
         shifts.append(walk.locomotion.per_cycle / robot.length)
