@@ -21,7 +21,11 @@ from analytic.robot import Robot
 
 Array = NDArray[np.float64]
 
-GASES = ("affine", "sealed", "open")  # what the air in a chamber does as the strip is bent
+CHAMBER_LAWS = (
+    "linearized",
+    "sealed",
+    "constant-pressure",
+)  # what the air in a chamber does as the strip is bent
 
 
 def link_lengths(robot: Robot, links: int) -> Array:
@@ -46,7 +50,7 @@ def segments_fit(robot: Robot, parts: float) -> bool:
 
 
 @cache
-def segment_shares(borders: tuple[float, ...], links: int) -> Array:
+def segment_overlap(borders: tuple[float, ...], links: int) -> Array:
     """Part of each hinge's element that lies in each of S segments, shape (N, S); rows sum to 1.
 
     Computed once for each robot and N, and read-only.
@@ -55,14 +59,14 @@ def segment_shares(borders: tuple[float, ...], links: int) -> Array:
     border = np.array(borders)
     low = np.maximum(edge[:-1, None], border[None, :-1])
     high = np.minimum(edge[1:, None], border[None, 1:])
-    shares = np.maximum(high - low, 0.0) * links
-    shares = np.round(shares, 12)  # whole elements are whole
-    shares.flags.writeable = False
-    return shares
+    overlap = np.maximum(high - low, 0.0) * links
+    overlap = np.round(overlap, 12)  # whole elements are whole
+    overlap.flags.writeable = False
+    return overlap
 
 
 def joint_springs(
-    robot: Robot, links: int, pressures_pa: Array, gas: str = "affine"
+    robot: Robot, links: int, pressures_pa: Array, chamber: str = "linearized"
 ) -> tuple[Array, Array]:
     """Hinge springs at segment pressures of shape (T, S) [Pa].
 
@@ -72,16 +76,16 @@ def joint_springs(
     Args:
         robot, links: the chain.
         pressures_pa: of the segments.
-        gas: "affine" for (9), or "open" for chambers at constant pressure, which add no stiffness:
+        chamber: "linearized" for (9), or "constant-pressure" for chambers at constant pressure, which add no stiffness:
             the moment of (2) and (3), D0 (k - alpha p). For "sealed" see `sealed_springs`.
 
     Returns:
         stiffness (T, N) [N m/rad] and rest angle (T, N) [rad], negative where the strip arches.
     """
-    shares = segment_shares(robot.borders, links) * (robot.length / links)
-    stiffening = 0.0 if gas == "open" else 1.0
-    compliance = (1.0 / pneunet.rigidity(robot, stiffening * pressures_pa)) @ shares.T
-    angle = pneunet.natural_curvature(robot, pressures_pa) @ shares.T
+    overlap = segment_overlap(robot.borders, links) * (robot.length / links)
+    stiffening = 0.0 if chamber == "constant-pressure" else 1.0
+    compliance = (1.0 / pneunet.rigidity(robot, stiffening * pressures_pa)) @ overlap.T
+    angle = pneunet.natural_curvature(robot, pressures_pa) @ overlap.T
     return 1.0 / compliance, -angle
 
 
@@ -100,7 +104,7 @@ def sealed_springs(
     Returns:
         stiffness (N,) [N m/rad] and rest angle (N,) [rad] of springs that are alike to first order.
     """
-    chambers = segment_shares(robot.borders, links) @ pressures_pa
+    chambers = segment_overlap(robot.borders, links) @ pressures_pa
     element = robot.length / links
     curvature = -turn / element  # arching is positive
     moment = -pneunet.sealed_moment(robot, chambers, curvature)

@@ -1,6 +1,6 @@
-"""What the ends resist by, under the seed's law and under Coulomb's, and who slides.
+"""What the ends resist by, under the constant-bound law and under Coulomb's, and who slides.
 
-The seed's (section 2.2): constant at a tip, by area on a side, whatever the load. Coulomb's: a
+The paper's (section 2.2): constant at a tip, by area on a side, whatever the load. Coulomb's: a
 coefficient of friction of a tip or of a side, times the load.
 """
 
@@ -15,7 +15,7 @@ from analytic.robot import Robot
 
 Array = NDArray[np.float64]
 
-LAWS = ("paper", "coulomb")
+LAWS = ("constant", "coulomb")
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Surface:
     Args:
         name: how commands and files call the surface.
         tip: V_t, sliding resistance of an end in point contact [V0].
-        area: tau, sliding resistance of a side contact one segment long [V0]. The seed's area
+        area: tau, sliding resistance of a side contact one segment long [V0]. The paper's area
             q lambda is thus normalised by q times a segment's length, so that its
             polyethylene (0.5, 1) has equal resistances where half a segment lies flat.
 
@@ -54,7 +54,7 @@ class Friction:
     """How the ends hold to a surface.
 
     Args:
-        law: "paper", the seed's, or "coulomb".
+        law: "constant", the paper's, or "coulomb".
         number: Phi = V0 L^2 / D0 [1], by which friction bends the strip; with 0 it decides who
             slides, but bends nothing, the limit of section 2.2. Under "coulomb" V0 is what an end
             resists by that carries half the weight, at a coefficient number of 1.
@@ -65,7 +65,7 @@ class Friction:
             angle or more, or there is a slope and no friction number to stand on it by.
     """
 
-    law: str = "paper"
+    law: str = "constant"
     number: float = 0.0
     slope: float = 0.0
 
@@ -90,9 +90,9 @@ class Friction:
 SURFACES: dict[str, Surface] = {
     surface.name: surface
     for surface in (
-        Surface("felt", tip=0.0, area=1.0),  # seed, section 2.2
-        Surface("polyethylene", tip=0.5, area=1.0),  # seed, section 2.2
-        Surface("gelatin", tip=1.0, area=0.0),  # seed, section 2.2
+        Surface("felt", tip=0.0, area=1.0),  # [Majidi13], section 2.2
+        Surface("polyethylene", tip=0.5, area=1.0),  # [Majidi13], section 2.2
+        Surface("gelatin", tip=1.0, area=0.0),  # [Majidi13], section 2.2
     )
 }
 
@@ -138,7 +138,7 @@ def coulomb_resistance(
     return left, np.where(np.isclose(left, right, rtol=1e-9, atol=0), left, right)
 
 
-def left_share(
+def left_slip_fraction(
     resistance_left: ArrayLike,
     resistance_right: ArrayLike,
     downhill: float = 0.0,

@@ -1,4 +1,4 @@
-"""Gaits: closed sequences of segment pressures, joined by linear ramps (seed, Figure 3)."""
+"""Gaits: closed sequences of segment pressures, joined by linear ramps ([Majidi13], Figure 3)."""
 
 import math
 from dataclasses import dataclass
@@ -17,17 +17,17 @@ class Gait:
         name: how commands and files call the gait.
         stages: fractions of the peak pressure in [0, 1], left segment first; the last stage must
             equal the first, so that cycles join.
-        leg_time: duration of the linear ramp between two stages, one for all or one each [s].
+        ramp_time: duration of the linear ramp between two stages, one for all or one each [s].
 
     Raises:
         ValueError: fewer than two stages, stages that are not alike many fractions in [0, 1], a
-            cycle that does not close, or leg times that are not positive and finite or not as many
-            as legs.
+            cycle that does not close, or ramp times that are not positive and finite or not as many
+            as ramps.
     """
 
     name: str
     stages: tuple[tuple[float, ...], ...]
-    leg_time: float | tuple[float, ...] = 2.0
+    ramp_time: float | tuple[float, ...] = 2.0
 
     def __post_init__(self) -> None:
         if len(self.stages) < 2:
@@ -41,11 +41,11 @@ class Gait:
             raise ValueError(
                 f"the cycle must close: first stage {self.stages[0]!r}, last {self.stages[-1]!r}"
             )
-        if len(self.leg_times) != self.legs:
-            raise ValueError(f"leg_time must be one or {self.legs} times, got {self.leg_time!r}")
-        for time in self.leg_times:
+        if len(self.ramp_times) != self.ramps:
+            raise ValueError(f"ramp_time must be one or {self.ramps} times, got {self.ramp_time!r}")
+        for time in self.ramp_times:
             if not (math.isfinite(time) and time > 0):
-                raise ValueError(f"leg_time must be a positive time [s], got {time!r}")
+                raise ValueError(f"ramp_time must be a positive time [s], got {time!r}")
 
     @property
     def segments(self) -> int:
@@ -53,43 +53,43 @@ class Gait:
         return len(self.stages[0])
 
     @property
-    def leg_times(self) -> tuple[float, ...]:
+    def ramp_times(self) -> tuple[float, ...]:
         """Duration of each ramp [s]."""
-        times = self.leg_time
-        return times if isinstance(times, tuple) else (times,) * self.legs
+        times = self.ramp_time
+        return times if isinstance(times, tuple) else (times,) * self.ramps
 
     @property
-    def legs(self) -> int:
+    def ramps(self) -> int:
         """Number of ramps in a cycle."""
         return len(self.stages) - 1
 
     @property
     def period(self) -> float:
         """Duration of one cycle [s]."""
-        return math.fsum(self.leg_times)
+        return math.fsum(self.ramp_times)
 
     def reversed(self) -> "Gait":
         """The same stages in reverse order."""
-        times = self.leg_time
+        times = self.ramp_time
         backward = times[::-1] if isinstance(times, tuple) else times
         return Gait(f"{self.name}-reversed", self.stages[::-1], backward)
 
-    def pressures(self, n_per_leg: int, cycles: int = 1) -> Array:
+    def pressures(self, states_per_ramp: int, cycles: int = 1) -> Array:
         """Fractions of the peak pressure along the gait.
 
         Args:
-            n_per_leg: states per ramp, the ramp's end included, at least 1.
+            states_per_ramp: states per ramp, the ramp's end included, at least 1.
             cycles: number of cycles, at least 1.
 
         Returns:
-            Shape (T, S) with T = cycles * legs * n_per_leg + 1; rows 0, n_per_leg, ... are stages.
+            Shape (T, S) with T = cycles * ramps * states_per_ramp + 1; rows 0, states_per_ramp, ... are stages.
         """
-        if n_per_leg < 1 or cycles < 1:
+        if states_per_ramp < 1 or cycles < 1:
             raise ValueError(
-                f"n_per_leg and cycles must be at least 1, got {n_per_leg} and {cycles}"
+                f"states_per_ramp and cycles must be at least 1, got {states_per_ramp} and {cycles}"
             )
-        steps = np.arange(cycles * self.legs * n_per_leg + 1) / n_per_leg
-        return self._at_leg(steps)
+        steps = np.arange(cycles * self.ramps * states_per_ramp + 1) / states_per_ramp
+        return self._at_ramp(steps)
 
     def fractions(self, time: Array) -> Array:
         """Fractions of the peak pressure at times since the start, shape (T,) [s] -> (T, S).
@@ -97,15 +97,15 @@ class Gait:
         Before the start the first stage holds; cycles repeat after it.
         """
         cycles, within = np.divmod(np.maximum(time, 0.0), self.period)
-        ends = np.concatenate([[0.0], np.cumsum(self.leg_times)])
-        legs = np.interp(within, ends, np.arange(self.legs + 1.0))
-        return self._at_leg(cycles * self.legs + legs)
+        ends = np.concatenate([[0.0], np.cumsum(self.ramp_times)])
+        ramps = np.interp(within, ends, np.arange(self.ramps + 1.0))
+        return self._at_ramp(cycles * self.ramps + ramps)
 
-    def _at_leg(self, position: Array) -> Array:
+    def _at_ramp(self, position: Array) -> Array:
         stages = np.array(self.stages)
         index = np.floor(position).astype(int)
         part = (position - index)[:, None]
-        start = index % self.legs
+        start = index % self.ramps
         return (1 - part) * stages[start] + part * stages[start + 1]
 
 

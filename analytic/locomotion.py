@@ -1,18 +1,18 @@
-"""From a sequence of shapes and a surface to the way the robot goes (seed, section 2.2)."""
+"""From a sequence of shapes and a surface to the way the robot goes ([Majidi13], section 2.2)."""
 
 from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.equilibria import ContactShapes, Shapes
 from analytic.friction import (
     Friction,
     Surface,
     coulomb_resistance,
-    left_share,
+    left_slip_fraction,
     sliding_resistance,
 )
-from analytic.shapes import ContactShapes, Shapes
 
 Array = NDArray[np.float64]
 Direction = Literal["forward", "backward", "none"]
@@ -34,11 +34,11 @@ class Locomotion(NamedTuple):
     per_cycle: float
 
 
-PAPER = Friction()
+UNBENT = Friction()
 
 
 def locomotion(
-    shapes: Shapes, surface: Surface, cycles: int = 1, friction: Friction = PAPER
+    shapes: Shapes, surface: Surface, cycles: int = 1, friction: Friction = UNBENT
 ) -> Locomotion:
     """Apply the anchor rule of section 2.2 to a sequence of states.
 
@@ -61,38 +61,40 @@ def locomotion(
             f"need at least two states and one cycle, got {len(shapes)} states, {cycles} cycles"
         )
     change = np.diff(shapes.separation)
-    left = np.concatenate([[0.0], np.cumsum(-mean_share(shapes, surface, friction) * change)])
+    left = np.concatenate(
+        [[0.0], np.cumsum(-mean_slip_fraction(shapes, surface, friction) * change)]
+    )
     right = left + (shapes.separation - shapes.separation[0])
     return Locomotion(left, right, float(left[-1] / cycles))
 
 
-def mean_share(shapes: Shapes, surface: Surface, friction: Friction = PAPER) -> Array:
+def mean_slip_fraction(shapes: Shapes, surface: Surface, friction: Friction = UNBENT) -> Array:
     """Part of each change of separation that the left end takes up, (B - 1,): 0 to 1."""
     left, right = resistances(shapes, surface, friction.law)
     downhill, growing = friction.downhill(shapes.robot), np.diff(shapes.separation) > 0
-    before = left_share(left[:-1], right[:-1], downhill, growing)
-    after = left_share(left[1:], right[1:], downhill, growing)
+    before = left_slip_fraction(left[:-1], right[:-1], downhill, growing)
+    after = left_slip_fraction(left[1:], right[1:], downhill, growing)
     return 0.5 * (before + after)
 
 
-def anchor_share(shapes: Shapes, surface: Surface, law: str = "paper") -> Array:
+def slip_fraction(shapes: Shapes, surface: Surface, law: str = "constant") -> Array:
     """Part of a change of separation that the left end takes up at each state, (B,): 0, 1/2, 1.
 
-    On level ground; see `mean_share` for slopes.
+    On level ground; see `mean_slip_fraction` for slopes.
     """
-    return left_share(*resistances(shapes, surface, law))
+    return left_slip_fraction(*resistances(shapes, surface, law))
 
 
 def resistances(shapes: Shapes, surface: Surface, law: str) -> tuple[Array, Array]:
     """What the left and the right end resist by at each state, (B,) each [V0].
 
-    Under "paper" V_t or tau A, under "coulomb" mu N; see analytic.friction.
+    Under "constant" V_t or tau A, under "coulomb" mu N; see analytic.friction.
 
     Raises:
         ValueError: the law needs contact forces and the shapes have none.
     """
     ends = shapes.contact_left, shapes.contact_right
-    if law == "paper":
+    if law == "constant":
         left, right = (sliding_resistance(shapes.robot, surface, end) for end in ends)
         return left, right
     if not isinstance(shapes, ContactShapes):
@@ -106,9 +108,9 @@ def undecided(shapes: Shapes, surface: Surface, law: str = "coulomb") -> float:
 
     Where both ends resist alike, by nothing or to the last digit, Coulomb's law does not say which
     one slides: the whole change of separation may be the left end's or the right end's, and
-    `locomotion` takes half. The paper's law decides so by rule.
+    `locomotion` takes half. The constant-bound law decides so by rule.
     """
-    share = anchor_share(shapes, surface, law)
+    share = slip_fraction(shapes, surface, law)
     tied = (share[1:] == 0.5) & (share[:-1] == 0.5)
     return float(0.5 * np.abs(np.diff(shapes.separation))[tied].sum())
 

@@ -15,11 +15,11 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import solveh_banded
 
 from analytic import pneunet
-from analytic.chain import segment_shares, segments_fit
+from analytic.chain import segment_overlap, segments_fit
+from analytic.contact import contact_mode, side_contact
+from analytic.equilibria import ContactShapes, Status
 from analytic.pressures import check_pressures
 from analytic.robot import Robot
-from analytic.shapes import ContactShapes, Status
-from analytic.touching import contact_mode, side_contact
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -44,11 +44,11 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
     p = check_pressures(robot, pressures_pa)
     if elements < 1 or not segments_fit(robot, elements):
         raise ValueError(f"elements must be so many that segments end at nodes, got {elements}")
-    shares = segment_shares(robot.borders, elements)
+    overlap = segment_overlap(robot.borders, elements)
     d0 = pneunet.base_rigidity(robot)
-    rigidity = pneunet.rigidity(robot, p) / d0 @ shares.T
+    rigidity = pneunet.rigidity(robot, p) / d0 @ overlap.T
     curvature = pneunet.natural_curvature(robot, p) * robot.length
-    curvature = curvature @ shares.T
+    curvature = curvature @ overlap.T
     load = robot.weight_per_length * robot.length**3 / d0
 
     values = np.zeros((len(p), elements + 1, 2))  # y and y' at the nodes

@@ -1,8 +1,8 @@
-"""Pneu-net laws: what pressure does to curvature and flexural rigidity (seed, section 2.1).
+"""Pneu-net laws: what pressure does to curvature and flexural rigidity ([Majidi13], section 2.1).
 
 Pressures p and curvatures k may be scalars or arrays of any one shape; results have that shape.
 Lengths along the strip enter only as the ratio c/x, so energies and volumes are given per unit
-arclength: multiply by x for the seed's values of one chamber.
+arclength: multiply by x for the paper's values of one chamber.
 """
 
 from dataclasses import replace

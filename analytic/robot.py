@@ -5,14 +5,14 @@ from dataclasses import dataclass, fields
 from itertools import accumulate
 
 PSI = 6894.757293168  # Pa in a pound-force per square inch (NIST SP 811)
-THREE_EQUAL = (1.0, 1.0, 1.0)  # seed, section 2.3
+THREE_EQUAL = (1.0, 1.0, 1.0)  # [Majidi13], section 2.3
 
 
 @dataclass(frozen=True)
 class Robot:
     """A planar strip of segments, each one a pneu-net of the same design.
 
-    The defaults give an undulation of about a quarter of the length, the seed's optimum.
+    The defaults give an undulation of about a quarter of the length, the paper's optimum.
 
     Raises:
         ValueError: a value is not a positive finite number, there is no segment, or
@@ -26,7 +26,7 @@ class Robot:
     chamber_height: float = 4.1e-3  # H [m]; chosen
     chamber_fraction: float = 0.7  # c/x, chamber width over the arclength it occupies [1]; chosen
     weight_per_length: float = 2.0  # w of Appendix A [N/m]; chosen
-    peak_pressure: float = 7.0 * PSI  # p [Pa]; seed, section 3
+    peak_pressure: float = 7.0 * PSI  # p [Pa]; [Majidi13], section 3
     segments: tuple[float, ...] = THREE_EQUAL  # their lengths, left first, in any common unit
 
     def __post_init__(self) -> None:

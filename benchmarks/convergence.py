@@ -1,7 +1,7 @@
 """Print what the planar model's error is made of: `make numbers`.
 
-First the error's budget: each knob turned alone from the default to where it should no longer
-matter, and what that changes, in displacement over L. Then each knob over its range. The sum of
+First the error's budget: each parameter turned alone from the default to where it should no longer
+matter, and what that changes, in displacement over L. Then each parameter over its range. The sum of
 felt and gelatin, exact opposites in theory, is given over their size.
 """
 
@@ -9,17 +9,17 @@ from dataclasses import fields, replace
 
 import numpy as np
 
-from analytic import RUNGS, SURFACES, Friction, Surface, predict, solve_elastica
+from analytic import SOLVERS, SURFACES, Friction, Surface, predict, solve_elastica
 from analytic.locomotion import locomotion
-from mjsim.config import Numerics, Scene
-from mjsim.measures import measure
-from mjsim.simulate import simulate
-from mjsim.trajectory import Trajectory
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.measures import measure
+from mjsim.simulation.simulation import simulate
+from mjsim.simulation.trajectory import Trajectory
 
 DEFAULT = Scene()
-SCENE_KNOBS = {field.name for field in fields(Scene)}
+SCENE_PARAMETERS = {field.name for field in fields(Scene)}
 BUDGET: dict[str, dict[str, float]] = {
-    "gait four times as slow": {"leg_time": 8.0},
+    "gait four times as slow": {"ramp_time": 8.0},
     "time step a fifth": {"timestep": 0.002},
     "links four times": {"links": 96},
     "contacts twice as soft": {"contact_time": 1.0},
@@ -27,7 +27,7 @@ BUDGET: dict[str, dict[str, float]] = {
     "side below 0.3 mrad, not 1": {"side_angle": 3e-4},
     "joint damping a fifth": {"damping_time": 0.001},
     "all of them (contacts left)": {
-        "leg_time": 8.0, "timestep": 0.002, "links": 48, "side_angle": 3e-4, "damping_time": 0.001,
+        "ramp_time": 8.0, "timestep": 0.002, "links": 48, "side_angle": 3e-4, "damping_time": 0.001,
     },
 }  # fmt: skip
 
@@ -35,9 +35,9 @@ BUDGET: dict[str, dict[str, float]] = {
 def walk(surface: Surface, changes: dict[str, float]) -> Trajectory:
     settings = dict(changes)
     scene = replace(DEFAULT, surface=surface)
-    if "leg_time" in settings:
-        scene = replace(scene, gait=replace(scene.gait, leg_time=settings.pop("leg_time")))
-    own = {name: settings.pop(name) for name in SCENE_KNOBS & settings.keys()}
+    if "ramp_time" in settings:
+        scene = replace(scene, gait=replace(scene.gait, ramp_time=settings.pop("ramp_time")))
+    own = {name: settings.pop(name) for name in SCENE_PARAMETERS & settings.keys()}
     return simulate(replace(scene, **own), replace(Numerics(), **settings))  # type: ignore[arg-type]
 
 
@@ -69,7 +69,7 @@ def budget() -> None:
     row("elastica", exact)
     row("MuJoCo, default", default)
     row("error", default - exact)
-    print("what a change of one knob does to it")
+    print("what a change of one parameter does to it")
     row(f"  friction bends the strip (elastica, Φ {DEFAULT.friction_number:g})", bent - exact)
     for label, changes in BUDGET.items():
         shift = np.array([displacement(surface, changes) for surface in surfaces])
@@ -95,18 +95,18 @@ def main() -> None:
     budget()
     print(f"{'displacement/L':<28}{''.join(f'{name:>14}' for name in SURFACES)}"
           f"{'F + G':>11}{'speed':>11}")  # fmt: skip
-    for rung in RUNGS:
-        walks = [predict(DEFAULT.robot, DEFAULT.gait, s, rung) for s in SURFACES.values()]
+    for solver in SOLVERS:
+        walks = [predict(DEFAULT.robot, DEFAULT.gait, s, solver) for s in SURFACES.values()]
         values = [walk.locomotion.per_cycle / DEFAULT.robot.length for walk in walks]
-        print(f"{rung:<28}{''.join(f'{value:>+14.4f}' for value in values)}")
+        print(f"{solver:<28}{''.join(f'{value:>+14.4f}' for value in values)}")
     line("default")
     for links in (6, 10, 12, 20, 24, 48, 96):
         line(f"links {links}", links=links)
     for timestep in (0.001, 0.002, 0.005, 0.02, 0.05):
         line(f"timestep {1e3 * timestep:g} ms", timestep=timestep)
     line("12 links, timestep 20 ms", links=12, timestep=0.02)
-    for leg in (1.0, 4.0, 8.0, 16.0):
-        line(f"leg {leg:g} s", leg_time=leg)
+    for ramp in (1.0, 4.0, 8.0, 16.0):
+        line(f"ramp {ramp:g} s", ramp_time=ramp)
     for phi in (0.05, 0.2, 0.5, 1.0, 2.0, 5.0):
         line(f"friction number {phi:g}", friction_number=phi)
     for angle in (3e-4, 3e-3, 1e-2):

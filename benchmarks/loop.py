@@ -6,13 +6,13 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 
-import mjsim.simulate as simulation
+import mjsim.simulation.simulation as simulation
 from analytic import Surface
-from mjsim.accuracy.choice import cheapest
-from mjsim.accuracy.grid import numerics_of
-from mjsim.assembly import compile_model
-from mjsim.batch import rollout
-from mjsim.config import Numerics, Scene
+from mjsim.mjcf.builder import compile_model
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.batch import rollout
+from mjsim.studies.accuracy.choice import cheapest
+from mjsim.studies.accuracy.grid import numerics_of
 
 REPEATS = 7
 STEP = mujoco.mj_step
@@ -57,7 +57,7 @@ def main() -> None:
         compile_model(scene, Numerics())
         times.append(clock.perf_counter() - started)
     print(f"assembly and compilation {1e3 * min(times):.0f} ms")
-    rolled = replace(scene, friction="coulomb", drive="actuators")
+    rolled = replace(scene, friction="coulomb", actuation="actuators")
     scenes = [
         replace(rolled, surface=Surface("any", 1.0, area)) for area in np.linspace(0, 0.5, 16)
     ]

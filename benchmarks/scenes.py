@@ -10,12 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic import GAITS, Gait, Robot, Surface, pneunet, predict
-from mjsim.config import Numerics, Scene
-from mjsim.measures import measure
-from mjsim.simulate import simulate
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.measures import measure
+from mjsim.simulation.simulation import simulate
 
 COUNT, WORST, SEED = 40, 8, 11
-PER_LEG = 100  # states of the reference: 50 leave up to 5 % of the shortest distances
+PER_RAMP = 100  # states of the reference: 50 leave up to 5 % of the shortest distances
 
 
 class Case(NamedTuple):
@@ -29,7 +29,7 @@ class Case(NamedTuple):
 
 
 def reference(robot: Robot, gait: Gait, surface: Surface) -> float:
-    walked = predict(robot, gait, surface, n_per_leg=PER_LEG)
+    walked = predict(robot, gait, surface, states_per_ramp=PER_RAMP)
     return walked.locomotion.per_cycle / robot.length
 
 
@@ -42,7 +42,7 @@ def cases() -> list[Case]:
         gait = gait.reversed() if rng.random() < 0.5 else gait
         robot = pneunet.with_load(Robot(peak_pressure=float(rng.uniform(15e3, 70e3))), gamma)
         tip = float(3 * rng.uniform(0, 1))
-        walked = predict(robot, gait, Surface("any", tip, 1.0), n_per_leg=PER_LEG)
+        walked = predict(robot, gait, Surface("any", tip, 1.0), states_per_ramp=PER_RAMP)
         height = walked.shapes.amplitude.max() / robot.length
         if walked.flags or not 0.05 < height < 0.35:
             continue
@@ -59,11 +59,11 @@ def spread(error: np.ndarray) -> tuple[float, float]:
     return float(np.nanmedian(error)), float(np.nanquantile(error, 0.95))
 
 
-def report(all_cases: list[Case], leg: float, numerics: Numerics) -> tuple[float, float]:
+def report(all_cases: list[Case], ramp: float, numerics: Numerics) -> tuple[float, float]:
     """Print how far the walks are off; median and 95th percentile over |distance|."""
     rows = []
     for case in all_cases:
-        gait = Gait(case.gait.name, case.gait.stages, leg)
+        gait = Gait(case.gait.name, case.gait.stages, ramp)
         found = measure(simulate(Scene(case.robot, gait, case.surface), numerics))
         shift = found.displacement if found else float("nan")
         rows.append((abs(shift - case.reference), shift, found.slip if found else 0.0, case))
@@ -72,7 +72,7 @@ def report(all_cases: list[Case], leg: float, numerics: Numerics) -> tuple[float
     middle, high = spread(part)
     near, far = spread(error)
     print(
-        f"\n{numerics.links} links, {1e3 * numerics.timestep:g} ms, {leg:g} s a leg: error over "
+        f"\n{numerics.links} links, {1e3 * numerics.timestep:g} ms, {ramp:g} s a ramp: error over "
         f"|distance| median {middle:.1%}, 95 % {high:.1%}; over L median {near:.5f}, "
         f"95 % {far:.5f}"
     )
@@ -87,8 +87,8 @@ def report(all_cases: list[Case], leg: float, numerics: Numerics) -> tuple[float
 
 def main() -> None:
     drawn = cases()
-    for leg in (2.0, 4.0, 8.0):
-        report(drawn, leg, Numerics())
+    for ramp in (2.0, 4.0, 8.0):
+        report(drawn, ramp, Numerics())
 
 
 if __name__ == "__main__":

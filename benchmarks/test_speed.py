@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from analytic import GAITS, Robot, solve_elastica, solve_modes, solve_obstacle
-from mjsim.assembly import compile_model
-from mjsim.config import Numerics, Scene
-from mjsim.simulate import simulate
+from mjsim.mjcf.builder import compile_model
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.simulation import simulate
 
 
 def test_modes_along_a_gait(benchmark):

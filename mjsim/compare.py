@@ -1,4 +1,4 @@
-"""Every rung on the same scenes in one table: `python -m mjsim.compare`."""
+"""Every solver on the same scenes in one table: `python -m mjsim.compare`."""
 
 import json
 import sys
@@ -8,32 +8,32 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic import GAITS, REFERENCE, RUNGS, SURFACES, Gait, Robot, Surface, direction, predict
-from mjsim.cli import bar, choose, fail, parse
-from mjsim.config import BODIES, Scene
-from mjsim.measures import measure
-from mjsim.simulate import simulate
+from analytic import GAITS, REFERENCE, SOLVERS, SURFACES, Gait, Robot, Surface, direction, predict
+from mjsim.io.cli import bar, choose, fail, parse
+from mjsim.scene import BODIES, Scene
+from mjsim.simulation.measures import measure
+from mjsim.simulation.simulation import simulate
 
 PROGRAM = "python -m mjsim.compare"
-LADDER = (*RUNGS, *BODIES)  # cheapest theory first, then MuJoCo
+LADDER = (*SOLVERS, *BODIES)  # cheapest theory first, then MuJoCo
 
 
 @dataclass(frozen=True)
 class Options:
-    """Compare the quasi-static rungs and MuJoCo on one cycle of each gait on each surface.
+    """Compare the quasi-static models and MuJoCo on one cycle of each gait on each surface.
 
     The reference is elastica; +- is the half-links estimate of its own error. Lists are
-    comma-separated. Exit code 0: done, also where a rung has no answer (its status says why);
+    comma-separated. Exit code 0: done, also where a solver has no answer (its status says why);
     2: bad input.
 
-    Example: python -m mjsim.compare --surface felt,gelatin --gait wave --rung modes,planar
+    Example: python -m mjsim.compare --surface felt,gelatin --gait wave --solver modes,planar
     """
 
     surface: str = "all"
     """felt, polyethylene, gelatin, or all"""
     gait: str = "all"
     """wave, full-wave, pulse, or all"""
-    rung: str = "all"
+    solver: str = "all"
     """modes, obstacle, elastica, planar, cable, rod, or all"""
     reverse: bool = False
     """run the gaits backwards too"""
@@ -44,11 +44,11 @@ class Options:
 
 
 class Row(NamedTuple):
-    """One rung on one scene; what does not exist is None."""
+    """One solver on one scene; what does not exist is None."""
 
     surface: str
     gait: str
-    rung: str
+    solver: str
     displacement_over_L: float | None  # noqa: N815 - the contract's name
     uncertainty_over_L: float | None  # noqa: N815
     difference_over_L: float | None  # noqa: N815
@@ -57,19 +57,19 @@ class Row(NamedTuple):
     status: str
 
 
-def compare(robot: Robot, gait: Gait, surface: Surface, rungs: Sequence[str]) -> list[Row]:
-    """Rows of the rungs asked for, each beside the reference."""
+def compare(robot: Robot, gait: Gait, surface: Surface, models: Sequence[str]) -> list[Row]:
+    """Rows of the models asked for, each beside the reference."""
     reference = _quasi_static(robot, gait, surface, REFERENCE)
     rows = []
-    for rung in rungs:
-        if rung == REFERENCE:
+    for solver in models:
+        if solver == REFERENCE:
             row = reference._replace(
                 uncertainty_over_L=_uncertainty(robot, gait, surface, reference)
             )
-        elif rung in RUNGS:
-            row = _quasi_static(robot, gait, surface, rung)
+        elif solver in SOLVERS:
+            row = _quasi_static(robot, gait, surface, solver)
         else:
-            row = _simulated(Scene(robot, gait, surface, body=rung))
+            row = _simulated(Scene(robot, gait, surface, body=solver))
         exact, found = reference.displacement_over_L, row.displacement_over_L
         if exact is not None and found is not None:
             row = row._replace(difference_over_L=found - exact)
@@ -77,15 +77,15 @@ def compare(robot: Robot, gait: Gait, surface: Surface, rungs: Sequence[str]) ->
     return rows
 
 
-def _quasi_static(robot: Robot, gait: Gait, surface: Surface, rung: str) -> Row:
-    found = predict(robot, gait, surface, rung)
+def _quasi_static(robot: Robot, gait: Gait, surface: Surface, solver: str) -> Row:
+    found = predict(robot, gait, surface, solver)
     shift = found.locomotion.per_cycle / robot.length
     known = bool(np.isfinite(shift))
     flags = "+".join(flag.name.lower() for flag in found.flags if flag.name) or "ok"
     return Row(
         surface.name,
         gait.name,
-        rung,
+        solver,
         displacement_over_L=shift if known else None,
         uncertainty_over_L=None,
         difference_over_L=None,
@@ -99,7 +99,7 @@ def _uncertainty(robot: Robot, gait: Gait, surface: Surface, fine: Row) -> float
     """What half the links and half the states would change in the reference, over L."""
     if fine.displacement_over_L is None:
         return None
-    coarse = predict(robot, gait, surface, n_per_leg=25, links=30)
+    coarse = predict(robot, gait, surface, states_per_ramp=25, links=30)
     gap = abs(fine.displacement_over_L - coarse.locomotion.per_cycle / robot.length)
     return gap if np.isfinite(gap) else None
 
@@ -123,7 +123,7 @@ def _simulated(scene: Scene) -> Row:
 def table(rows: Sequence[Row]) -> str:
     """The rows as text, a blank line between scenes."""
     lines = [
-        f"{'surface':<14}{'gait':<19}{'rung':<10}{'direction':<11}{'Δ/L':>9}{'+-':>8}"
+        f"{'surface':<14}{'gait':<19}{'solver':<10}{'direction':<11}{'Δ/L':>9}{'+-':>8}"
         f"{'- ref':>9}{'height/L':>10}  status"
     ]
     scene = None
@@ -132,7 +132,7 @@ def table(rows: Sequence[Row]) -> str:
             lines.append("")
         scene = (row.surface, row.gait)
         lines.append(
-            f"{row.surface:<14}{row.gait:<19}{row.rung:<10}{row.direction or '-':<11}"
+            f"{row.surface:<14}{row.gait:<19}{row.solver:<10}{row.direction or '-':<11}"
             f"{_number(row.displacement_over_L, 9, '+.4f')}"
             f"{_number(row.uncertainty_over_L, 8, '.4f')}"
             f"{_number(row.difference_over_L, 9, '+.4f')}"
@@ -151,7 +151,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         surfaces = choose("surface", options.surface, SURFACES)
         gaits = [GAITS[name] for name in choose("gait", options.gait, GAITS)]
-        rungs = choose("rung", options.rung, LADDER)
+        models = choose("solver", options.solver, LADDER)
         robot = replace(Robot(), peak_pressure=options.pressure)
         Scene(robot)  # says whether the pressure is absurd
     except ValueError as error:
@@ -162,7 +162,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     with bar("comparing", len(surfaces) * len(gaits)) as advance:
         for gait in gaits:
             for name in surfaces:
-                rows += compare(robot, gait, SURFACES[name], rungs)
+                rows += compare(robot, gait, SURFACES[name], models)
                 advance(1)
     if options.json:
         print(json.dumps({"reference": REFERENCE, "rows": [row._asdict() for row in rows]}))

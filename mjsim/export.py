@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from analytic import SURFACES
-from mjsim.assembly import robot_mjcf, scene_mjcf, to_xml
-from mjsim.assets import MODELS
-from mjsim.config import Numerics, Scene
-from mjsim.textures import write_textures
+from mjsim.ground.textures import write_textures
+from mjsim.io.assets import MODELS
+from mjsim.mjcf.builder import robot_mjcf, scene_mjcf, to_xml
+from mjsim.scene import Numerics, Scene
 
 
 def documents() -> Iterator[tuple[str, str]]:

@@ -7,8 +7,8 @@ import numpy as np
 from PIL import Image
 
 from analytic import SURFACES
-from mjsim import gl
-from mjsim.config import Scene
+from mjsim.scene import Scene
+from mjsim.video import gl
 
 FOLDER = Path("docs")
 MOMENT = 4.0  # s; two segments inflated, the arch at its steepest
@@ -20,8 +20,8 @@ def main() -> int:
         print(gl.HELP, file=sys.stderr)
         return 1
 
-    from mjsim.simulate import simulate
-    from mjsim.video import bands, write_video
+    from mjsim.simulation.simulation import simulate
+    from mjsim.video.recording import bands, write_video
 
     FOLDER.mkdir(exist_ok=True)
     walks = [simulate(Scene(surface=surface)) for surface in SURFACES.values()]

@@ -9,8 +9,8 @@ from typing import Annotated
 
 import tyro
 
-from mjsim import gl
-from mjsim.cli import FAILED, fail, parse
+from mjsim.io.cli import FAILED, fail, parse
+from mjsim.video import gl
 
 PROGRAM = "python -m mjsim.replay"
 
@@ -33,8 +33,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"{PROGRAM}: {gl.HELP}", file=sys.stderr)
         return FAILED
 
-    from mjsim.trajectory import load
-    from mjsim.video import write_video
+    from mjsim.simulation.trajectory import load
+    from mjsim.video.recording import write_video
 
     try:
         walk = load(options.trajectory)

@@ -5,8 +5,8 @@ from typing import Any
 
 from analytic import REFERENCE, Prediction, direction, predict
 from analytic.locomotion import undecided
-from mjsim.measures import measure
-from mjsim.trajectory import Trajectory
+from mjsim.simulation.measures import measure
+from mjsim.simulation.trajectory import Trajectory
 
 _OPEN = 1e-4  # of the length: less is a rounding
 
@@ -58,7 +58,12 @@ def reference(walk: Trajectory) -> Prediction:
     scene = walk.scene
     path = walk.pressure[walk.start :] if scene.lag else None
     return predict(
-        scene.robot, scene.gait, scene.surface, friction=scene.hold, gas=scene.gas, path=path
+        scene.robot,
+        scene.gait,
+        scene.surface,
+        friction=scene.hold,
+        chamber=scene.chamber,
+        path=path,
     )
 
 

@@ -10,15 +10,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from analytic import SURFACES, Robot
-from mjsim import gl
-from mjsim.accuracy.choice import cheapest
-from mjsim.accuracy.grid import numerics_of
-from mjsim.cli import ALL, FAILED, bar, choose, fail, parse
-from mjsim.config import Numerics, Scene, check, default_numerics
-from mjsim.gaits import find_gait
+from mjsim.io.cli import ALL, FAILED, bar, choose, fail, parse
+from mjsim.scene import Numerics, Scene, check, default_numerics
+from mjsim.scene.gait_files import find_gait
+from mjsim.studies.accuracy.choice import cheapest
+from mjsim.studies.accuracy.grid import numerics_of
+from mjsim.video import gl
 
 if TYPE_CHECKING:
-    from mjsim.trajectory import Trajectory
+    from mjsim.simulation.trajectory import Trajectory
 
 PROGRAM = "python -m mjsim.run"
 AUTO = "auto"  # the body that is picked from what was measured
@@ -56,16 +56,16 @@ class Options:
     tolerance: float | None = None
     """of body auto: relative error of the displacement per cycle that the numerics may make, beside
     what inertia does; if not given, 0.02"""
-    friction: str = "paper"
+    friction: str = "constant"
     """friction law: paper, constant at a tip and by area on a side; coulomb, by load"""
     friction_number: float = Scene().friction_number
     """Phi = V0 L^2 / D0: how strong friction is beside the strip's stiffness"""
     slope: float = 0.0
     """the ground rises towards the right by this angle [degrees]"""
-    gas: str = "affine"
-    """air in the chambers: affine, the seed's law (9); sealed, the exact one of closed valves (6);
+    chamber: str = "linearized"
+    """air in the chambers: affine, the constant-bound law (9); sealed, the exact one of closed valves (6);
     open, at constant pressure"""
-    drive: str = "springs"
+    actuation: str = "rest-angles"
     """what carries the moment of pressure: springs, set at each step; or actuators, a control"""
     lag: float = 0.0
     """time constant with which chambers follow their valves [s]"""
@@ -99,7 +99,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"{PROGRAM}: {gl.HELP}", file=sys.stderr)
 
     # mujoco reads the backend when it is imported
-    from mjsim.provenance import provenance
+    from mjsim.io.provenance import provenance
     from mjsim.report import record, table
 
     records: list[dict[str, Any]] = []
@@ -138,7 +138,7 @@ def _body(options: Options) -> tuple[str, Numerics]:
             raise ValueError(f"tolerance is for body {AUTO}, got body {options.body!r}")
         usual = default_numerics(options.body, options.friction)
         return options.body, replace(usual, **given)
-    if given or options.friction != "paper":
+    if given or options.friction != "constant":
         other = next(iter(given), "friction coulomb")
         raise ValueError(f"body {AUTO} picks links and timestep under the paper law, got {other}")
     setting = cheapest(_TOLERANCE if options.tolerance is None else options.tolerance).setting
@@ -152,7 +152,7 @@ def _scenes(options: Options) -> list[Scene]:
     if not options.pressure > 0:
         raise ValueError(f"pressure must be a positive number of Pa, got {options.pressure:g}")
     robot = Robot(peak_pressure=options.pressure, segments=_lengths(options.segments))
-    names = ("cycles", "body", "friction", "friction_number", "gas", "drive", "lag")
+    names = ("cycles", "body", "friction", "friction_number", "chamber", "actuation", "lag")
     named = {name: getattr(options, name) for name in names}
     slope = math.radians(options.slope)
     return [Scene(robot, gait, SURFACES[name], slope=slope, **named) for name in surfaces]
@@ -177,14 +177,14 @@ def _check_folder(folder: Path) -> None:
 
 
 def _simulate(scene: Scene, numerics: Numerics) -> "Trajectory":
-    from mjsim.simulate import schedule, simulate
+    from mjsim.simulation.simulation import schedule, simulate
 
     with bar(f"simulating {scene.surface.name}", len(schedule(scene, numerics)[0])) as advance:
         return simulate(scene, numerics, advance)
 
 
 def _film(walks: "list[Trajectory]", path: Path) -> Path:
-    from mjsim.video import frame_times, write_video
+    from mjsim.video.recording import frame_times, write_video
 
     with bar(f"rendering {path.name}", len(frame_times(walks))) as advance:
         write_video(walks, path, advance)
@@ -194,7 +194,7 @@ def _film(walks: "list[Trajectory]", path: Path) -> Path:
 def _name(scene: Scene, surface: str | None = None) -> str:
     """File name of a run: the surface, and what of the scene is not the default."""
     parts = {"gait": scene.gait.name}
-    parts |= {key: getattr(scene, key) for key in ("body", "friction", "gas", "drive")}
+    parts |= {key: getattr(scene, key) for key in ("body", "friction", "chamber", "actuation")}
     other = [value for key, value in parts.items() if value != getattr(Options, key)]
     if scene.slope:
         other.append(f"slope{math.degrees(scene.slope):+.3g}")

@@ -2,7 +2,7 @@ import os
 
 from hypothesis import HealthCheck, settings
 
-from mjsim import gl
+from mjsim.video import gl
 
 settings.register_profile(
     "project", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]

@@ -27,5 +27,5 @@ def test_the_wheel_installs_in_a_clean_environment_and_runs_elsewhere(tmp_path):
     result = call(python, "-m", "mjsim.run", "--surface", "gelatin", "--no-video", "--json",
                   cwd=elsewhere)  # fmt: skip
     assert json.loads(result.stdout)["direction"] == "backward"
-    where = call(python, "-c", "import mjsim.assets as a; print(a.MODELS)", cwd=elsewhere).stdout
+    where = call(python, "-c", "import mjsim.io.assets as a; print(a.MODELS)", cwd=elsewhere).stdout
     assert Path(where.strip()).is_relative_to(tmp_path / "env")

@@ -20,7 +20,7 @@ from common import (
 
 from analytic import pneunet
 from analytic.chain import joint_springs, link_lengths
-from mjsim.config import Numerics
+from mjsim.scene import Numerics
 
 PACKAGE, INTEGRATOR = "pybullet", "explicit"
 HALF = 1e-3  # half the thickness of a box [m]
@@ -112,8 +112,8 @@ def walk(scene, links, timestep):
     """One cycle of a scene under Coulomb's law."""
     robot = scene.robot
     lengths = link_lengths(robot, links)
-    springs = joint_springs(robot, links, np.zeros((1, 3)), scene.gas)[0][0]
-    times, angles = knots(scene, lambda q: joint_springs(robot, links, q, scene.gas)[1])
+    springs = joint_springs(robot, links, np.zeros((1, 3)), scene.chamber)[0][0]
+    times, angles = knots(scene, lambda q: joint_springs(robot, links, q, scene.chamber)[1])
     steps = round(scene.duration / timestep)
     now = timestep * np.arange(1, steps + 1)
     rest = np.column_stack([np.interp(now, times, column) for column in angles.T])

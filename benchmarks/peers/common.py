@@ -1,12 +1,12 @@
-"""What the peers' runners share: the works, the rest of the gait at its knots, the way to time."""
+"""What the peers' runners share: the cases, the rest of the gait at its knots, the way to time."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from mjsim.accuracy.heavy import DAMPING, DURATION, strip
-from mjsim.accuracy.timing import Spent, repeated, stopwatch
-from mjsim.config import Scene
+from mjsim.scene import Scene
+from mjsim.studies.accuracy.heavy_cantilever import DAMPING, DURATION, strip
+from mjsim.studies.accuracy.timing import Spent, repeated, stopwatch
 
 __all__ = ["DAMPING", "DURATION", "GRAVITY", "Walked", "heavy_links", "knots", "repeated",
            "stopwatch", "strip"]  # fmt: skip
@@ -28,8 +28,8 @@ def heavy_links(links):
 
 
 def knots(scene, rest):
-    """Times at which a leg begins or ends, from the start of the run on, and rest(pressures)."""
-    ends = np.arange(scene.gait.legs + 1) * scene.gait.leg_times[0]
+    """Times at which a ramp begins or ends, from the start of the run on, and rest(pressures)."""
+    ends = np.arange(scene.gait.ramps + 1) * scene.gait.ramp_times[0]
     times = np.concatenate([[0.0], scene.settle_time + ends])
     stages = np.array([scene.gait.stages[0], *scene.gait.stages])
     return times, rest(scene.robot.peak_pressure * stages)

@@ -11,7 +11,7 @@ from common import DURATION, GRAVITY, Walked, heavy_links, knots, repeated, stop
 from numba import njit
 
 from analytic import pneunet
-from analytic.chain import segment_shares
+from analytic.chain import segment_overlap
 
 PACKAGE, INTEGRATOR = "pyelastica", "Verlet"
 DRAG = 8.0  # 1/s
@@ -76,9 +76,9 @@ def settle(links, timestep):
 @njit
 def _act(x, v, force, rest, anchor, time, times, bent, mu, stiffness, damping):
     """Set the rest curvature of a time, and add what the ground does to the nodes."""
-    leg = min(max(np.searchsorted(times, time) - 1, 0), len(times) - 2)
-    part = (time - times[leg]) / (times[leg + 1] - times[leg])
-    rest[0] = (1 - part) * bent[leg] + part * bent[leg + 1]
+    ramp = min(max(np.searchsorted(times, time) - 1, 0), len(times) - 2)
+    part = (time - times[ramp]) / (times[ramp + 1] - times[ramp])
+    rest[0] = (1 - part) * bent[ramp] + part * bent[ramp + 1]
     for i in range(x.shape[1]):
         push = max(-stiffness * x[2, i] - damping * v[2, i], 0.0) if x[2, i] < 0 else 0.0
         force[2, i] += push
@@ -95,9 +95,9 @@ def _act(x, v, force, rest, anchor, time, times, bent, mu, stiffness, damping):
 def walk(scene, links, timestep):
     """One cycle of a scene under Coulomb's law."""
     robot, n = scene.robot, links
-    halves = segment_shares(robot.borders, 2 * n)
-    shares = 0.5 * (halves[1:-1:2] + halves[2::2])  # of the element around each inner node
-    times, bent = knots(scene, lambda p: pneunet.natural_curvature(robot, p) @ shares.T)
+    halves = segment_overlap(robot.borders, 2 * n)
+    overlap = 0.5 * (halves[1:-1:2] + halves[2::2])  # of the element around each inner node
+    times, bent = knots(scene, lambda p: pneunet.natural_curvature(robot, p) @ overlap.T)
     mu = np.full(n + 1, scene.friction_scale * scene.surface.area)
     mu[[0, -1]] = scene.friction_scale * scene.surface.tip
     damping = np.sqrt(STIFFNESS * robot.weight_per_length / GRAVITY * robot.length / n)

@@ -42,7 +42,7 @@ from pydrake.trajectories import PiecewisePolynomial
 
 from analytic import pneunet
 from analytic.chain import joint_springs, link_lengths
-from mjsim.config import Numerics
+from mjsim.scene import Numerics
 
 PACKAGE, INTEGRATOR = "drake", "SAP"
 PAD = 1e-5  # radius [m]
@@ -77,7 +77,7 @@ def walk(scene, links, timestep):
     """One cycle of a scene under Coulomb's law."""
     robot = scene.robot
     lengths = link_lengths(robot, links)
-    springs, _ = joint_springs(robot, links, np.zeros((1, 3)), scene.gas)
+    springs, _ = joint_springs(robot, links, np.zeros((1, 3)), scene.chamber)
     builder, plant = _plant(timestep)
     tilt = RotationMatrix.MakeXRotation(np.pi / 2)  # its plane is x-z
 
@@ -99,7 +99,7 @@ def walk(scene, links, timestep):
         _pad(plant, body, 0.0, tip if i == 0 else side, timestep)
     _pad(plant, last, lengths[-1], tip, timestep)
     _finalize(plant)
-    times, rest = knots(scene, lambda p: joint_springs(robot, links, p, scene.gas)[1])
+    times, rest = knots(scene, lambda p: joint_springs(robot, links, p, scene.chamber)[1])
     diagram = _follow(builder, plant, times, rest)
 
     def go():

@@ -1,4 +1,4 @@
-"""Measure the peers on the works of the chart, and append what was found to its rows.
+"""Measure the peers on the cases of the chart, and append what was found to its rows.
 
 All have the same load, rigidity, rest curvature, gait and friction. Settling: the first element is
 centred on the wall. Walking: Coulomb's law, with the links of our own chain where links are rigid.
@@ -16,10 +16,10 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1])]
 
-from mjsim.accuracy import heavy, scenes  # noqa: E402
-from mjsim.accuracy.rows import MEASURED, append, read  # noqa: E402
-from mjsim.accuracy.setting import Setting  # noqa: E402
-from mjsim.provenance import machine, origin  # noqa: E402
+from mjsim.io.provenance import machine, origin  # noqa: E402
+from mjsim.studies.accuracy import benchmark_cases, heavy_cantilever  # noqa: E402
+from mjsim.studies.accuracy.rows import MEASURED, append, read  # noqa: E402
+from mjsim.studies.accuracy.setting import Setting  # noqa: E402
 
 FAR = 0.1  # over L: of a tip from its place, or of an end from the ground
 GROUND = "gelatin"
@@ -38,15 +38,18 @@ def rows(seen):
     for name, grids in GRIDS.items():
         peer = import_module(name)
         made = f"{peer.PACKAGE}={metadata.version(peer.PACKAGE)} numpy={np.__version__}"
-        works = (heavy.WORK, heavy.TIP, settled), (scenes.COULOMB, GROUND, walked)
-        for (work, scene, run), (links, timesteps) in zip(works, grids, strict=True):
+        cases = (
+            (heavy_cantilever.CASE, heavy_cantilever.TIP, settled),
+            (benchmark_cases.COULOMB, GROUND, walked),
+        )
+        for (case, scene, run), (links, timesteps) in zip(cases, grids, strict=True):
             for n in links:
                 for timestep in timesteps:
                     setting = Setting(NAMES[name], n, timestep, peer.INTEGRATOR)
-                    if (work, scene, setting) in seen:
+                    if (case, scene, setting) in seen:
                         continue
                     found = run(peer, setting)
-                    print(work, found.method, n, timestep, f"{found.value:.4g}",
+                    print(case, found.method, n, timestep, f"{found.value:.4g}",
                           f"{found.error:.2g}", f"{found.cost:.3g}", found.status,
                           flush=True)  # fmt: skip
                     commit = origin()["commit"] or ""
@@ -56,20 +59,22 @@ def rows(seen):
 def settled(peer, setting):
     """A tip that is nowhere, or not near where gravity takes it, is no result."""
     tip, timing = peer.settle(setting.links, setting.timestep)
-    status = "ok" if math.dist(tip, heavy.exact()) < FAR else "drifting"
+    status = "ok" if math.dist(tip, heavy_cantilever.exact()) < FAR else "drifting"
     if not (np.isfinite(tip).all() and np.abs(tip).sum() < 2):
         status = "diverged"
-    return heavy.settled(setting, tip, timing, status)
+    return heavy_cantilever.settled(setting, tip, timing, status)
 
 
 def walked(peer, setting):
     """A strip that is nowhere, or has an end in the air, does not walk."""
-    scene = scenes.scene_of(scenes.COULOMB, GROUND)
+    scene = benchmark_cases.scene_of(benchmark_cases.COULOMB, GROUND)
     found, timing = peer.walk(scene, setting.links, setting.timestep)
     status = "ok" if found.height < FAR else "toppled"
     if not (math.isfinite(found.displacement) and math.isfinite(found.height)):
         status = "diverged"
-    return scenes.walked(scenes.COULOMB, GROUND, setting, found.displacement, timing, status)
+    return benchmark_cases.walked(
+        benchmark_cases.COULOMB, GROUND, setting, found.displacement, timing, status
+    )
 
 
 if __name__ == "__main__":

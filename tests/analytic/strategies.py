@@ -14,8 +14,8 @@ def robot_from_groups(gamma: float, kappa_length: float, stiffening: float, leng
     base = Robot()
     # alpha p L = kappa L and eta p / D0 = stiffening fix the chamber height; then modulus and load
     height = 2 * stiffening / (kappa_length / length)
-    gas = base.chamber_fraction * height**3 * base.width / 4
-    rigidity = gas * base.peak_pressure / stiffening
+    chamber = base.chamber_fraction * height**3 * base.width / 4
+    rigidity = chamber * base.peak_pressure / stiffening
     modulus = 12 * rigidity / (base.width * base.thickness**3)
     return Robot(
         length=length,

@@ -1,4 +1,4 @@
-"""Every mode satisfies Appendix A's boundary conditions, set up here as the seed prints them."""
+"""Every mode satisfies Appendix A's boundary conditions, set up here as the paper prints them."""
 
 import numpy as np
 import pytest

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from strategies import fractions, robots
 
 from analytic import Robot, pneunet
-from analytic.chain import joint_springs, link_lengths, node_positions, segment_shares
+from analytic.chain import joint_springs, link_lengths, node_positions, segment_overlap
 
 links = st.integers(6, 96)
 
@@ -38,9 +38,9 @@ def test_the_chord_of_an_arc_converges_at_its_order(sizes, order):
 
 @given(links)
 def test_elements_are_shared_out_among_segments_without_loss(n):
-    shares = segment_shares(Robot().borders, n)
-    assert np.allclose(shares.sum(axis=1), 1)
-    assert np.allclose(shares.sum(axis=0), n / 3)
+    overlap = segment_overlap(Robot().borders, n)
+    assert np.allclose(overlap.sum(axis=1), 1)
+    assert np.allclose(overlap.sum(axis=0), n / 3)
 
 
 @given(robots, links, fractions, st.floats(-0.3, 0.3))

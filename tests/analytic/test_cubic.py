@@ -2,7 +2,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from analytic.cubic import real_cubic_roots
+from analytic.modes.cubic import real_cubic_roots
 
 numbers = st.floats(-10, 10)
 

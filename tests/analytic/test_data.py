@@ -38,14 +38,14 @@ def test_a_gait_that_is_no_closed_cycle_is_refused(stages):
 
 @pytest.mark.parametrize("time", [0.0, -1.0, np.nan, np.inf])
 def test_a_leg_takes_a_positive_time(time):
-    with pytest.raises(ValueError, match="leg_time"):
-        Gait("bad", GAITS["wave"].stages, leg_time=time)
+    with pytest.raises(ValueError, match="ramp_time"):
+        Gait("bad", GAITS["wave"].stages, ramp_time=time)
 
 
 @given(gaits)
 def test_pressures_pass_through_every_stage_on_straight_ramps(gait):
     p = gait.pressures(8)
-    assert p.shape == (8 * gait.legs + 1, 3)
+    assert p.shape == (8 * gait.ramps + 1, 3)
     assert np.allclose(p[::8], gait.stages)
     assert np.allclose(np.diff(p, n=2, axis=0).reshape(-1, 3)[0:6], 0, atol=1e-12)
     assert np.allclose(gait.reversed().pressures(8), p[::-1], atol=1e-12)
@@ -53,13 +53,13 @@ def test_pressures_pass_through_every_stage_on_straight_ramps(gait):
 
 @given(gaits)
 def test_fractions_in_time_are_the_pressures_in_states(gait):
-    time = np.linspace(0, 2 * gait.period, 2 * gait.legs * 8 + 1)
+    time = np.linspace(0, 2 * gait.period, 2 * gait.ramps * 8 + 1)
     assert np.allclose(gait.fractions(time), gait.pressures(8, cycles=2), atol=1e-9)
     assert np.allclose(gait.fractions(np.array([-1.0])), gait.stages[0])
 
 
 def test_states_per_leg_must_be_positive():
-    with pytest.raises(ValueError, match="n_per_leg"):
+    with pytest.raises(ValueError, match="states_per_ramp"):
         GAITS["wave"].pressures(0)
 
 
@@ -69,7 +69,7 @@ def test_a_surface_resists_or_does_not_but_never_drives(tip, area):
         Surface("bad", tip, area)
 
 
-def test_the_three_surfaces_are_the_seed_s():
+def test_the_three_surfaces_are_the_paper_s():
     pairs = {name: (surface.tip, surface.area) for name, surface in SURFACES.items()}
     assert pairs == {"felt": (0, 1), "polyethylene": (0.5, 1), "gelatin": (1, 0)}
     assert SURFACES["polyethylene"].tip_to_area_ratio == pytest.approx(1 / 6)

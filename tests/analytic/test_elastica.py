@@ -1,4 +1,4 @@
-"""The elastica rung against exact and independent solutions, and where its branch ends."""
+"""The elastica solver against exact and independent solutions, and where its branch ends."""
 
 import numpy as np
 import pytest
@@ -18,8 +18,8 @@ from analytic import (
     solve_modes,
     solve_obstacle,
 )
-from analytic.cantilever import solve_cantilever
 from analytic.chain import joint_springs, link_lengths
+from analytic.elastica.cantilever import solve_cantilever
 
 
 def along(gait, robot=None, n=50, links=60):
@@ -193,7 +193,7 @@ def test_past_its_stable_branch_it_says_so_and_gives_no_number():
     shapes = along("wave", robot)
     lost = shapes.status == Status.BRANCH_END
     first = int(np.argmax(lost))
-    assert 50 < first < 150  # on the second leg, as the middle segment inflates
+    assert 50 < first < 150  # on the second ramp, as the middle segment inflates
     assert lost[first:].all()
     for values in (shapes.separation, shapes.contact_left, shapes.contact_right, shapes.amplitude):
         assert np.isnan(values[first:]).all()

@@ -6,11 +6,11 @@ from hypothesis import assume, given
 from strategies import gaits, robots, surfaces
 
 from analytic import GAITS, SURFACES, Gait, Robot, Surface, direction, locomotion, solve_modes
-from analytic.friction import left_share, sliding_resistance
+from analytic.friction import left_slip_fraction, sliding_resistance
 
 
-def walk(robot, gait, surface, n_per_leg=60, cycles=1):
-    shapes = solve_modes(robot, gait.pressures(n_per_leg, cycles) * robot.peak_pressure)
+def walk(robot, gait, surface, states_per_ramp=60, cycles=1):
+    shapes = solve_modes(robot, gait.pressures(states_per_ramp, cycles) * robot.peak_pressure)
     return locomotion(shapes, surface, cycles)
 
 
@@ -57,7 +57,7 @@ def test_scaling_both_resistances_changes_nothing(robot, gait):
     assert solved(walk(robot, gait, weak)) == solved(walk(robot, gait, strong))
 
 
-def test_the_seed_s_directions_come_out():
+def test_the_paper_s_directions_come_out():
     robot, gait = Robot(), GAITS["wave"]
     felt = walk(robot, gait, SURFACES["felt"], 400).per_cycle
     gelatin = walk(robot, gait, SURFACES["gelatin"], 400).per_cycle
@@ -89,7 +89,7 @@ def test_finer_increments_converge_at_first_order_at_least():
 
 
 def test_the_larger_resistance_anchors_and_equals_share():
-    assert left_share([2.0, 1.0, 1.0], [1.0, 2.0, 1.0]).tolist() == [0.0, 1.0, 0.5]
+    assert left_slip_fraction([2.0, 1.0, 1.0], [1.0, 2.0, 1.0]).tolist() == [0.0, 1.0, 0.5]
 
 
 def test_resistance_is_constant_at_a_tip_and_by_area_on_a_side():

@@ -1,4 +1,4 @@
-"""The obstacle rung: exact conditions of contact, closed forms, and the modes where they hold."""
+"""The obstacle solver: exact conditions of contact, closed forms, and the modes where they hold."""
 
 import numpy as np
 import pytest
@@ -153,7 +153,7 @@ def test_mirroring_the_pressures_mirrors_the_shape(robot, fractions):
     assert np.allclose(one.force, other.force[:, ::-1], atol=1e-5 * robot.weight_per_length)
 
 
-def test_it_walks_as_the_seed_says():
+def test_it_walks_as_the_paper_says():
     robot = Robot()
     shapes = solve_obstacle(robot, GAITS["wave"].pressures(50) * robot.peak_pressure)
     felt = locomotion(shapes, SURFACES["felt"]).per_cycle

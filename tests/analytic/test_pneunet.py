@@ -1,4 +1,4 @@
-"""The pneu-net laws follow from the seed's energies, by finite differences of those energies."""
+"""The pneu-net laws follow from the paper's energies, by finite differences of those energies."""
 
 import numpy as np
 import pytest
@@ -96,8 +96,8 @@ def test_sealed_curvature_expands_as_7(robot, pressure):
     small = 1e-5 * pneunet.base_rigidity(robot) / robot.length
     rise = [float(pneunet.sealed_curvature(robot, pressure, s * small)) for s in (1, -1)]
     layer = robot.modulus * robot.thickness**3
-    gas = 6 * robot.chamber_fraction * robot.chamber_height**3 * pressure
-    expected = 6 * (2 * small) / robot.width * (1 / layer + 1 / (gas + layer))
+    chamber = 6 * robot.chamber_fraction * robot.chamber_height**3 * pressure
+    expected = 6 * (2 * small) / robot.width * (1 / layer + 1 / (chamber + layer))
     assert rise[0] - rise[1] == pytest.approx(expected, rel=1e-5)
 
 

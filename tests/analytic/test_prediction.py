@@ -1,29 +1,29 @@
-"""A cycle's distance by any rung, resolved where the anchor changes."""
+"""A cycle's distance by any solver, resolved where the anchor changes."""
 
 import pytest
 
-from analytic import GAITS, RUNGS, SURFACES, Robot, Status, predict
+from analytic import GAITS, SOLVERS, SURFACES, Robot, Status, predict
 
 
-def distance(rung, surface="felt", **options):
-    walked = predict(Robot(), GAITS["wave"], SURFACES[surface], rung, **options)
+def distance(solver, surface="felt", **options):
+    walked = predict(Robot(), GAITS["wave"], SURFACES[surface], solver, **options)
     return walked.locomotion.per_cycle / Robot().length
 
 
-@pytest.mark.parametrize("rung", list(RUNGS))
-def test_refining_the_changes_of_anchor_is_as_good_as_refining_everything(rung):
-    fine = distance(rung, n_per_leg=800, refinement=1)
-    assert distance(rung, n_per_leg=25) == pytest.approx(fine, abs=1e-4)
-    assert abs(distance(rung, n_per_leg=25, refinement=1) - fine) > 1e-4  # else for nothing
+@pytest.mark.parametrize("solver", list(SOLVERS))
+def test_refining_the_changes_of_anchor_is_as_good_as_refining_everything(solver):
+    fine = distance(solver, states_per_ramp=800, refinement=1)
+    assert distance(solver, states_per_ramp=25) == pytest.approx(fine, abs=1e-4)
+    assert abs(distance(solver, states_per_ramp=25, refinement=1) - fine) > 1e-4  # else for nothing
 
 
-@pytest.mark.parametrize("rung", list(RUNGS))
-def test_felt_and_gelatin_are_equal_and_opposite_on_every_rung(rung):
-    assert distance(rung) == pytest.approx(-distance(rung, "gelatin"), abs=1e-4)
+@pytest.mark.parametrize("solver", list(SOLVERS))
+def test_felt_and_gelatin_are_equal_and_opposite_on_every_rung(solver):
+    assert distance(solver) == pytest.approx(-distance(solver, "gelatin"), abs=1e-4)
 
 
 def test_the_rungs_agree_on_the_distance_as_far_as_small_slopes_go():
-    modes, obstacle, elastica = (distance(rung) for rung in RUNGS)
+    modes, obstacle, elastica = (distance(solver) for solver in SOLVERS)
     assert modes == pytest.approx(obstacle, abs=2e-4)
     assert modes == pytest.approx(elastica, rel=0.05)
     assert 0.0414 < elastica < 0.0422

@@ -72,11 +72,11 @@ def test_segments_have_lengths(segments):
 
 def test_each_leg_may_take_its_own_time():
     gait = Gait("odd", GAITS["wave"].stages, (1.0, 2.0, 0.5, 1.0, 3.0))
-    ends = np.concatenate([[0.0], np.cumsum(gait.leg_times)])
+    ends = np.concatenate([[0.0], np.cumsum(gait.ramp_times)])
     assert gait.period == 7.5
     assert np.allclose(gait.fractions(ends), gait.stages)
     assert np.allclose(gait.fractions(ends + 2 * gait.period), gait.stages, atol=1e-12)
     back = gait.reversed().fractions(gait.period - np.linspace(0, 7.5, 40))
     assert np.allclose(back, gait.fractions(np.linspace(0, 7.5, 40)), atol=1e-12)
-    with pytest.raises(ValueError, match="leg_time"):
+    with pytest.raises(ValueError, match="ramp_time"):
         Gait("bad", GAITS["wave"].stages, (1.0, 2.0))

@@ -16,8 +16,8 @@ from analytic import (
     predict,
     solve_elastica,
 )
-from analytic.equilibrium import Chain
-from analytic.friction import left_share
+from analytic.elastica.newton import Chain
+from analytic.friction import left_slip_fraction
 from analytic.locomotion import undecided
 
 ROBOT = Robot()
@@ -54,11 +54,11 @@ def test_a_tilted_cantilever_is_the_boundary_value_problem_of_tilted_weight(slop
 
 
 def test_the_end_that_slides_downhill_has_the_weight_s_help():
-    assert left_share(1.2, 1.0) == 0
-    assert left_share(1.2, 1.0, downhill=0.3, growing=True) == 1
-    assert left_share(1.2, 1.0, downhill=0.3, growing=False) == 0
-    assert left_share(1.0, 1.0, downhill=0.3, growing=False) == 0
-    assert left_share(1.0, 1.4, downhill=0.3, growing=False) == 1
+    assert left_slip_fraction(1.2, 1.0) == 0
+    assert left_slip_fraction(1.2, 1.0, downhill=0.3, growing=True) == 1
+    assert left_slip_fraction(1.2, 1.0, downhill=0.3, growing=False) == 0
+    assert left_slip_fraction(1.0, 1.0, downhill=0.3, growing=False) == 0
+    assert left_slip_fraction(1.0, 1.4, downhill=0.3, growing=False) == 1
 
 
 def travel(friction, gait=GAITS["wave"]):
@@ -68,7 +68,7 @@ def travel(friction, gait=GAITS["wave"]):
 def test_the_least_slope_decides_the_ties_of_the_paper_s_law_downhill():
     """Tips that resist alike share on level ground; now the lower one slides out, the upper in."""
     level = predict(ROBOT, GAITS["wave"], GROUND, friction=Friction(number=1e-3))
-    ties = undecided(level.shapes, GROUND, law="paper") / ROBOT.length
+    ties = undecided(level.shapes, GROUND, law="constant") / ROBOT.length
     assert ties > 0.1
     least = travel(Friction(number=1e-3, slope=1e-9))
     assert least == pytest.approx(level.locomotion.per_cycle / ROBOT.length - ties, abs=1e-3)
@@ -85,11 +85,11 @@ def test_under_coulomb_s_law_the_least_slope_is_level_ground(surface):
 
 
 def mirrored(gait):
-    return Gait(f"{gait.name}-mirrored", tuple(s[::-1] for s in gait.stages), gait.leg_time)
+    return Gait(f"{gait.name}-mirrored", tuple(s[::-1] for s in gait.stages), gait.ramp_time)
 
 
 @pytest.mark.parametrize("gait", list(GAITS))
-@pytest.mark.parametrize("law", ["paper", "coulomb"])
+@pytest.mark.parametrize("law", ["constant", "coulomb"])
 def test_the_mirrored_scene_goes_the_mirrored_way(gait, law):
     up = travel(Friction(law, 1.5, 0.04), GAITS[gait])
     down = travel(Friction(law, 1.5, -0.04), mirrored(GAITS[gait]))
@@ -112,7 +112,7 @@ def test_where_the_ground_cannot_hold_the_weight_there_is_no_number():
 
 def test_forces_of_the_ground_are_those_of_the_tilted_weight():
     path = GAITS["wave"].pressures(20) * ROBOT.peak_pressure
-    shapes = solve_elastica(ROBOT, path, surface=GROUND, friction=Friction("paper", 1.5, 0.05))
+    shapes = solve_elastica(ROBOT, path, surface=GROUND, friction=Friction("constant", 1.5, 0.05))
     weight = ROBOT.weight_per_length * ROBOT.length * np.cos(0.05)
     assert shapes.force.sum(axis=1) == pytest.approx(np.full(len(path), weight))
     assert shapes.residual.max() < 1e-9

@@ -1,4 +1,4 @@
-"""Accuracy against cost: the work has exact answers, rows come back whole, auto keeps its word."""
+"""Accuracy against cost: the case has exact answers, rows come back whole, auto keeps its word."""
 
 import json
 import math
@@ -9,19 +9,21 @@ from hypothesis import given
 from hypothesis import strategies as st
 from walks import refusal
 
-from mjsim import chart, cli, run
-from mjsim.accuracy import figure, heavy, settling, walking
-from mjsim.accuracy.choice import cheapest, choices
-from mjsim.accuracy.grid import numerics_of
-from mjsim.accuracy.rows import Row, append, read
-from mjsim.accuracy.scenes import COULOMB, GROUNDS, WALK, exact, scene_of
-from mjsim.accuracy.setting import Setting
-from mjsim.measures import measure
-from mjsim.simulate import simulate
+from mjsim import run
+from mjsim.io import cli
+from mjsim.simulation.measures import measure
+from mjsim.simulation.simulation import simulate
+from mjsim.studies.accuracy import __main__ as chart
+from mjsim.studies.accuracy import cantilever_bodies, figure, heavy_cantilever, walking
+from mjsim.studies.accuracy.benchmark_cases import COULOMB, GROUNDS, WALK, exact, scene_of
+from mjsim.studies.accuracy.choice import cheapest, choices
+from mjsim.studies.accuracy.grid import numerics_of
+from mjsim.studies.accuracy.rows import Row, append, read
+from mjsim.studies.accuracy.setting import Setting
 
 
 def test_the_exact_tip_is_the_published_one():
-    assert heavy.exact() == pytest.approx((0.32218, -0.88079), abs=5e-5)
+    assert heavy_cantilever.exact() == pytest.approx((0.32218, -0.88079), abs=5e-5)
 
 
 @pytest.mark.parametrize("method", ["elastica", "planar", "cable", "stock cable"])
@@ -29,7 +31,7 @@ def test_a_settled_strip_is_of_second_order_in_its_elements(method):
     errors = []
     for links in (6, 12, 24):
         timestep, integrator = (0.0, "") if method == "elastica" else (0.02, "discrete")
-        row = settling.run(Setting(method, links, timestep, integrator))
+        row = cantilever_bodies.run(Setting(method, links, timestep, integrator))
         assert row.status == "ok"
         errors.append(row.error)
     assert errors[1] / errors[2] == pytest.approx(4, rel=0.15)
@@ -37,14 +39,14 @@ def test_a_settled_strip_is_of_second_order_in_its_elements(method):
 
 
 def test_the_planar_chain_settles_where_the_elastica_of_as_many_links_does():
-    theory = settling.run(Setting("elastica", 24))
+    theory = cantilever_bodies.run(Setting("elastica", 24))
     for integrator in ("discrete", "implicitfast"):
-        found = settling.run(Setting("planar", 24, 0.01, integrator))
+        found = cantilever_bodies.run(Setting("planar", 24, 0.01, integrator))
         assert found.error == pytest.approx(theory.error, rel=1e-3)
 
 
 def test_a_strip_that_cannot_settle_is_no_number():
-    row = settling.run(Setting("planar", 24, 0.01, "RK4"))
+    row = cantilever_bodies.run(Setting("planar", 24, 0.01, "RK4"))
     assert row.status == "diverged"
     assert math.isnan(row.error)
 
@@ -103,13 +105,13 @@ def test_the_committed_rows_say_where_they_are_from_and_hold_every_method():
     assert all((row.status == "ok") == math.isfinite(row.error) for row in rows)
 
 
-@pytest.mark.parametrize("work", [WALK, COULOMB])
-def test_the_error_of_a_slow_walk_is_of_second_order_in_the_links(work):
+@pytest.mark.parametrize("case", [WALK, COULOMB])
+def test_the_error_of_a_slow_walk_is_of_second_order_in_the_links(case):
     """Against the elastica that the same friction bends: nothing is left but the numerics."""
     errors = []
     for links in (6, 12, 24):
-        cone = ("elliptic", 1000.0) if work == COULOMB else ()
-        row = walking.run(work, "gelatin", Setting("planar", links, 0.005, "discrete", *cone))
+        cone = ("elliptic", 1000.0) if case == COULOMB else ()
+        row = walking.run(case, "gelatin", Setting("planar", links, 0.005, "discrete", *cone))
         errors.append(row.error)
     assert errors[0] / errors[1] > 3
     assert errors[1] < 0.011
@@ -119,7 +121,7 @@ def test_the_error_of_a_slow_walk_is_of_second_order_in_the_links(work):
 def test_nothing_is_both_cheaper_and_more_accurate_than_the_default():
     """But for a thousandth of the distance, which is chance on one scene."""
     for ground in GROUNDS[WALK]:
-        here = [row for row in read() if (row.work, row.scene) == (WALK, ground)]
+        here = [row for row in read() if (row.case, row.scene) == (WALK, ground)]
         usual = next(row for row in here if figure.is_default(row))
         assert usual.error < 0.002
         assert not any(row.cost < usual.cost and row.error < usual.error - 0.001 for row in here)
@@ -128,7 +130,7 @@ def test_nothing_is_both_cheaper_and_more_accurate_than_the_default():
 def test_engines_that_share_no_code_agree_with_the_elastica_on_the_distance():
     best: dict[str, float] = {}
     for row in read():
-        if row.work == COULOMB and row.status == "ok":
+        if row.case == COULOMB and row.status == "ok":
             best[row.method] = min(best.get(row.method, math.inf), row.error)
     assert max(best[name] for name in ("planar", "cable", "Drake", "PyElastica")) < 0.01
 
@@ -183,5 +185,5 @@ def test_the_quick_chart_is_made_and_goes_on_where_it_was(tmp_path, capsys):
     first = (tmp_path / "rows.csv").read_text()
     assert chart.main(words) == 0
     assert (tmp_path / "rows.csv").read_text() == first
-    assert {"settle.png", "walk.png", "coulomb.png"} <= {path.name for path in tmp_path.iterdir()}
+    assert {"cantilever.png", "walk.png", "coulomb.png"} <= {path.name for path in tmp_path.iterdir()}
     assert "elastica" in capsys.readouterr().out

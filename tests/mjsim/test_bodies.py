@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 from walks import measured, walk
 
-import mjsim.simulate as simulation
+import mjsim.simulation.simulation as simulation
 from analytic import SURFACES, Robot, predict
 from analytic.chain import joint_springs
-from mjsim.assembly import compile_model
-from mjsim.config import BODIES, Scene, default_numerics
-from mjsim.measures import measure
-from mjsim.rod import Drive
-from mjsim.trajectory import Status
+from mjsim.bodies.rod import Drive
+from mjsim.mjcf.builder import compile_model
+from mjsim.scene import BODIES, Scene, default_numerics
+from mjsim.simulation.measures import measure
+from mjsim.simulation.trajectory import Status
 
 IN_SPACE = ("cable", "rod")
 
@@ -103,9 +103,9 @@ def test_without_weight_and_ground_every_body_takes_the_natural_curvature(body):
     model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
     data = mujoco.MjData(model)
     pressure = np.full((400, 3), 0.8 * Robot().peak_pressure)
-    drive = simulation.BODY_MODULES[body].Drive(model, data, scene, numerics, pressure)
+    actuation = simulation.BODY_MODULES[body].Drive(model, data, scene, numerics, pressure)
     for step in range(400):
-        drive.set(step)
+        actuation.set(step)
         mujoco.mj_step(model, data)
     position = simulation._positions(model, data, numerics, data.qpos[None].copy())[0]
     slope = np.arctan2(*np.diff(position[:, [2, 0]], axis=0).T)

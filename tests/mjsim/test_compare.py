@@ -6,8 +6,8 @@ from dataclasses import replace
 import pytest
 
 from analytic import GAITS, SURFACES, Robot
-from mjsim import cli
 from mjsim.compare import LADDER, Row, compare, main
+from mjsim.io import cli
 
 STANDSTILL = 0.005  # of L; less is no travel, see analytic.locomotion
 
@@ -31,11 +31,11 @@ def test_a_row_a_rung_with_its_difference_from_the_reference(capsys):
     assert main(["--surface", "felt", "--gait", "wave", "--json"]) == 0
     said = json.loads(capsys.readouterr().out)
     assert said["reference"] == "elastica"
-    assert [row["rung"] for row in said["rows"]] == list(LADDER)
+    assert [row["solver"] for row in said["rows"]] == list(LADDER)
     assert set(said["rows"][0]) == set(Row._fields)
-    by_rung = {row["rung"]: row for row in said["rows"]}
-    assert by_rung["elastica"]["difference_over_L"] == 0
-    assert by_rung["elastica"]["uncertainty_over_L"] < 1e-3
+    by_model = {row["solver"]: row for row in said["rows"]}
+    assert by_model["elastica"]["difference_over_L"] == 0
+    assert by_model["elastica"]["uncertainty_over_L"] < 1e-3
     assert all(abs(row["difference_over_L"]) < 0.002 for row in said["rows"])
 
 
@@ -49,7 +49,7 @@ def test_a_rung_without_an_answer_says_why(capsys):
 @pytest.mark.parametrize(
     ("words", "valid"),
     [(["--surface", "ice"], "felt"), (["--gait", "wave,trot"], "pulse"),
-     (["--rung", "string"], "planar"), (["--pressure", "1e9"], "78863"),
+     (["--solver", "string"], "planar"), (["--pressure", "1e9"], "78863"),
      (["--pressure", "-1"], "positive")],
 )  # fmt: skip
 def test_bad_input_gets_one_line_and_exit_2(capsys, words, valid):

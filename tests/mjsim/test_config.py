@@ -2,7 +2,7 @@
 
 import pytest
 
-from mjsim.config import Numerics
+from mjsim.scene import Numerics
 
 
 @pytest.mark.parametrize("links", [5, 0, -1, 385, 24.0, "24"])

@@ -9,13 +9,13 @@ from walks import measured, walk
 
 from analytic import SURFACES, Friction, Gait, Robot, Surface, predict
 from analytic.locomotion import undecided
-from mjsim.assembly import compile_model
-from mjsim.config import BODIES, Scene, default_numerics
+from mjsim.mjcf.builder import compile_model
 from mjsim.report import record, table
-from mjsim.simulate import begin
-from mjsim.trajectory import Status
+from mjsim.scene import BODIES, Scene, default_numerics
+from mjsim.simulation.simulation import begin
+from mjsim.simulation.trajectory import Status
 
-SLOW = 8.0  # s a leg: no inertia to speak of
+SLOW = 8.0  # s a ramp: no inertia to speak of
 
 
 SCENE = Scene()
@@ -29,7 +29,7 @@ def predicted(surface, number=SCENE.friction_number, gait=SCENE.gait):
 @pytest.mark.parametrize("surface", ["polyethylene", "gelatin"])
 @pytest.mark.parametrize("number", [1.5, 3.0])
 def test_the_distance_is_that_of_the_elastica_bent_by_the_same_friction(surface, number):
-    found = measured(surface, leg_time=SLOW, friction="coulomb", friction_number=number)
+    found = measured(surface, ramp_time=SLOW, friction="coulomb", friction_number=number)
     exact = predicted(SURFACES[surface], number)
     assert found.displacement == pytest.approx(exact, rel=0.02, abs=0.002)
 
@@ -38,9 +38,9 @@ def test_weak_friction_needs_a_slower_gait_and_firmer_contacts():
     """A third of the friction: inertia weighs more, and so does the depth that pads sink to."""
     exact = predicted(SURFACES["polyethylene"], 0.5)
     gaps = [
-        abs(measured("polyethylene", leg_time=leg, friction="coulomb", friction_number=0.5,
+        abs(measured("polyethylene", ramp_time=ramp, friction="coulomb", friction_number=0.5,
                      contact_depth=depth).displacement - exact)
-        for leg, depth in ((4.0, 8e-5), (SLOW, 4e-5), (16.0, 1.5e-5))
+        for ramp, depth in ((4.0, 8e-5), (SLOW, 4e-5), (16.0, 1.5e-5))
     ]  # fmt: skip
     assert gaps[0] > gaps[1] > gaps[2]
     assert gaps[2] < 0.02 * abs(exact)
@@ -49,21 +49,21 @@ def test_weak_friction_needs_a_slower_gait_and_firmer_contacts():
 @pytest.mark.parametrize("gait", ["full-wave", "pulse"])
 @pytest.mark.parametrize("reverse", [False, True])
 def test_other_gaits_meet_it_too(gait, reverse):
-    result = walk("gelatin", gait, leg_time=SLOW, reverse=reverse, friction="coulomb", links=12)
-    found = measured("gelatin", gait, leg_time=SLOW, reverse=reverse, friction="coulomb", links=12)
+    result = walk("gelatin", gait, ramp_time=SLOW, reverse=reverse, friction="coulomb", links=12)
+    found = measured("gelatin", gait, ramp_time=SLOW, reverse=reverse, friction="coulomb", links=12)
     exact = predicted(SURFACES["gelatin"], gait=result.scene.gait)
     assert found.displacement == pytest.approx(exact, rel=0.05, abs=0.002)
 
 
 @pytest.mark.parametrize("body", BODIES)
 def test_every_body_meets_it(body):
-    found = measured("gelatin", leg_time=SLOW, friction="coulomb", links=12, body=body)
+    found = measured("gelatin", ramp_time=SLOW, friction="coulomb", links=12, body=body)
     assert found.displacement == pytest.approx(predicted(SURFACES["gelatin"]), rel=0.03)
 
 
 def anchor_creep(impratio):
     """How far the left tip, the heavier one, is dragged while the right one slides, over L."""
-    result = walk("gelatin", leg_time=SLOW, friction="coulomb", impratio=impratio)
+    result = walk("gelatin", ramp_time=SLOW, friction="coulomb", impratio=impratio)
     x, _ = result.nodes()
     held = (result.time > 12.0) & (result.time <= 16.0)
     return np.ptp(x[held, 0]) / Robot().length
@@ -94,7 +94,7 @@ def test_the_rows_of_either_cone_add_up_to_the_weight():
 
 def test_pyramids_burst_where_a_pad_has_no_friction():
     """MuJoCo raises a coefficient of 0 to 1e-5, and a pyramid so thin has rows all but parallel."""
-    result = walk("gelatin", leg_time=SLOW, friction="coulomb", links=12, cone="pyramidal")
+    result = walk("gelatin", ramp_time=SLOW, friction="coulomb", links=12, cone="pyramidal")
     assert result.status in (Status.DIVERGED, Status.TOPPLED)
 
 
@@ -109,8 +109,8 @@ def test_scaling_all_friction_only_changes_how_much_the_strip_is_bent():
 def test_the_law_decides_how_far_gelatin_is():
     """Constant resistances give -0.042 L; by load, four times as far, as the lighter tip slides."""
     paper, coulomb = (
-        measured("gelatin", leg_time=SLOW, friction=law).displacement
-        for law in ("paper", "coulomb")
+        measured("gelatin", ramp_time=SLOW, friction=law).displacement
+        for law in ("constant", "coulomb")
     )
     assert coulomb < 3 * paper < 0
 
@@ -121,12 +121,13 @@ def test_tips_without_friction_leave_the_distance_on_felt_undecided():
     play = undecided(walked.shapes, SURFACES["felt"]) / Robot().length
     assert play > 0.1
     values = [
-        measured("felt", leg_time=leg, friction="coulomb").displacement for leg in (2.0, 4.0, SLOW)
+        measured("felt", ramp_time=ramp, friction="coulomb").displacement
+        for ramp in (2.0, 4.0, SLOW)
     ]
     assert np.ptp(values) > 0.02
     exact = walked.locomotion.per_cycle / Robot().length
     assert all(exact - play < value < exact + play for value in values)
-    row = record(walk("felt", leg_time=SLOW, friction="coulomb"))
+    row = record(walk("felt", ramp_time=SLOW, friction="coulomb"))
     assert row["prediction_undecided_over_L"] == pytest.approx(play, rel=0.05)
     assert "undecided by ±0.1" in table([row])
 

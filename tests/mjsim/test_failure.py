@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from walks import walk
 
-import mjsim.simulate as simulation
-from mjsim.config import Numerics, Scene
-from mjsim.measures import measure
+import mjsim.simulation.simulation as simulation
 from mjsim.report import record
-from mjsim.trajectory import Status, load
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.measures import measure
+from mjsim.simulation.trajectory import Status, load
 
 TOO_MUCH = 72e3  # Pa; kappa L = 5.7
 
@@ -46,7 +46,7 @@ def test_coordinates_that_run_away_are_called_diverged(monkeypatch, poison):
 
 def test_a_saved_failure_can_be_loaded_and_shows_the_same_states(tmp_path):
     result = walk("felt", pressure=TOO_MUCH)
-    from mjsim.provenance import provenance
+    from mjsim.io.provenance import provenance
 
     path = tmp_path / "failed.nc"
     result.save(path, provenance(result.scene, result.numerics))

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from analytic import GAITS, SURFACES, Mode, Robot, pneunet, predict
-from mjsim import cli
-from mjsim.figures import amplitude, contact
-from mjsim.figures.__main__ import FIGURES, main, make, page
+from mjsim.io import cli
+from mjsim.studies.paper import amplitude, contact
+from mjsim.studies.paper.__main__ import FIGURES, main, make, page
 
 
 def blank(picture):
@@ -37,7 +37,7 @@ def test_every_caption_says_what_agrees_with_the_seed_and_what_does_not():
     for name in FIGURES:
         text = page([name])
         assert f"({name}.png)" in text
-        assert "Agrees with the seed" in text
+        assert "Agrees with the paper" in text
         assert "Differs" in text
 
 

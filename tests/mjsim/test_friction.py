@@ -12,12 +12,12 @@ from walks import walk
 
 from analytic import Robot
 from analytic.chain import node_positions
-from analytic.friction import left_share, sliding_resistance
-from analytic.touching import PASSIVE
-from mjsim.assembly import compile_model
-from mjsim.config import Numerics, Scene
-from mjsim.friction import PaperLaw
-from mjsim.sides import Sides
+from analytic.contact import PASSIVE
+from analytic.friction import left_slip_fraction, sliding_resistance
+from mjsim.friction.contact_length import Sides
+from mjsim.friction.laws import ConstantLaw
+from mjsim.mjcf.builder import compile_model
+from mjsim.scene import Numerics, Scene
 
 
 class PADS:
@@ -36,14 +36,14 @@ lengths = st.floats(0.0, 0.4).map(lambda part: part * Scene().robot.length)
 @given(surfaces, lengths, lengths)
 def test_bounds_are_the_sliding_resistances_of_the_contacts(surface, one, other):
     scene = Scene(surface=surface)
-    left, right, both, share = PaperLaw(scene).hold(one, other)
+    left, right, both, share = ConstantLaw(scene).hold(one, other)
     hold = sliding_resistance(scene.robot, surface, np.array([one, other])) * scene.force_scale
     if hold[0] == hold[1]:
         assert (left, right, both) == (0, 0, scene.force_scale)
     else:
         assert [left, right] == pytest.approx(hold.tolist())
         assert both == 0
-    assert share == left_share(hold[0], hold[1])
+    assert share == left_slip_fraction(hold[0], hold[1])
 
 
 def ground(links, left, right, push=0.03):

@@ -6,13 +6,14 @@ import pytest
 from walks import measured, refusal
 
 from analytic import GAITS, SURFACES, Friction, Gait, Robot, Surface, predict
-from mjsim import cli, run
-from mjsim.config import Scene
-from mjsim.gaits import find_gait
-from mjsim.measures import measure
+from mjsim import run
+from mjsim.io import cli
 from mjsim.report import reference
-from mjsim.simulate import simulate
-from mjsim.trajectory import Status
+from mjsim.scene import Scene
+from mjsim.scene.gait_files import find_gait
+from mjsim.simulation.measures import measure
+from mjsim.simulation.simulation import simulate
+from mjsim.simulation.trajectory import Status
 
 GALLOP = """
 name = "gallop"
@@ -37,7 +38,7 @@ def test_name_and_durations_may_be_left_out(tmp_path):
     assert found.name == "gait"
     assert found.period == 4.0
     one = find_gait(written(tmp_path, "durations = 3\nstages = [[0], [1], [0]]"))
-    assert one.leg_times == (3.0, 3.0)
+    assert one.ramp_times == (3.0, 3.0)
 
 
 BAD = [
@@ -74,10 +75,10 @@ def test_a_bad_file_gets_one_line_that_names_the_key(tmp_path, capsys, text, key
     [(["--gait", "missing.toml"], "missing.toml"), (["--gait", "gallop"], "wave"),
      (["--segments", "1,x"], "1,x"), (["--segments", "1,0,1"], "0"),
      (["--segments", "1,1"], "has 2"), (["--slope", "90"], "90"), (["--lag", "-1"], "-1"),
-     (["--gas", "helium"], "sealed"), (["--drive", "wind"], "actuators"),
+     (["--chamber", "helium"], "sealed"), (["--actuation", "wind"], "actuators"),
      (["--friction-number", "0"], "friction_number"),
-     (["--links", "10", "--drive", "actuators"], "10"),
-     (["--body", "rod", "--gas", "sealed"], "rod")],
+     (["--links", "10", "--actuation", "actuators"], "10"),
+     (["--body", "rod", "--chamber", "sealed"], "rod")],
 )  # fmt: skip
 def test_other_bad_input_gets_one_line_too(tmp_path, capsys, words, named):
     assert named in refusal([*words, "--no-video", "--out", str(tmp_path)], capsys)
@@ -105,7 +106,7 @@ SLOW = Gait("wave", GAITS["wave"].stages, 8.0)
 
 
 @pytest.mark.parametrize("degrees", [2.0, -2.0])
-@pytest.mark.parametrize("friction", ["paper", "coulomb"])
+@pytest.mark.parametrize("friction", ["constant", "coulomb"])
 def test_on_a_slope_it_goes_as_far_as_the_elastica(degrees, friction):
     slope = math.radians(degrees)
     scene = Scene(gait=SLOW, surface=SURFACES["polyethylene"], friction=friction, slope=slope)

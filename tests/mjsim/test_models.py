@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 
 from analytic import SURFACES, Robot, Surface
-from mjsim.assembly import compile_model
-from mjsim.assets import MODELS
-from mjsim.config import Numerics, Scene
 from mjsim.export import documents
-from mjsim.textures import write_textures
+from mjsim.ground.textures import write_textures
+from mjsim.io.assets import MODELS
+from mjsim.mjcf.builder import compile_model
+from mjsim.scene import Numerics, Scene
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,9 @@ import sys
 import pytest
 
 from analytic import SURFACES
-from mjsim import cli, gl, replay, run
+from mjsim import replay, run
+from mjsim.io import cli
+from mjsim.video import gl
 
 CONTRACT = {
     "surface": str, "gait": str, "body": str, "friction": str, "cycles": int, "links": int,
@@ -61,7 +63,7 @@ BAD = [
     (["--timestep", "1"], "1.0", "at most 0.1 s"),
     (["--timestep", "soon"], "'soon'", "number"),
     (["--cycles", "0"], "0", "at least 1"),
-    (["--friction", "wet"], "'wet'", "paper"),
+    (["--friction", "wet"], "'wet'", "constant"),
     (["--body", "snake"], "'snake'", "planar"),
     (["--flavour", "x"], "--flavour", "--help"),
     (["--cycles"], "--cycles", "--help"),
@@ -118,10 +120,10 @@ def test_without_opengl_the_run_goes_on_without_video(tmp_path, capsys, monkeypa
 
 
 def test_a_backend_without_library_is_found_out_not_trusted(monkeypatch):
-    monkeypatch.setattr(gl, "works", lambda name: name == "osmesa")
+    monkeypatch.setattr(gl, "cases", lambda name: name == "osmesa")
     monkeypatch.setenv(gl.VARIABLE, "egl")
     assert gl.find_backend() == "osmesa"
-    monkeypatch.setattr(gl, "works", lambda name: False)
+    monkeypatch.setattr(gl, "cases", lambda name: False)
     assert gl.find_backend() is None
 
 

@@ -6,16 +6,17 @@ from dataclasses import replace
 import pytest
 
 from analytic import SURFACES
-from mjsim import cli, stability
-from mjsim.accuracy.grid import numerics_of
-from mjsim.accuracy.knobs import Turned
-from mjsim.accuracy.limits import highest_frequency, measured_limit, predicted_limit
-from mjsim.accuracy.maps import Standing
-from mjsim.accuracy.outcome import outcome, stiffened, tried
-from mjsim.accuracy.setting import Setting
-from mjsim.config import BODIES, Numerics, Scene
-from mjsim.simulate import simulate
-from mjsim.trajectory import Status
+from mjsim.io import cli
+from mjsim.scene import BODIES, Numerics, Scene
+from mjsim.simulation.simulation import simulate
+from mjsim.simulation.trajectory import Status
+from mjsim.studies.accuracy.grid import numerics_of
+from mjsim.studies.accuracy.setting import Setting
+from mjsim.studies.stability import __main__ as stability
+from mjsim.studies.stability.limits import highest_frequency, measured_limit, predicted_limit
+from mjsim.studies.stability.maps import Standing
+from mjsim.studies.stability.outcome import outcome, stiffened, tried
+from mjsim.studies.stability.parameters import Turned
 
 UNDAMPED = 1e-6  # s; as good as none
 
@@ -117,17 +118,17 @@ def test_the_default_robot_stands_at_55_kilopascals_and_not_at_75():
     assert high.planar == "toppled"
 
 
-def test_the_seed_s_modes_sink_where_the_robot_is_heavy():
+def test_the_paper_s_modes_sink_where_the_robot_is_heavy():
     assert Standing(8.0, 40e3).done().sunk < 1e-3
     assert Standing(30.0, 40e3).done().sunk > 0.01
 
 
 @pytest.mark.parametrize(
-    ("knob", "good", "bad"),
-    [("leg_time", 8.0, 0.5), ("side_angle", 1e-3, 0.1), ("friction_number", 1.5, 0.03)],
+    ("parameter", "good", "bad"),
+    [("ramp_time", 8.0, 0.5), ("side_angle", 1e-3, 0.1), ("friction_number", 1.5, 0.03)],
 )
-def test_a_knob_changes_the_answer_beyond_its_range_and_not_within(knob, good, bad):
-    near, far = (abs(Turned(knob, value, "felt").done().error) for value in (good, bad))
+def test_a_knob_changes_the_answer_beyond_its_range_and_not_within(parameter, good, bad):
+    near, far = (abs(Turned(parameter, value, "felt").done().error) for value in (good, bad))
     assert near < 0.02
     assert not far < 0.05
 

@@ -7,8 +7,8 @@ import pytest
 import xarray as xr
 from walks import walk
 
-from mjsim.provenance import provenance
-from mjsim.trajectory import load
+from mjsim.io.provenance import provenance
+from mjsim.simulation.trajectory import load
 
 
 @pytest.fixture
@@ -22,7 +22,7 @@ def saved(tmp_path):
 def test_a_saved_walk_loads_as_it_was(saved):
     result, path = saved
     again = load(path)
-    for name in ("time", "pressure", "coordinates", "contact_left", "left_share"):
+    for name in ("time", "pressure", "coordinates", "contact_left", "left_slip_fraction"):
         assert np.array_equal(getattr(again, name), getattr(result, name))
     assert again.scene == result.scene
 

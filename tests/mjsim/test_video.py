@@ -9,9 +9,9 @@ from conftest import BACKEND
 from walks import walk
 
 from analytic import SURFACES
-from mjsim import video
-from mjsim.overlay import Overlay
-from mjsim.render import Camera
+from mjsim.video import recording as video
+from mjsim.video.overlay import Overlay
+from mjsim.video.render import Camera
 
 pytestmark = pytest.mark.skipif(BACKEND is None, reason="no OpenGL backend on this machine")
 
@@ -90,7 +90,7 @@ def test_the_overlay_writes_pressures_and_displacement(before_and_after):
 def test_the_file_plays_with_the_right_number_of_frames(tmp_path, monkeypatch, count):
     monkeypatch.setattr(video, "WIDTH", 320)
     monkeypatch.setattr(video, "HEIGHT", 180)
-    walks = [walk(surface, leg_time=0.2) for surface in list(SURFACES)[:count]]
+    walks = [walk(surface, ramp_time=0.2) for surface in list(SURFACES)[:count]]
     path = tmp_path / "walk.mp4"
     written = video.write_video(walks, path)
     # 0.5 s before, 1 s of walk, 1 s after

@@ -59,12 +59,12 @@ def test_time_steps_from_2_to_20_ms_agree_within_2_percent(surface):
 
 @pytest.mark.parametrize("surface", ["felt", "gelatin"])
 def test_legs_of_2_and_4_s_agree_within_3_percent(surface):
-    assert spread([measured(surface, leg_time=leg).displacement for leg in (2.0, 4.0)]) < 0.03
+    assert spread([measured(surface, ramp_time=ramp).displacement for ramp in (2.0, 4.0)]) < 0.03
 
 
 @pytest.mark.parametrize("surface", list(SURFACES))
 def test_slip_falls_as_the_gait_slows(surface):
-    slips = [abs(measured(surface, leg_time=leg).slip) for leg in (1.0, 2.0, 4.0)]
+    slips = [abs(measured(surface, ramp_time=ramp).slip) for ramp in (1.0, 2.0, 4.0)]
     assert slips[2] < slips[0]
     assert slips[1] < 0.001
     assert slips[2] < 0.0005
@@ -84,8 +84,8 @@ def test_every_cycle_travels_alike():
 
 @cache
 def beside_the_elastica(surface):
-    """A walk of four-second legs and the elastica at its pressures, at every step of the cycle."""
-    result = walk(surface, leg_time=4.0)
+    """A walk of four-second ramps and the elastica at its pressures, at every step of the cycle."""
+    result = walk(surface, ramp_time=4.0)
     cycle = slice(result.start, None)
     return result, cycle, solve_elastica(Robot(), result.pressure[cycle], links=24)
 
@@ -115,7 +115,7 @@ def test_side_contact_follows_the_elastica_along_the_whole_cycle(surface):
 
 @pytest.mark.parametrize(("surface", "end"), [("gelatin", 0), ("felt", -1)])
 def test_the_anchored_end_does_not_creep(surface, end):
-    """On the first leg the left end is a tip and the right end lies flat."""
+    """On the first ramp the left end is a tip and the right end lies flat."""
     result = walk(surface)
     x, _ = result.nodes()
     first = (result.time > 0.1) & (result.time <= 2.0)
@@ -138,7 +138,7 @@ def test_nothing_sinks_into_the_ground():
     assert z.min() > -1e-3 * Robot().length
 
 
-def test_the_undulation_has_the_seed_s_optimal_amplitude():
+def test_the_undulation_has_the_paper_s_optimal_amplitude():
     assert measured("felt").amplitude == pytest.approx(0.25, abs=0.01)
 
 

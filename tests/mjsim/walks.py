@@ -6,32 +6,33 @@ from functools import cache
 import pytest
 
 from analytic import GAITS, SURFACES, Gait, Robot, Surface
-from mjsim import cli, run
-from mjsim.config import Numerics, Scene, default_numerics
-from mjsim.measures import Measures, measure
-from mjsim.simulate import simulate
-from mjsim.trajectory import Status, Trajectory
+from mjsim import run
+from mjsim.io import cli
+from mjsim.scene import Numerics, Scene, default_numerics
+from mjsim.simulation.measures import Measures, measure
+from mjsim.simulation.simulation import simulate
+from mjsim.simulation.trajectory import Status, Trajectory
 
 
 @cache
 def walk(
     surface: str | Surface = "felt",
     gait: str = "wave",
-    leg_time: float = 2.0,
+    ramp_time: float = 2.0,
     reverse: bool = False,
     cycles: int = 1,
     pressure: float = Robot().peak_pressure,
     links: int = Numerics().links,
     timestep: float | None = None,
     body: str = "planar",
-    friction: str = "paper",
+    friction: str = "constant",
     friction_number: float = Scene().friction_number,
     **changes: float | str,
 ) -> Trajectory:
     stages = GAITS[gait].reversed() if reverse else GAITS[gait]
     scene = Scene(
         robot=replace(Robot(), peak_pressure=pressure),
-        gait=Gait(stages.name, stages.stages, leg_time),
+        gait=Gait(stages.name, stages.stages, ramp_time),
         surface=SURFACES[surface] if isinstance(surface, str) else surface,
         cycles=cycles,
         body=body,

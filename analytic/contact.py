@@ -1,0 +1,83 @@
+"""From the contact forces on nodes to contact lengths and modes, for one or many states."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from analytic import pneunet
+from analytic.equilibria import Mode
+from analytic.robot import Robot
+
+Array = NDArray[np.float64]
+
+PASSIVE = 0.01  # of the peak pressure: an end with less may lie on its side, if it does; chosen
+_RIPPLE = 0.2  # of w L h^3 / D0: how high a flat stretch ripples between nodes, bounded; measured
+
+
+def side_contact(
+    robot: Robot, nodes: Array, force: Array, height: Array, pressures: Array
+) -> tuple[Array, Array]:
+    """Length of side contact at the left and the right end.
+
+    An end whose segment is inflated is a tip: to lie flat it would need the moment D kappa, and an
+    end has none. Else (or with next to no pressure) the ground carries the weight of a flat
+    stretch, w per length, and where the strip lifts off a concentrated force R besides. So the
+    length follows from the sum and the moment of the forces on an end's nodes (see `flat_length`):
+    finer than the distance of the nodes, and exactly 0 if the end alone touches. An end's nodes
+    reach to the next that is in the air, higher than a flat stretch ripples between the nodes that
+    push it.
+
+    Args:
+        nodes: arclength of the nodes, shape (S,) [m].
+        force: of the ground on each, 0 where it does not touch, shape (B, S) [N].
+        height: of each, shape (B, S) [m].
+        pressures: of the segments, shape (B, S) [Pa].
+
+    Returns:
+        Two arrays of shape (B,) [m]; half the length each where no node is in the air, NaN where
+        a force is.
+    """
+    spacing = float(np.diff(nodes).max())
+    ripple = robot.weight_per_length * robot.length * spacing**3 / pneunet.base_rigidity(robot)
+    up = height > _RIPPLE * ripple
+    left = _from_left(robot, nodes, force, up)
+    right = _from_left(robot, nodes[-1] - nodes[::-1], force[:, ::-1], up[:, ::-1])
+    flat, least = ~up.any(axis=1), PASSIVE * robot.peak_pressure
+    half = 0.5 * robot.length
+    blank = np.where(np.isfinite(force).all(axis=1), 1.0, np.nan)
+    left = np.where(pressures[:, 0] > least, 0.0, np.where(flat, half, left))
+    right = np.where(pressures[:, -1] > least, 0.0, np.where(flat, half, right))
+    return blank * left, blank * right
+
+
+def _from_left(robot: Robot, nodes: Array, force: Array, up: NDArray[np.bool_]) -> Array:
+    begun = np.cumsum(force > 0, axis=1) > 0  # the outermost node may hover by a rounding of h
+    held = force * (np.cumsum(begun & up, axis=1) == 0)
+    return flat_length(robot.weight_per_length, held.sum(axis=1), held @ nodes)
+
+
+def flat_length(weight: float, total: ArrayLike, moment: ArrayLike) -> Array:
+    """xi of a flat end that carries F = w xi + R with the moment M = w xi^2 / 2 + R xi [m].
+
+    Args:
+        weight: w [N/m].
+        total: F [N].
+        moment: M about the end [N m], of the shape of F.
+    """
+    f = np.asarray(total)
+    return (f - np.sqrt(np.maximum(f * f - 2 * weight * np.asarray(moment), 0.0))) / weight
+
+
+def contact_mode(robot: Robot, left: Array, right: Array) -> NDArray[np.int_]:
+    """Mode by the ends' contact lengths, shape (B,); BOTH where both lie flat.
+
+    Segments are counted from the left; the third stands for all beyond it too.
+    """
+    reach = robot.length * (1 + 1e-9)  # lengths come with rounding
+    inner = robot.borders[1:-1]
+    in_left = np.minimum(np.searchsorted(inner, left / reach, side="right"), 2)
+    in_right = np.minimum(np.searchsorted(inner, 1 - right / robot.length, side="right"), 2)
+    mode = np.full(len(left), int(Mode.TIP))
+    mode = np.where(left > 0, Mode.LEFT_1 + in_left, mode)
+    mode = np.where(right > 0, Mode.RIGHT_1 + in_right, mode)
+    mode = np.where((left > 0) & (right > 0), Mode.BOTH, mode)
+    return np.where(left + right >= robot.length * (1 - 1e-9), Mode.FLAT, mode)

@@ -1,0 +1,42 @@
+"""The heavy strip clamped at its left end, without ground: the chain's exact test."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from analytic.chain import link_lengths
+from analytic.elastica.newton import Chain
+from analytic.pressures import check_pressures
+from analytic.robot import Robot
+
+Array = NDArray[np.float64]
+
+_STEPS = 20  # of weight and pressure on the way from the straight strip
+
+
+def solve_cantilever(
+    robot: Robot, pressure_pa: ArrayLike, links: int = 60, chamber: str = "linearized"
+) -> tuple[Array, Array]:
+    """Nodes (x, y) of the strip held horizontally at its left end, each (N + 2,) [m].
+
+    Args:
+        robot: the strip.
+        pressure_pa: of the segments, shape (S,) [Pa].
+        links: of the chain; the error falls with its square.
+        chamber: the moment law of the pneu-nets, see analytic.chain.
+
+    Raises:
+        ValueError: the pressure is bad.
+        ArithmeticError: no stable equilibrium was found on the way from the straight strip.
+    """
+    (pressure,) = check_pressures(robot, pressure_pa)
+    chain = Chain(robot, links, chamber, clamped=True)
+    weight, state = chain.weight, chain.flat()
+    for part in np.linspace(0, 1, _STEPS + 1)[1:]:
+        chain.weight = part * weight
+        chain.load_at(part * pressure)
+        found = chain.equilibrium(state)
+        if found is None:
+            raise ArithmeticError(f"no stable equilibrium at {part:.0%} of weight and pressure")
+        state = found
+    x = np.concatenate([[0.0], np.cumsum(link_lengths(robot, links) * np.cos(state.theta))])
+    return x, robot.length * state.y

@@ -1,0 +1,239 @@
+"""Equilibria of the heavy chain on the ground: Newton's method, contact and stability.
+
+The chain of analytic.chain at rest: N + 1 rigid links in a plane, N hinges with the springs of the
+pneu-net laws, the weight of each link at its middle, and nodes (the links' ends) that the ground
+may push up. With direction theta_i, internal vertical force V_i and horizontal tension H of link i,
+height y_k and ground force f_k of node k,
+
+    moments      m_i - m_{i+1} = V_i l_i cos(theta_i) - H l_i sin(theta_i),
+                 m_i = k_i (theta_i - theta_{i-1} - r_i)
+    kinematics   y_{i+1} - y_i = l_i sin(theta_i)
+    nodes        W_k + V_{k-1} - V_k = f_k,    y_k >= 0, f_k >= 0, y_k f_k = 0.
+
+Newton's method on (y_k, theta_k, V_k), a banded system, so that its cost is linear in the links.
+Dimensionless: lengths over L, moments over D0 / L, forces over D0 / L^2.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cholesky_banded
+from scipy.linalg.lapack import dgbsv
+
+from analytic import pneunet
+from analytic.chain import CHAMBER_LAWS, joint_springs, link_lengths, sealed_springs, segments_fit
+from analytic.robot import Robot
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+_CONVERGED = 1e-10  # change of an angle in the last Newton step [rad]
+_SETTLED = 0.05  # change below which the contact set may be revised [rad]
+_ITERATIONS = 40
+_ROUNDING = 1e-11  # of heights over L
+_PENALTY = 1e7  # stands for a rigid constraint in the test of stability
+
+
+class ChainState(NamedTuple):
+    """A shape: heights (N+2,), directions and internal forces (N+1,), nodes in contact."""
+
+    y: Array
+    theta: Array
+    shear: Array
+    active: Mask
+
+
+class Chain:
+    """The chain of one robot, loaded by one state of pressure at a time.
+
+    Args:
+        robot: the strip.
+        links: N.
+        chamber: the moment law of the pneu-nets, see analytic.chain; "sealed" is the exact (6).
+        clamped: hold the first node and the direction of the first link, which is that of the
+            strip's end, and take the ground away: a heavy cantilever, to verify the rest by.
+        slope: angle by which the ground rises towards +x [rad].
+
+    Attributes:
+        iterations: Newton steps so far.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        links: int,
+        chamber: str = "linearized",
+        clamped: bool = False,
+        slope: float = 0.0,
+    ) -> None:
+        if chamber not in CHAMBER_LAWS:
+            raise ValueError(f"chamber must be one of {', '.join(CHAMBER_LAWS)}; got {chamber!r}")
+        if chamber == "sealed" and not segments_fit(robot, links):
+            raise ValueError(
+                f"segments must be whole elements for sealed pneu-nets, got links {links}"
+            )
+        self.robot, self.links = robot, links
+        self.chamber, self.clamped = chamber, clamped
+        self._d0 = pneunet.base_rigidity(robot)
+        self.force_unit = self._d0 / robot.length**2
+        self.length = link_lengths(robot, links) / robot.length
+        half = 0.5 * self.length * robot.weight_per_length * robot.length / self.force_unit
+        self.weight = np.zeros(links + 2)
+        self.weight[:-1] += half
+        self.weight[1:] += half
+        # tension is that of the left end; along the strip the weight's part downhill adds to it
+        self._hanging = math.sin(slope) * np.cumsum(self.weight)[:-1]
+        self.weight *= math.cos(slope)
+        self.stiffness, self.rest = np.zeros(links), np.zeros(links)
+        self.pressure, self.tension = np.zeros(len(robot.segments)), 0.0
+        self.iterations = 0
+
+    def flat(self) -> ChainState:
+        """The strip without pressure on the ground, or sticking out from the wall."""
+        n = self.links
+        held = np.ones(n + 2, bool)
+        held[1:] = not self.clamped
+        return ChainState(np.zeros(n + 2), np.zeros(n + 1), np.zeros(n + 1), held)
+
+    def load_at(self, pressure: Array) -> None:
+        """Set the hinges from segment pressures, shape (S,) [Pa]."""
+        stiffness, rest = joint_springs(self.robot, self.links, pressure[None, :], self.chamber)
+        self.stiffness, self.rest = stiffness[0] * (self.robot.length / self._d0), rest[0]
+        self.pressure = pressure
+
+    def _hinges(self, theta: Array) -> tuple[Array, Array]:
+        """Stiffness and rest angle of the hinges' springs, or of the tangents to a chamber law."""
+        if self.chamber != "sealed":
+            return self.stiffness, self.rest
+        tangent, rest = sealed_springs(self.robot, self.links, self.pressure, np.diff(theta))
+        return tangent * (self.robot.length / self._d0), rest
+
+    def equilibrium(self, guess: ChainState) -> ChainState | None:
+        """The stable equilibrium that Newton's method finds from a guess, or None."""
+        state, revisions = guess, 0
+        for _ in range(_ITERATIONS):
+            new = self._newton(state)
+            if new is None:
+                return None
+            change = float(np.abs(new.theta - state.theta).max())
+            if not change < 1.0:
+                return None
+            state = new
+            if change > _SETTLED:
+                continue
+            active = self._revise(state, revisions)
+            if active is not None:
+                revisions += 1
+                state = state._replace(active=active)
+            elif change < _CONVERGED:
+                return state if self._stable(state) else None
+        return None
+
+    def _newton(self, state: ChainState) -> ChainState | None:
+        """One step for the nodes held, all unknowns at once."""
+        self.iterations += 1
+        n, l = self.links + 1, self.length  # noqa: E741
+        size = 3 * n + 1
+        cosine, sine = l * np.cos(state.theta), l * np.sin(state.theta)
+        stiffness, rest = self._hinges(state.theta)
+        bend = np.zeros(n + 1)
+        bend[1:-1] = stiffness
+        turn = np.zeros(n + 1)
+        turn[1:-1] = stiffness * rest
+        tension = self.tension + self._hanging
+        geometric = state.shear * sine + tension * cosine
+        # general band storage: entry (i, j) at [kl + ku + i - j, j], kl = ku = 3
+        band = np.zeros((10, size))
+        right = np.zeros(size)
+        free = ~state.active
+        # nodes, row 3 k: y_k = 0, or V_k - V_{k-1} = W_k
+        band[6, 0::3] = state.active
+        band[4, 2::3] = free[:-1]  # V_k in the row of node k
+        band[7, 2::3] = -1.0 * free[1:]  # V_k in the row of node k + 1
+        right[0::3] = self.weight * free
+        # moments, row 3 i + 1
+        band[6, 1::3] = bend[:-1] + bend[1:] + geometric
+        band[9, 1:-3:3] = -bend[1:-1]
+        band[3, 4::3] = -bend[1:-1]
+        band[5, 2::3] = -cosine
+        right[1::3] = turn[:-1] - turn[1:] + geometric * state.theta - tension * sine
+        # kinematics, row 3 i + 2
+        band[5, 3::3] = 1.0
+        band[8, 0:-1:3] = -1.0
+        band[7, 1::3] = -cosine
+        right[2::3] = sine - cosine * state.theta
+        if self.clamped:
+            band[[6, 3, 5], [1, 4, 2]], right[1] = (1.0, 0.0, 0.0), 0.0
+        _, _, x, info = dgbsv(3, 3, band, right, overwrite_ab=True, overwrite_b=True)
+        if info != 0:
+            return None
+        return state._replace(y=x[0::3], theta=x[1::3], shear=x[2::3])
+
+    def separation(self, state: ChainState) -> float:
+        """Horizontal distance of the two ends over L."""
+        return float(self.length @ np.cos(state.theta))
+
+    def ground_force(self, state: ChainState) -> Array:
+        """Force of the ground on each node, shape (N + 2,)."""
+        before = np.concatenate([[0.0], state.shear])
+        after = np.concatenate([state.shear, [0.0]])
+        return np.where(state.active, self.weight + before - after, 0.0)
+
+    def _revise(self, state: ChainState, revisions: int) -> Mask | None:
+        """Other nodes to hold, or None if these are right; one at a time after many tries."""
+        if self.clamped:
+            return None
+        sinking = ~state.active & (state.y < -_ROUNDING)
+        force = self.ground_force(state)
+        pulled = force < -_ROUNDING * self.weight.sum()
+        if not (sinking.any() or pulled.any()):
+            return None
+        if revisions < 8:
+            return np.asarray((state.active | sinking) & ~pulled)
+        active = state.active.copy()
+        if sinking.any():
+            active[int(np.argmin(np.where(sinking, state.y, 0.0)))] = True
+        else:
+            active[int(np.argmin(force))] = False
+        return active
+
+    def _stable(self, state: ChainState) -> bool:
+        """Whether the energy has a minimum here, on the nodes held: a penalised Hessian's test."""
+        n = self.links + 1
+        cosine = self.length * np.cos(state.theta)
+        bend = np.zeros(n + 1)
+        bend[1:-1] = self._hinges(state.theta)[0]
+        band = np.zeros((3, 2 * n + 1))  # upper, unknowns y_0, theta_0, y_1, ...
+        band[2, 0::2] = _PENALTY * state.active
+        band[2, 0:-1:2] += _PENALTY
+        band[2, 2::2] += _PENALTY
+        band[2, 1::2] = bend[:-1] + bend[1:] + state.shear * self.length * np.sin(state.theta)
+        band[2, 1::2] += (self.tension + self._hanging) * cosine + _PENALTY * cosine**2
+        band[2, 1] += _PENALTY * self.clamped
+        band[1, 1::2] = _PENALTY * cosine  # y_i, theta_i
+        band[1, 2::2] = -_PENALTY * cosine  # theta_i, y_{i+1}
+        band[0, 2::2] = -_PENALTY  # y_i, y_{i+1}
+        band[0, 3::2] = -bend[1:-1]  # theta_i, theta_{i+1}
+        try:
+            cholesky_banded(band, overwrite_ab=True, check_finite=False)
+        except np.linalg.LinAlgError:
+            return False
+        return True
+
+    def residual(self, state: ChainState) -> float:
+        """Largest violation of contact and balance, heights over L, forces over the weight."""
+        total = self.weight.sum()
+        force = self.ground_force(state) / total
+        moment = np.zeros(self.links + 2)
+        stiffness, rest = self._hinges(state.theta)
+        moment[1:-1] = stiffness * (np.diff(state.theta) - rest)
+        cosine, sine = self.length * np.cos(state.theta), self.length * np.sin(state.theta)
+        torque = (
+            moment[:-1] - moment[1:] - state.shear * cosine + (self.tension + self._hanging) * sine
+        )
+        kinematic = np.diff(state.y) - sine
+        parts = (-state.y, -force, np.abs(force * state.y), np.abs(torque) / total,
+                 np.abs(kinematic), [abs(force.sum() - 1)])  # fmt: skip
+        return max(float(np.max(part)) for part in parts)

@@ -1,0 +1,1 @@
+"""MuJoCo models of the strip: one module a body."""

@@ -1,1 +1,0 @@
-"""The seed's figures made anew, each a pure function of data that is written beside it."""

@@ -1,0 +1,1 @@
+"""Friction laws in MuJoCo, and the contact lengths they rest on."""

@@ -1,0 +1,1 @@
+"""Ground: what it looks like and what carries the strip."""

@@ -1,0 +1,6 @@
+"""Where the MJCF files are: beside the package in a wheel, at the top of a checkout."""
+
+from pathlib import Path
+
+_HERE = Path(__file__).resolve().parent.parent  # the package
+MODELS = next(folder for folder in (_HERE / "models", _HERE.parent / "models") if folder.is_dir())

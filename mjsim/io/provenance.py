@@ -1,0 +1,88 @@
+"""What a result was made from: versions, commit, resolved configuration."""
+
+import os
+import platform
+import subprocess
+from dataclasses import asdict
+from functools import cache
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from analytic import Gait, Robot, Surface
+from mjsim.scene import Numerics, Scene
+
+DISTRIBUTION = "undulator"
+_PACKAGES = (DISTRIBUTION, "mujoco", "dm_control", "numpy", "scipy")
+
+
+def origin() -> dict[str, Any]:
+    """The versions and the commit that a result was made with."""
+    return {
+        "versions": {"python": platform.python_version(), **_versions()},
+        "commit": _commit(),
+    }
+
+
+@cache
+def signature() -> dict[str, Any]:
+    """The same as words for a table's columns, `versions` and `commit`."""
+    made = origin()
+    versions = " ".join(f"{name}={version}" for name, version in made["versions"].items())
+    return {"versions": versions, "commit": made["commit"] or ""}
+
+
+def machine() -> str:
+    """What kind of machine this is, in a few words."""
+    return f"{platform.machine()} {platform.system()} {os.cpu_count()} cores"
+
+
+def provenance(scene: Scene, numerics: Numerics) -> dict[str, Any]:
+    """Plain data that says how to make a result again."""
+    return {
+        **origin(),
+        "scene": asdict(scene),
+        "numerics": asdict(numerics),
+    }
+
+
+def configuration(described: dict[str, Any]) -> tuple[Scene, Numerics]:
+    """The scene and numerics that `provenance` described.
+
+    Raises:
+        KeyError, TypeError, ValueError: `described` is no such description.
+    """
+    scene = dict(described["scene"])
+    for name, kind in (("robot", Robot), ("gait", Gait), ("surface", Surface)):
+        scene[name] = kind(**{key: _frozen(value) for key, value in scene[name].items()})
+    return Scene(**scene), Numerics(**described["numerics"])
+
+
+def _frozen(value: Any) -> Any:
+    """Lists, which JSON makes of tuples, as tuples again."""
+    return tuple(_frozen(item) for item in value) if isinstance(value, list | tuple) else value
+
+
+def _versions() -> dict[str, str]:
+    found = {}
+    for name in _PACKAGES:
+        try:
+            found[name] = metadata.version(name)
+        except metadata.PackageNotFoundError:
+            found[name] = "not installed"
+    return found
+
+
+def _commit() -> str | None:
+    """Commit of the checkout this code runs from, with "+" if it was changed; None if none."""
+    top = Path(__file__).resolve().parent.parent.parent
+    if not (top / ".git").exists():
+        return None
+    try:
+        run = subprocess.run(
+            ["git", "-C", str(top), "describe", "--always", "--dirty=+", "--exclude=*"],
+            capture_output=True, text=True, timeout=10, check=False,
+        )  # fmt: skip
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    return run.stdout.strip() or None

@@ -1,0 +1,1 @@
+"""The robot on its ground as MJCF."""

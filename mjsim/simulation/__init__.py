@@ -1,0 +1,1 @@
+"""Stepping a scene, and what comes out."""

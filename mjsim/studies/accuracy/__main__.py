@@ -1,0 +1,94 @@
+"""Measure speed against accuracy and draw it: `python -m mjsim.studies.accuracy.__main__`."""
+
+import logging
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+
+from mjsim.io.cli import bar, choose, fail, parse
+from mjsim.io.provenance import machine, signature
+from mjsim.studies.accuracy import (
+    benchmark_cases,
+    cantilever_bodies,
+    figure,
+    grid,
+    heavy_cantilever,
+    walking,
+)
+from mjsim.studies.accuracy.rows import MEASURED, Row, append, read
+from mjsim.studies.accuracy.setting import Setting
+
+PROGRAM = "python -m mjsim.studies.accuracy.__main__"
+WORKS = (heavy_cantilever.CASE, *benchmark_cases.GROUNDS)
+
+
+@dataclass(frozen=True)
+class Options:
+    """Measure every method over links and time steps on three pieces of case, and draw the fronts.
+
+    settle: a heavy clamped strip sags to rest, without contact; error of its tip, whose place is
+    known exactly. walk: one slow cycle of the default gait on felt and on gelatin; error of the
+    displacement against the converged elastica. coulomb: the same on gelatin by Coulomb's law,
+    which peers know as well. Rows are appended to a table as they come, and a
+    run that was stopped goes on where it was. Exit code 0: done; 2: bad input.
+
+    Example: python -m mjsim.studies.accuracy.__main__ --quick --out /tmp/chart
+    """
+
+    case: str = "all"
+    """settle, walk, coulomb, or all"""
+    out: Path = Path("docs")
+    """folder for the figures"""
+    rows: Path = MEASURED
+    """the table: CSV that measurements are read from and appended to"""
+    fresh: bool = False
+    """measure everything anew"""
+    quick: bool = False
+    """only a few settings of each method"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    options = parse(Options, PROGRAM, argv)
+    try:
+        cases = choose("case", options.case, WORKS)
+        if options.fresh:
+            options.rows.unlink(missing_ok=True)
+        known = read(options.rows)
+        options.out.mkdir(parents=True, exist_ok=True)
+    except (ValueError, OSError) as error:
+        fail(PROGRAM, str(error))
+    logging.getLogger("absl").setLevel(logging.ERROR)  # divergence is a row, not a warning
+    seen = {row.key for row in known}
+    todo = [job for job in _jobs(cases, options.quick) if job[0] not in seen]
+    with bar("measuring", len(todo)) as advance:
+        for row in append(
+            (replace(run(), machine=machine(), **signature()) for _, run in todo), options.rows
+        ):
+            known.append(row)
+            advance(1)
+    for case in cases:
+        figure.save(figure.draw(known, case), options.out / f"{case}.png")
+        print(figure.table(known, case))
+        print(options.out / f"{case}.png")
+    return 0
+
+
+Job = tuple[tuple[str, str, Setting], Callable[[], Row]]
+
+
+def _jobs(cases: Sequence[str], quick: bool) -> Iterator[Job]:
+    for case in cases:
+        if case == heavy_cantilever.CASE:
+            for setting in cantilever_bodies.settings(quick):
+                yield (case, heavy_cantilever.TIP, setting), partial(cantilever_bodies.run, setting)
+        else:
+            for setting in grid.settings(case, quick):
+                for ground in benchmark_cases.GROUNDS[case]:
+                    yield (case, ground, setting), partial(walking.run, case, ground, setting)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,53 @@
+"""What walking is measured on, and what it should come to; needs no MuJoCo.
+
+The default gait on level ground, its ramps so slow that the quasi-static reference is what a method
+should find: what is measured is its numerical error, and not what inertia does at 2 s a ramp.
+"""
+
+from dataclasses import replace
+from functools import cache
+
+from analytic import SURFACES, predict
+from mjsim.scene import Scene
+from mjsim.studies.accuracy.rows import Row, row
+from mjsim.studies.accuracy.setting import Setting
+from mjsim.studies.accuracy.timing import Timing
+
+WALK, COULOMB = "walk", "coulomb"
+GROUNDS = {WALK: ("felt", "gelatin"), COULOMB: ("gelatin",)}  # Coulomb's law leaves felt undecided
+FAR = 0.5  # relative error of a displacement that is none; chosen
+_RAMP = 16.0  # s; chosen, inertia is below 0.1 % by then, and below 0.4 % under Coulomb's law
+
+
+def scene_of(case: str, ground: str, body: str = "planar") -> Scene:
+    """A case's scene on a ground: the constant-bound law, or one that other engines know as well.
+
+    That is Coulomb's, with chambers at constant pressure: the rest curvature alone follows them.
+    """
+    scene = Scene(surface=SURFACES[ground], body=body)
+    scene = replace(scene, gait=replace(scene.gait, ramp_time=_RAMP))
+    return (
+        replace(scene, friction="coulomb", chamber="constant-pressure")
+        if case == COULOMB
+        else scene
+    )
+
+
+@cache
+def exact(case: str, ground: str) -> float:
+    """Displacement per cycle over L of the elastica, twice as fine as usual."""
+    scene = scene_of(case, ground)
+    walk = predict(scene.robot, scene.gait, scene.surface, states_per_ramp=100, links=120,
+                   friction=scene.hold, chamber=scene.chamber)  # fmt: skip
+    return walk.locomotion.per_cycle / scene.robot.length
+
+
+def walked(
+    case: str, ground: str, setting: Setting, value: float, timing: Timing, status: str
+) -> Row:
+    """The row of a displacement per cycle over L; one that is FAR off is no walk of this gait."""
+    reference = exact(case, ground)
+    error = abs(value / reference - 1)
+    if status == "ok" and error > FAR:
+        status = "drifting"
+    return row(case, ground, setting, value, reference, error, timing, status)

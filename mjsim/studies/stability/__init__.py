@@ -1,0 +1,1 @@
+"""Where methods fail: maps of outcomes and predicted limits."""
