@@ -17,15 +17,35 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic import pneunet
+from analytic.checks import one_of
 from analytic.robot import Robot
 
 Array = NDArray[np.float64]
 
-CHAMBER_LAWS = (
-    "linearized",
-    "sealed",
-    "constant-pressure",
-)  # what the air in a chamber does as the strip is bent
+# what the air in a chamber does as the strip is bent: (9); closed valves, the exact (6); or chambers
+# at constant pressure, which add no stiffness, the moment D0 (k - alpha p) of (2) and (3)
+CHAMBER_LAWS = ("linearized", "sealed", "constant-pressure")
+
+
+def check_chamber(robot: Robot, links: int, chamber: str) -> None:
+    """Whether a chain can bend by a chamber law.
+
+    Raises:
+        ValueError: there is no such law; sealed chambers are no whole elements, or not known by
+            their geometry.
+    """
+    one_of("chamber", chamber, CHAMBER_LAWS)
+    if chamber != "sealed":
+        return
+    if not segments_fit(robot, links):
+        raise ValueError(
+            f"links must make every segment whole elements for sealed chambers, got {links}"
+        )
+    if robot.curvature_per_pressure or robot.rigidity_per_pressure:
+        raise ValueError(
+            "sealed chambers must be given by chamber_height and chamber_fraction, "
+            "not by curvature_per_pressure or rigidity_per_pressure"
+        )
 
 
 def link_lengths(robot: Robot, links: int) -> Array:
@@ -76,8 +96,7 @@ def joint_springs(
     Args:
         robot, links: the chain.
         pressures_pa: of the segments.
-        chamber: "linearized" for (9), or "constant-pressure" for chambers at constant pressure, which add no stiffness:
-            the moment of (2) and (3), D0 (k - alpha p). For "sealed" see `sealed_springs`.
+        chamber: "linearized" or "constant-pressure"; for "sealed" see `sealed_springs`.
 
     Returns:
         stiffness (T, N) [N m/rad] and rest angle (T, N) [rad], negative where the strip arches.

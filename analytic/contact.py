@@ -1,7 +1,9 @@
 """From the contact forces on nodes to contact lengths and modes, for one or many states."""
 
+from typing import Any
+
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from analytic import pneunet
 from analytic.equilibria import Mode
@@ -41,30 +43,55 @@ def side_contact(
     up = height > _RIPPLE * ripple
     left = _from_left(robot, nodes, force, up)
     right = _from_left(robot, nodes[-1] - nodes[::-1], force[:, ::-1], up[:, ::-1])
-    flat, least = ~up.any(axis=1), PASSIVE * robot.peak_pressure
+    flat = ~up.any(axis=1)
     half = 0.5 * robot.length
     blank = np.where(np.isfinite(force).all(axis=1), 1.0, np.nan)
-    left = np.where(pressures[:, 0] > least, 0.0, np.where(flat, half, left))
-    right = np.where(pressures[:, -1] > least, 0.0, np.where(flat, half, right))
+    left = _if_flat(pressures[:, 0], robot, np.where(flat, half, left))
+    right = _if_flat(pressures[:, -1], robot, np.where(flat, half, right))
     return blank * left, blank * right
+
+
+def _if_flat(pressure: Array, robot: Robot, contact: Array) -> Array:
+    return np.where(may_lie_flat(pressure, robot.peak_pressure), contact, 0.0)
 
 
 def _from_left(robot: Robot, nodes: Array, force: Array, up: NDArray[np.bool_]) -> Array:
     begun = np.cumsum(force > 0, axis=1) > 0  # the outermost node may hover by a rounding of h
     held = force * (np.cumsum(begun & up, axis=1) == 0)
-    return flat_length(robot.weight_per_length, held.sum(axis=1), held @ nodes)
+    return np.asarray(flat_length(robot.weight_per_length, held.sum(axis=1), held @ nodes))
 
 
-def flat_length(weight: float, total: ArrayLike, moment: ArrayLike) -> Array:
+def flat_length(weight: float, total: Any, moment: Any) -> Any:
     """xi of a flat end that carries F = w xi + R with the moment M = w xi^2 / 2 + R xi [m].
 
     Args:
         weight: w [N/m].
-        total: F [N].
+        total: F [N], a float or an array.
         moment: M about the end [N m], of the shape of F.
     """
-    f = np.asarray(total)
-    return (f - np.sqrt(np.maximum(f * f - 2 * weight * np.asarray(moment), 0.0))) / weight
+    square = total * total - 2.0 * weight * moment
+    return (total - (0.5 * (square + abs(square))) ** 0.5) / weight
+
+
+def may_lie_flat(pressure: Any, peak_pressure: float) -> Any:
+    """Whether an end segment at this pressure [Pa] may lie on its side: with next to none."""
+    return pressure <= PASSIVE * peak_pressure
+
+
+def end_loads(force: Array, height: Array) -> tuple[Array, Array]:
+    """Normal force on the left and the right part of the strip, either side of its highest node.
+
+    Args:
+        force: of the ground on each node, (B, S) [N].
+        height: of each, (B, S) [m].
+
+    Returns:
+        Two arrays of shape (B,) [N].
+    """
+    first = np.arange(force.shape[1]) <= np.argmax(np.nan_to_num(height), axis=1)[:, None]
+    left, right = (np.where(side, force, 0.0).sum(axis=1) for side in (first, ~first))
+    # an end that carries less by rounding only carries no less
+    return left, np.where(np.isclose(left, right, rtol=1e-9, atol=0), left, right)
 
 
 def contact_mode(robot: Robot, left: Array, right: Array) -> NDArray[np.int_]:

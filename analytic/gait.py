@@ -1,10 +1,13 @@
 """Gaits: closed sequences of segment pressures, joined by linear ramps ([Majidi13], Figure 3)."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
+from analytic.checks import file_word, is_number, positive
 
 Array = NDArray[np.float64]
 
@@ -30,10 +33,14 @@ class Gait:
     ramp_time: float | tuple[float, ...] = 2.0
 
     def __post_init__(self) -> None:
+        file_word("name of a gait", self.name)
+        object.__setattr__(self, "stages", tuple(tuple(stage) for stage in self.stages))
+        if isinstance(self.ramp_time, Sequence):
+            object.__setattr__(self, "ramp_time", tuple(self.ramp_time))
         if len(self.stages) < 2:
             raise ValueError(f"stages must be at least two, got {len(self.stages)}")
         for stage in self.stages:
-            if not stage or not all(0 <= fraction <= 1 for fraction in stage):
+            if not stage or not all(is_number(f) and 0 <= f <= 1 for f in stage):
                 raise ValueError(f"a stage is one fraction in [0, 1] a segment, got {stage!r}")
             if len(stage) != self.segments:
                 raise ValueError(f"stages must have {self.segments} fractions each, got {stage!r}")
@@ -44,8 +51,7 @@ class Gait:
         if len(self.ramp_times) != self.ramps:
             raise ValueError(f"ramp_time must be one or {self.ramps} times, got {self.ramp_time!r}")
         for time in self.ramp_times:
-            if not (math.isfinite(time) and time > 0):
-                raise ValueError(f"ramp_time must be a positive time [s], got {time!r}")
+            positive("ramp_time", time, "s")
 
     @property
     def segments(self) -> int:

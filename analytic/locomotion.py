@@ -1,23 +1,20 @@
-"""From a sequence of shapes and a surface to the way the robot goes ([Majidi13], section 2.2)."""
+"""From a sequence of shapes and a ground to the way the robot goes ([Majidi13], section 2.2)."""
 
 from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.contact import end_loads
 from analytic.equilibria import ContactShapes, Shapes
-from analytic.friction import (
-    Friction,
-    Surface,
-    coulomb_resistance,
-    left_slip_fraction,
-    sliding_resistance,
-)
+from analytic.friction import LAWS, Friction, slip_fraction
+from analytic.surface import Ground, Surface
 
 Array = NDArray[np.float64]
 Direction = Literal["forward", "backward", "none"]
 
 STANDSTILL = 0.005  # |Delta|/L below which a cycle counts as no travel; chosen, 0.65 mm on 130 mm
+WEAK = Friction()
 
 
 class Locomotion(NamedTuple):
@@ -34,21 +31,18 @@ class Locomotion(NamedTuple):
     per_cycle: float
 
 
-UNBENT = Friction()
-
-
-def locomotion(
-    shapes: Shapes, surface: Surface, cycles: int = 1, friction: Friction = UNBENT
+def displacements(
+    shapes: Shapes, ground: Ground, cycles: int = 1, friction: Friction = WEAK
 ) -> Locomotion:
     """Apply the anchor rule of section 2.2 to a sequence of states.
 
-    Each change of separation is taken up by the end that resists less, by both alike when they
-    resist alike. An increment uses the mean of the rule at its two states, so that the reversed
-    sequence gives exactly the opposite displacement, on level ground.
+    Each change of separation is taken up by the end whose bound is less, by both alike where they
+    are alike. An increment uses the mean of the rule at its two states, so that the reversed
+    sequence gives exactly the opposite displacement, on uniform level ground.
 
     Args:
         shapes: states in order of time, evenly or unevenly spaced; finer is more accurate.
-        surface: the ground.
+        ground: under the left end at x = 0 and on both sides of it.
         cycles: number of cycles that the sequence holds.
         friction: law and slope.
 
@@ -61,46 +55,70 @@ def locomotion(
             f"need at least two states and one cycle, got {len(shapes)} states, {cycles} cycles"
         )
     change = np.diff(shapes.separation)
-    left = np.concatenate(
-        [[0.0], np.cumsum(-mean_slip_fraction(shapes, surface, friction) * change)]
-    )
+    if isinstance(ground, Surface):
+        left = np.concatenate([[0.0], np.cumsum(-mean_slip(shapes, ground, friction) * change)])
+    else:
+        left = _along(shapes, ground, friction)
     right = left + (shapes.separation - shapes.separation[0])
     return Locomotion(left, right, float(left[-1] / cycles))
 
 
-def mean_slip_fraction(shapes: Shapes, surface: Surface, friction: Friction = UNBENT) -> Array:
+def _along(shapes: Shapes, ground: Ground, friction: Friction) -> Array:
+    """Displacement of the left end where the ground changes under the robot, (B,) [m]."""
+    law, width = LAWS[friction.law], shapes.robot.width
+    contact, load = _ends(shapes, friction.law)
+    downhill = friction.downhill(shapes.robot)
+    left = np.zeros(len(shapes))
+    for i, separation in enumerate(shapes.separation[:-1]):
+        change = shapes.separation[i + 1] - separation
+        here = ground.at(left[i]), ground.at(left[i] + separation)
+        slips = []
+        for j in (i, i + 1):
+            ends = (law.bound(here[k], width, contact[k][j], load[k][j]) for k in (0, 1))
+            slips.append(slip_fraction(next(ends), next(ends), downhill, change > 0))
+        left[i + 1] = left[i] - 0.5 * sum(slips) * change
+    return left
+
+
+def mean_slip(shapes: Shapes, surface: Surface, friction: Friction = WEAK) -> Array:
     """Part of each change of separation that the left end takes up, (B - 1,): 0 to 1."""
-    left, right = resistances(shapes, surface, friction.law)
+    left, right = bounds(shapes, surface, friction.law)
     downhill, growing = friction.downhill(shapes.robot), np.diff(shapes.separation) > 0
-    before = left_slip_fraction(left[:-1], right[:-1], downhill, growing)
-    after = left_slip_fraction(left[1:], right[1:], downhill, growing)
-    return 0.5 * (before + after)
+    before = slip_fraction(left[:-1], right[:-1], downhill, growing)
+    after = slip_fraction(left[1:], right[1:], downhill, growing)
+    return np.asarray(0.5 * (before + after))
 
 
-def slip_fraction(shapes: Shapes, surface: Surface, law: str = "constant") -> Array:
+def state_slip(shapes: Shapes, surface: Surface, law: str = "constant") -> Array:
     """Part of a change of separation that the left end takes up at each state, (B,): 0, 1/2, 1.
 
-    On level ground; see `mean_slip_fraction` for slopes.
+    On level ground; see `mean_slip` for slopes.
     """
-    return left_slip_fraction(*resistances(shapes, surface, law))
+    return np.asarray(slip_fraction(*bounds(shapes, surface, law)))
 
 
-def resistances(shapes: Shapes, surface: Surface, law: str) -> tuple[Array, Array]:
-    """What the left and the right end resist by at each state, (B,) each [V0].
-
-    Under "constant" V_t or tau A, under "coulomb" mu N; see analytic.friction.
+def bounds(shapes: Shapes, surface: Surface, law: str) -> tuple[Array, Array]:
+    """Greatest friction of the left and the right end at each state, (B,) each [N].
 
     Raises:
         ValueError: the law needs contact forces and the shapes have none.
     """
-    ends = shapes.contact_left, shapes.contact_right
-    if law == "constant":
-        left, right = (sliding_resistance(shapes.robot, surface, end) for end in ends)
-        return left, right
+    contact, load = _ends(shapes, law)
+    left, right = (
+        LAWS[law].bound(surface, shapes.robot.width, contact[end], load[end]) for end in (0, 1)
+    )
+    return np.asarray(left), np.asarray(right)
+
+
+def _ends(shapes: Shapes, law: str) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+    """Contact lengths and loads of the two ends."""
+    contact = shapes.contact_left, shapes.contact_right
+    if not LAWS[law].needs_load:
+        return contact, (np.zeros(len(shapes)), np.zeros(len(shapes)))
     if not isinstance(shapes, ContactShapes):
         raise ValueError(f"law {law!r} needs contact forces, which the modes do not give")
     _, y = shapes.curve(shapes.nodes)
-    return coulomb_resistance(shapes.robot, surface, ends, shapes.force, y)
+    return contact, end_loads(shapes.force, y)
 
 
 def undecided(shapes: Shapes, surface: Surface, law: str = "coulomb") -> float:
@@ -108,10 +126,10 @@ def undecided(shapes: Shapes, surface: Surface, law: str = "coulomb") -> float:
 
     Where both ends resist alike, by nothing or to the last digit, Coulomb's law does not say which
     one slides: the whole change of separation may be the left end's or the right end's, and
-    `locomotion` takes half. The constant-bound law decides so by rule.
+    `displacements` takes half. The constant bounds of [Majidi13] decide so by rule.
     """
-    share = slip_fraction(shapes, surface, law)
-    tied = (share[1:] == 0.5) & (share[:-1] == 0.5)
+    slip = state_slip(shapes, surface, law)
+    tied = (slip[1:] == 0.5) & (slip[:-1] == 0.5)
     return float(0.5 * np.abs(np.diff(shapes.separation))[tied].sum())
 
 

@@ -20,14 +20,26 @@ def base_rigidity(robot: Robot) -> float:
     return robot.modulus * robot.width * robot.thickness**3 / 12
 
 
+def load_number(robot: Robot) -> float:
+    """Gamma = w L^3 / D0, weight beside stiffness [1] (Appendix A)."""
+    return robot.weight_per_length * robot.length**3 / base_rigidity(robot)
+
+
 def with_load(robot: Robot, load: float) -> Robot:
     """The same robot, so heavy that w L^3 / D0 is the load [1]."""
     unit = base_rigidity(robot) / robot.length**3
     return replace(robot, weight_per_length=load * unit)
 
 
+def turn_number(robot: Robot) -> float:
+    """alpha p L, the angle that the whole strip at peak pressure turns by [rad] (3)."""
+    return curvature_per_pressure(robot) * robot.peak_pressure * robot.length
+
+
 def curvature_per_pressure(robot: Robot) -> float:
     """alpha = 6 H^2 c / (E t^3 x) [1/(m Pa)] (after (9))."""
+    if robot.curvature_per_pressure is not None:
+        return robot.curvature_per_pressure
     return (
         6 * robot.chamber_height**2 * robot.chamber_fraction / (robot.modulus * robot.thickness**3)
     )
@@ -35,6 +47,8 @@ def curvature_per_pressure(robot: Robot) -> float:
 
 def rigidity_per_pressure(robot: Robot) -> float:
     """eta = c H^3 w / (4 x) [N m^2 / Pa] (after (9))."""
+    if robot.rigidity_per_pressure is not None:
+        return robot.rigidity_per_pressure
     return robot.chamber_fraction * robot.chamber_height**3 * robot.width / 4
 
 

@@ -1,38 +1,97 @@
 """How far a robot goes in a cycle, by any solver, with the changes of anchor resolved."""
 
-from collections.abc import Callable
-from functools import partial
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import ClassVar, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.elastica import LINKS, solve_elastica
 from analytic.equilibria import Shapes, Status
-from analytic.friction import Friction, Surface
+from analytic.friction import Friction
 from analytic.gait import Gait
-from analytic.locomotion import UNBENT, Locomotion, locomotion, mean_slip_fraction, slip_fraction
-from analytic.modes import solve_modes
-from analytic.obstacle import solve_obstacle
+from analytic.locomotion import WEAK, Locomotion, displacements, mean_slip, state_slip
 from analytic.robot import Robot
+from analytic.surface import Ground, Surface
 
 Array = NDArray[np.float64]
 
-Solver = Callable[[Robot, ArrayLike], Shapes]
 
-SOLVERS: dict[str, Solver] = {
-    "modes": solve_modes,  # the paper's: small slopes, one flat end, closed form
-    "obstacle": solve_obstacle,  # small slopes, exact contact
-    "elastica": solve_elastica,  # finite rotations, exact contact: the reference
-}
-REFERENCE = "elastica"
+class Solver(Protocol):
+    """Finds equilibria along a path of pressures; its options are its fields.
+
+    Attributes:
+        name: how commands call it.
+    """
+
+    name: ClassVar[str]
+
+    def solve(self, robot: Robot, pressures: Array, ground: Ground, friction: Friction) -> Shapes:
+        """Equilibria at pressures of shape (B, S) [Pa].
+
+        Raises:
+            ValueError: the solver cannot do what the scene asks for.
+        """
+        ...
+
+
+@dataclass(frozen=True)
+class Modes:
+    """The contact modes of [Majidi13], Appendix A: small slopes, one flat end, closed form."""
+
+    name: ClassVar[str] = "modes"
+
+    def solve(self, robot: Robot, pressures: Array, ground: Ground, friction: Friction) -> Shapes:
+        """See Solver.solve."""
+        from analytic.modes import solve_modes
+
+        _refuse_bending(self.name, friction)
+        return solve_modes(robot, pressures)
+
+
+@dataclass(frozen=True)
+class Obstacle:
+    """Small slopes, exact contact."""
+
+    name: ClassVar[str] = "obstacle"
+    elements: int = 60
+
+    def solve(self, robot: Robot, pressures: Array, ground: Ground, friction: Friction) -> Shapes:
+        """See Solver.solve."""
+        from analytic.obstacle import solve_obstacle
+
+        _refuse_bending(self.name, friction)
+        return solve_obstacle(robot, pressures, self.elements)
+
+
+@dataclass(frozen=True)
+class Elastica:
+    """Finite rotations, exact contact: the reference.
+
+    Args:
+        links: of the chain.
+        chamber: law of the chambers, see analytic.chain.
+    """
+
+    name: ClassVar[str] = "elastica"
+    links: int = 60
+    chamber: str = "linearized"
+
+    def solve(self, robot: Robot, pressures: Array, ground: Ground, friction: Friction) -> Shapes:
+        """See Solver.solve."""
+        from analytic.elastica import solve_elastica
+
+        return solve_elastica(robot, pressures, self.links, self.chamber, ground, friction)
+
+
+SOLVERS: dict[str, type[Solver]] = {kind.name: kind for kind in (Modes, Obstacle, Elastica)}
+REFERENCE = Elastica.name
 
 
 class Prediction(NamedTuple):
-    """One cycle by one solver.
+    """One cycle, or several, by one solver.
 
     Attributes:
-        pressures: states of the cycle, shape (B, 3) [Pa], denser where the anchor changes.
+        pressures: states along the path, shape (B, S) [Pa], denser where the anchor changes.
         shapes: their equilibria.
         locomotion: displacements along them.
         flags: every flag that a state carries.
@@ -47,64 +106,62 @@ class Prediction(NamedTuple):
 def predict(
     robot: Robot,
     gait: Gait,
-    surface: Surface,
-    solver: str = REFERENCE,
+    ground: Ground,
+    solver: Solver | str = REFERENCE,
     states_per_ramp: int = 50,
     refinement: int = 32,
-    links: int = LINKS,
-    friction: Friction = UNBENT,
-    chamber: str = "linearized",
+    friction: Friction = WEAK,
     path: ArrayLike | None = None,
+    cycles: int = 1,
 ) -> Prediction:
-    """Walk one cycle quasi-statically.
+    """Walk quasi-statically, one cycle or along a path.
 
     The anchor rule is right but for the increments in which the anchor changes: those are found in
     a first pass and divided into `refinement` parts in a second.
 
     Args:
-        robot, gait, surface: the scene.
-        solver: a name of SOLVERS.
+        robot, gait, ground: the scene.
+        solver: a name of SOLVERS, or a solver with its options.
         states_per_ramp: states per ramp of the gait in the first pass.
         refinement: parts of an increment in which the anchor changes.
-        links: of the elastica's chain.
-        friction: law, number and slope; "coulomb" needs a solver that knows forces, and elastica
+        friction: law, tension and slope; "coulomb" needs a solver that knows forces, and elastica
             alone lets friction bend the strip.
-        chamber: what the air does, see analytic.chain; elastica only, but for "linearized".
-        path: pressures to follow instead of the gait's, from none, (B, S) [Pa].
+        path: pressures to follow instead of the gait's, (B, S) [Pa].
+        cycles: how many cycles the path holds.
 
     Raises:
-        ValueError: there is no such solver or law, the solver does not know what it needs for them, or
-            the gait is divided into no states.
+        ValueError: there is no such solver or law, the solver does not know what it needs for them,
+            or the gait is divided into no states.
     """
-    if solver not in SOLVERS:
-        raise ValueError(f"solver must be one of {', '.join(SOLVERS)}; got {solver!r}")
-    if (friction.number or chamber != "linearized") and solver != REFERENCE:
-        raise ValueError(
-            f"{REFERENCE} alone knows gases and bending friction, got solver {solver!r}"
-        )
-    solve = SOLVERS[solver]
-    if solver == REFERENCE:
-        solve = partial(
-            solve_elastica, links=links, chamber=chamber, surface=surface, friction=friction
-        )
-    path = (
-        robot.peak_pressure * gait.pressures(states_per_ramp) if path is None else np.asarray(path)
-    )
-    shapes = solve(robot, path)
-    changes = np.flatnonzero(_undecided_within(shapes, surface, friction))
+    if isinstance(solver, str):
+        if solver not in SOLVERS:
+            raise ValueError(f"solver must be one of {', '.join(SOLVERS)}; got {solver!r}")
+        solver = SOLVERS[solver]()
+    if path is None:
+        path = robot.peak_pressure * gait.pressures(states_per_ramp, cycles)
+    path = np.asarray(path, dtype=float)
+    shapes = solver.solve(robot, path, ground, friction)
+    changes = np.flatnonzero(_anchor_changes(shapes, ground, friction))
     if len(changes) and refinement > 1:
         part = np.linspace(0, 1, refinement + 1)[1:-1, None]
         between = [path[i] + part * (path[i + 1] - path[i]) for i in changes]
         path = np.insert(
             path, np.repeat(changes + 1, refinement - 1), np.concatenate(between), axis=0
         )
-        shapes = solve(robot, path)
+        shapes = solver.solve(robot, path, ground, friction)
     flags = Status(int(np.bitwise_or.reduce(shapes.status)))
-    return Prediction(path, shapes, locomotion(shapes, surface, friction=friction), flags)
+    return Prediction(path, shapes, displacements(shapes, ground, cycles, friction), flags)
 
 
-def _undecided_within(shapes: Shapes, surface: Surface, friction: Friction) -> NDArray[np.bool_]:
-    """Increments in which the anchor changes, (B - 1,)."""
-    share = mean_slip_fraction(shapes, surface, friction)
-    change = np.diff(slip_fraction(shapes, surface, friction.law)) != 0
-    return change | (np.abs(share - np.round(2 * share) / 2) > 0)
+def _anchor_changes(shapes: Shapes, ground: Ground, friction: Friction) -> NDArray[np.bool_]:
+    """Increments in which the anchor changes, (B - 1,); on ground that changes, none."""
+    if not isinstance(ground, Surface):
+        return np.zeros(len(shapes) - 1, dtype=bool)
+    slip = mean_slip(shapes, ground, friction)
+    change = np.diff(state_slip(shapes, ground, friction.law)) != 0
+    return np.asarray(change | (np.abs(slip - np.round(2 * slip) / 2) > 0))
+
+
+def _refuse_bending(name: str, friction: Friction) -> None:
+    if friction.tension:
+        raise ValueError(f"{REFERENCE} alone lets friction bend the strip, got solver {name!r}")

@@ -1,56 +1,91 @@
 """The robot: a strip of pneu-net segments, as plain data."""
 
-import math
 from dataclasses import dataclass, fields
 from itertools import accumulate
 
+from analytic.checks import positive
+
 PSI = 6894.757293168  # Pa in a pound-force per square inch (NIST SP 811)
+GRAVITY = 9.81  # m/s^2
 THREE_EQUAL = (1.0, 1.0, 1.0)  # [Majidi13], section 2.3
+
+_OPTIONAL = ("mass", "rigidity", "curvature_per_pressure", "rigidity_per_pressure")
 
 
 @dataclass(frozen=True)
 class Robot:
     """A planar strip of segments, each one a pneu-net of the same design.
 
-    The defaults give an undulation of about a quarter of the length, the paper's optimum.
+    The weight and the chamber height of the default robot are identified from two statements of
+    [Majidi13], see analytic.identification; the other values are chosen.
+
+    What was measured may be given in place of what it follows from: mass for weight_per_length,
+    rigidity for modulus (both are turned into the other at once), curvature_per_pressure and
+    rigidity_per_pressure for what the chambers' geometry gives.
 
     Raises:
-        ValueError: a value is not a positive finite number, there is no segment, or
-            chamber_fraction exceeds 1.
+        ValueError: a value is not a positive finite number, there is no segment, chamber_fraction
+            exceeds 1, or one quantity is given in two ways.
     """
 
-    length: float = 0.130  # L [m]; chosen
-    width: float = 0.040  # q, also the depth "w" of (1)-(9) [m]; chosen
-    modulus: float = 1.8e6  # E of the strain-limiting layer [Pa]; chosen (PDMS)
-    thickness: float = 4.0e-3  # t of the strain-limiting layer [m]; chosen
-    chamber_height: float = 4.1e-3  # H [m]; chosen
-    chamber_fraction: float = 0.7  # c/x, chamber width over the arclength it occupies [1]; chosen
-    weight_per_length: float = 2.0  # w of Appendix A [N/m]; chosen
-    peak_pressure: float = 7.0 * PSI  # p [Pa]; [Majidi13], section 3
-    segments: tuple[float, ...] = THREE_EQUAL  # their lengths, left first, in any common unit
+    length: float = 0.130
+    """L [m]"""
+    width: float = 0.040
+    """q, also the depth "w" of (1)-(9) [m]"""
+    modulus: float = 1.8e6
+    """E of the strain-limiting layer [Pa]"""
+    thickness: float = 4.0e-3
+    """t of the strain-limiting layer [m]"""
+    chamber_height: float = 4.1e-3
+    """H [m]"""
+    chamber_fraction: float = 0.7
+    """c/x, chamber width over the arclength it occupies [1]"""
+    weight_per_length: float = 2.0
+    """w of Appendix A [N/m]"""
+    peak_pressure: float = 7.0 * PSI
+    """p [Pa]; [Majidi13], section 3"""
+    segments: tuple[float, ...] = THREE_EQUAL
+    """lengths of the segments, left first, in any common unit"""
+    mass: float | None = None
+    """of the whole robot, in place of weight_per_length [kg]"""
+    rigidity: float | None = None
+    """D0, flexural rigidity without pressure, in place of modulus [N m^2]"""
+    curvature_per_pressure: float | None = None
+    """alpha of (3), in place of what the chambers give [1/(m Pa)]"""
+    rigidity_per_pressure: float | None = None
+    """eta of (9), in place of what the chambers give [N m^2/Pa]"""
 
     def __post_init__(self) -> None:
+        if isinstance(self.segments, str) or not hasattr(self.segments, "__iter__"):
+            raise ValueError(f"segments must be lengths, one a segment, got {self.segments!r}")
+        object.__setattr__(self, "segments", tuple(self.segments))
         if not self.segments:
             raise ValueError("segments must be at least one length, got none")
         for length in self.segments:
-            if not (math.isfinite(length) and length > 0):
-                raise ValueError(f"segments must be positive finite lengths, got {length!r}")
+            positive("segments' lengths", length)
         for field in fields(self):
-            if field.name == "segments":
-                continue
             value = getattr(self, field.name)
-            if not (isinstance(value, int | float) and math.isfinite(value) and value > 0):
-                raise ValueError(f"{field.name} must be a positive finite number, got {value!r}")
+            if field.name == "segments" or (value is None and field.name in _OPTIONAL):
+                continue
+            positive(field.name, value)
         if self.chamber_fraction > 1:
             raise ValueError(
                 f"chamber_fraction must lie in (0, 1], got {self.chamber_fraction!r}: "
                 "a chamber cannot be wider than the strip it sits on"
             )
+        if self.mass is not None:
+            self._replace_default("weight_per_length", "mass", self.mass * GRAVITY / self.length)
+        if self.rigidity is not None:
+            layer = self.width * self.thickness**3 / 12
+            self._replace_default("modulus", "rigidity", self.rigidity / layer)
 
-    @property
-    def segment_length(self) -> float:
-        """Mean length of a segment, the unit of area in friction [m]."""
-        return self.length / len(self.segments)
+    def _replace_default(self, name: str, given: str, value: float) -> None:
+        """Put what was given in other terms into the field that the theory uses."""
+        if getattr(self, name) != getattr(type(self), name):
+            raise ValueError(f"{given} or {name} must be given, not both; got "
+                             f"{getattr(self, given)!r} and {getattr(self, name)!r}")  # fmt: skip
+        object.__setattr__(self, name, value)
+        object.__setattr__(self, given, None)
 
     @property
     def borders(self) -> tuple[float, ...]:
@@ -58,3 +93,8 @@ class Robot:
         total = sum(self.segments)
         inner = accumulate(self.segments[:-1])
         return (0.0, *(end / total for end in inner), 1.0)
+
+    @property
+    def weight(self) -> float:
+        """Of the whole robot [N]."""
+        return self.weight_per_length * self.length

@@ -23,7 +23,7 @@ from scipy.linalg import cholesky_banded
 from scipy.linalg.lapack import dgbsv
 
 from analytic import pneunet
-from analytic.chain import CHAMBER_LAWS, joint_springs, link_lengths, sealed_springs, segments_fit
+from analytic.chain import check_chamber, joint_springs, link_lengths, sealed_springs
 from analytic.robot import Robot
 
 Array = NDArray[np.float64]
@@ -51,7 +51,7 @@ class Chain:
     Args:
         robot: the strip.
         links: N.
-        chamber: the moment law of the pneu-nets, see analytic.chain; "sealed" is the exact (6).
+        chamber: law of the chambers, see analytic.chain.
         clamped: hold the first node and the direction of the first link, which is that of the
             strip's end, and take the ground away: a heavy cantilever, to verify the rest by.
         slope: angle by which the ground rises towards +x [rad].
@@ -68,12 +68,7 @@ class Chain:
         clamped: bool = False,
         slope: float = 0.0,
     ) -> None:
-        if chamber not in CHAMBER_LAWS:
-            raise ValueError(f"chamber must be one of {', '.join(CHAMBER_LAWS)}; got {chamber!r}")
-        if chamber == "sealed" and not segments_fit(robot, links):
-            raise ValueError(
-                f"segments must be whole elements for sealed pneu-nets, got links {links}"
-            )
+        check_chamber(robot, links, chamber)
         self.robot, self.links = robot, links
         self.chamber, self.clamped = chamber, clamped
         self._d0 = pneunet.base_rigidity(robot)

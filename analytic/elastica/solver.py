@@ -13,9 +13,10 @@ from analytic.contact import contact_mode, side_contact
 from analytic.elastica.newton import Chain, ChainState
 from analytic.elastica.stick_slip import StickSlip
 from analytic.equilibria import ContactShapes, Status
-from analytic.friction import Friction, Surface
+from analytic.friction import Friction
 from analytic.pressures import check_pressures
 from analytic.robot import Robot
+from analytic.surface import Ground, Surface
 
 Array = NDArray[np.float64]
 
@@ -31,7 +32,7 @@ def solve_elastica(
     pressures_pa: ArrayLike,
     links: int = LINKS,
     chamber: str = "linearized",
-    surface: Surface | None = None,
+    ground: Ground | None = None,
     friction: Friction | None = None,
 ) -> ContactShapes:
     """Equilibria along a path of pressures that starts with the strip flat and without pressure.
@@ -40,10 +41,9 @@ def solve_elastica(
         robot: the strip.
         pressures_pa: segment pressures along the path, left first, (B, S) or (S,) [Pa], at least 0.
         links: of the chain; multiples of 6 are the most accurate. The error falls with its square.
-        chamber: bend by the affine law (9), or "sealed", the exact law of pneu-nets whose valves close
-            at these pressures (6), or "constant-pressure", at constant pressure.
-        surface, friction: let friction of a number above 0 bend the strip, and a slope tilt it;
-            see analytic.elastica.stick_slip. Without them no shear acts, the limit of section 2.2.
+        chamber: law of the chambers, see analytic.chain.
+        ground, friction: let friction of a tension above 0 bend the strip, and a slope tilt it; see
+            analytic.elastica.stick_slip. Without them no shear acts, the limit of section 2.2.
 
     Returns:
         Shapes of B states. From where the stable branch ends (the strip rolls up, topples, snaps,
@@ -51,15 +51,21 @@ def solve_elastica(
         curls up off the ground, with ROLLED_UP; the last one before tells the pressure.
 
     Raises:
-        ValueError: the pressures are bad, there is no such chamber, links is below 6, or sealed
-            chambers do not fit them.
+        ValueError: the pressures are bad, there is no such chamber law, links is below 6, sealed
+            chambers do not fit them, or friction bends the strip on ground that changes along x.
     """
     p = check_pressures(robot, pressures_pa)
     if links < 6:
         raise ValueError(f"links must be at least 6, got {links}")
     friction = friction or Friction()
     chain = Chain(robot, links, chamber, slope=friction.slope)
-    drag = StickSlip(chain, surface, friction) if surface and friction.number else None
+    stick_slip = None
+    if ground and friction.tension:
+        if not isinstance(ground, Surface):
+            raise ValueError(
+                f"friction bends the strip on uniform ground only, got {ground.name!r}"
+            )
+        stick_slip = StickSlip(chain, ground, friction)
     count = len(p)
     y, theta = np.full((count, links + 2), np.nan), np.full((count, links + 1), np.nan)
     force = np.full((count, links + 2), np.nan)
@@ -75,8 +81,8 @@ def solve_elastica(
         found = _unless_it_leaps(state, chain.equilibrium(guess))
         if found is None:
             found = _in_smaller_steps(chain, state, here, p[i])
-        if found is not None and drag is not None:
-            found = drag.apply(state, found)
+        if found is not None and stick_slip is not None:
+            found = stick_slip.apply(state, found)
         iterations[i] = chain.iterations - begun
         if found is None:
             break

@@ -1,18 +1,18 @@
-"""Friction that bends the strip: the incremental law at a finite friction number.
+"""Friction that bends the strip: stick-slip of the two ends at finite strength.
 
 Only the ends carry shear, and it balances, so the strip is under one tension H. An increment of
-pressure first leaves both ends where they are, which takes some H; the end that resists less slides
-as soon as |H| reaches its resistance, and then H stays there. So the separation follows the free
-one with a play, and as Phi = V0 L^2 / D0 goes to 0 the play closes: the constant-bound law (section 2.2).
+pressure first leaves both ends where they are, which takes some H; the end whose bound is less
+slides as soon as |H| reaches that bound, and then H stays there. So the separation follows the free
+one with a play, and as the friction goes to 0 the play closes: section 2.2 of [Majidi13].
 """
 
 import numpy as np
-from scipy.optimize import brentq
 
 from analytic.chain import node_positions
-from analytic.contact import side_contact
+from analytic.contact import end_loads, side_contact
 from analytic.elastica.newton import Chain, ChainState
-from analytic.friction import Friction, Surface, coulomb_resistance, sliding_resistance
+from analytic.friction import LAWS, Friction
+from analytic.surface import Surface
 
 _STUCK = 1e-9  # separation over L that counts as unchanged
 
@@ -23,7 +23,7 @@ class StickSlip:
     Args:
         chain: it; its tension is set here.
         surface: the ground.
-        friction: law, number and slope.
+        friction: law, tension and slope.
     """
 
     def __init__(self, chain: Chain, surface: Surface, friction: Friction) -> None:
@@ -36,12 +36,12 @@ class StickSlip:
 
         None if the branch ends on the way, or the weight drags the strip down the slope.
         """
-        left, right = self._resistances(found)
+        left, right = self._bounds(found)
         push = min(left, right + self._downhill)  # beyond which an end slides outwards
         pull = min(right, left + self._downhill) - self._downhill  # and inwards
         if push + pull < 0:
             return None
-        unit = self._friction.number
+        unit = self._friction.tension / self._chain.force_unit
         low_end, high_end = -push * unit, pull * unit
         if low_end == high_end:
             return self._pulled(found, low_end)
@@ -58,6 +58,8 @@ class StickSlip:
             state = self._pulled(found, tension)
             return np.nan if state is None else self._chain.separation(state) - held
 
+        from scipy.optimize import brentq  # slow to import, and seldom needed
+
         tension = brentq(gap, low_end, high_end, xtol=_STUCK * (high_end - low_end))
         return self._pulled(found, float(tension))
 
@@ -65,15 +67,14 @@ class StickSlip:
         self._chain.tension = tension
         return self._chain.equilibrium(guess)
 
-    def _resistances(self, state: ChainState) -> tuple[float, float]:
-        """Of the two ends [V0]."""
-        chain, surface = self._chain, self._surface
-        robot = chain.robot
+    def _bounds(self, state: ChainState) -> tuple[float, float]:
+        """Of the two ends [N]."""
+        chain, robot, law = self._chain, self._chain.robot, LAWS[self._friction.law]
         force = chain.ground_force(state)[None, :] * chain.force_unit
         height = state.y[None, :] * robot.length
-        ends = side_contact(robot, self._nodes, force, height, chain.pressure[None, :])
-        if self._friction.law == "coulomb":
-            left, right = coulomb_resistance(robot, surface, ends, force, height)
-        else:
-            left, right = (sliding_resistance(robot, surface, end) for end in ends)
+        contact = side_contact(robot, self._nodes, force, height, chain.pressure[None, :])
+        load = end_loads(force, height)
+        left, right = (
+            law.bound(self._surface, robot.width, contact[end], load[end]) for end in (0, 1)
+        )
         return float(left[0]), float(right[0])

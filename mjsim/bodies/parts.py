@@ -1,64 +1,126 @@
-"""What the MJCF of every body overlap: templates, friction of pads, names, rounding."""
+"""What every body's MJCF shares: options, contact pads, sites of the ends, friction tendons.
+
+Under bounds of their own, the friction of the two ends is carried by spatial tendons to a far fixed
+site: `left` and `right` along each end, and `both` along their mean; see mjsim.friction. Under
+Coulomb friction it is MuJoCo's own contact friction, and the tendons only measure.
+"""
 
 import math
-from typing import Any
+from collections.abc import Sequence
+from pathlib import Path
 
-from dm_control import mjcf
+import mujoco
 
-from mjsim.io.assets import MODELS
+from analytic import pneunet
 from mjsim.scene import Numerics, Scene
 
 PALE, DARK = (0.86, 0.82, 0.72), (0.16, 0.17, 0.20)  # passive and inflated, as in Figure 4
 FAR = 100.0  # m; a line to a point this far is horizontal to 1 part in 1e6
+_FARTHER = 1e4  # m; a walk of 0.1 m changes the distance to there by 1e-6 m
+_NO_BOUND = 1e-12  # N; without any bound a tendon would get no row to be given one
 TENDONS = ("left", "right", "both")
-DIGITS = 9
+PREFIX = "robot/"  # of the strip's names once it is on its ground
+TEMPLATE = Path(__file__).with_name("strip.xml")
 
-Pair = tuple[float, float]
-Triple = tuple[float, float, float]
+Place = tuple[float, float, float]
 
 
-def template(name: str, scene: Scene, numerics: Numerics) -> mjcf.RootElement:
-    """A file of models/ with the options of a scene."""
-    root = mjcf.from_path(str(MODELS / name))
-    root.option.timestep, root.option.integrator = numerics.timestep, numerics.integrator
+def template() -> mujoco.MjSpec:
+    """Defaults of the strip."""
+    return mujoco.MjSpec.from_file(str(TEMPLATE))
+
+
+def set_options(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
+    """Time step, integrator, gravity and, under Coulomb friction, cones."""
+    spec.option.timestep = numerics.timestep
+    spec.option.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{numerics.integrator.upper()}")
     along, down = math.sin(scene.slope), math.cos(scene.slope)
-    root.option.gravity = (0.0 - scene.gravity * along, 0, -scene.gravity * down)
+    spec.option.gravity = (0.0 - scene.gravity * along, 0.0, -scene.gravity * down)
     if scene.friction == "coulomb":
-        root.option.cone, root.option.impratio = numerics.cone, numerics.impratio
-    pads: Any = root.default.geom
-    if pads.solref is not None:  # the template of the strip has its pads there
-        pads.condim, pads.solref, pads.solimp = contact(scene, numerics)
-    return root
+        spec.option.cone = getattr(mujoco.mjtCone, f"mjCONE_{numerics.cone.upper()}")
+        spec.option.impratio = numerics.impratio
 
 
-def contact(scene: Scene, numerics: Numerics) -> tuple[int, Pair, Triple]:
-    """Dimension, solref and solimp of the pads' contacts.
+def contact_softness(scene: Scene, numerics: Numerics) -> tuple[Sequence[float], Sequence[float]]:
+    """solref and solimp of the pads' contacts.
 
     Frictionless ones are as stiff as the discrete integrator bears. With friction MuJoCo's convex
     contact lifts a pad that slides by v off the ground by about mu v times its damping over its
     stiffness; a pad that is lifted off loses its load for a step and falls. So those are given
     little damping, and grow firm over a depth greater than that.
     """
+    assert numerics.contact_time is not None
     time = numerics.contact_time * numerics.timestep
     if scene.friction == "coulomb":
-        return 3, (-0.125 / time**2, -0.5 / time), (0.9, 0.999, numerics.contact_depth)
-    return 1, (time, 1.0), (0.999, 0.999, 0.001)
+        return (-0.125 / time**2, -0.5 / time), (0.9, 0.999, numerics.contact_depth)
+    return (time, 1.0), (0.999, 0.999, 0.001)
 
 
-def tendon_bound(scene: Scene) -> float:
-    """Dry friction that a tendon is compiled with [N]: without any it would get no row at all.
+def add_pads(
+    body: mujoco.MjsBody, scene: Scene, numerics: Numerics, node: int, places: Sequence[Place]
+) -> None:
+    """Contact pads of one node, side by side at places in its body's frame [m]."""
+    coulomb = scene.friction == "coulomb"
+    for i, place in enumerate(places):
+        pad = body.add_geom(name=f"pad_{node}" + (f"_{i}" if i else ""))
+        pad.type, pad.pos = mujoco.mjtGeom.mjGEOM_SPHERE, place
+        pad.size[0], pad.mass, pad.group = numerics.pad_radius, 0.0, 3
+        pad.contype, pad.conaffinity, pad.priority = 1, 0, 1
+        pad.condim = 3 if coulomb else 1
+        pad.solref[:], pad.solimp[:3] = contact_softness(scene, numerics)
+        if coulomb:
+            pad.friction[:] = pad_friction(scene, node in (0, numerics.links + 1)), 0.0, 0.0
 
-    Under the Coulomb law the tendons only measure.
+
+def pad_friction(scene: Scene, at_end: bool) -> float:
+    """Coefficient of sliding friction of a pad for Coulomb friction, at x = 0."""
+    surface = scene.ground.at(0.0)
+    return float(surface.tip_friction if at_end else surface.friction)  # type: ignore[arg-type]
+
+
+def add_ends(
+    spec: mujoco.MjSpec, scene: Scene, left: mujoco.MjsBody, right: mujoco.MjsBody, tip: Place
+) -> None:
+    """Sites at the two ends, and the tendons to a far one.
+
+    Args:
+        spec: the strip.
+        scene: tells the law.
+        left, right: the bodies of the two ends; the left end is its body's origin.
+        tip: the right end in its body's frame [m].
     """
-    return 1e-12 if scene.friction == "constant" else 0.0
+    for name, body, place in (("left", left, (0.0, 0.0, 0.0)), ("right", right, tip)):
+        body.add_site(name=f"end_{name}", pos=place, size=[6e-4] * 3, group=4)
+    spec.worldbody.add_site(name="far", pos=(-FAR, 0.0, 0.0), group=4)
+    bound = 0.0 if scene.friction == "coulomb" else _NO_BOUND
+    for name, ends in zip(TENDONS, (("left",), ("right",), ("left", "right")), strict=True):
+        _tie(spec, name, "far", ends, bound)
 
 
-def pad_friction(scene: Scene, at_end: bool) -> tuple[float, float, float]:
-    """Coefficients of friction of a pad for the Coulomb law: sliding, and none of the others."""
-    surface = scene.surface
-    return rounded(scene.friction_scale * (surface.tip if at_end else surface.area)), 0.0, 0.0
+def hold_sideways(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
+    """Bounds across the walk for a body in space, where friction's bounds are of the plane only.
+
+    They keep each end on the heading that nothing turns it from.
+    """
+    if scene.friction == "coulomb":
+        return
+    spec.worldbody.add_site(name="aside", pos=(0.0, -_FARTHER, 0.0), group=4)
+    for end in ("left", "right"):
+        _tie(spec, f"aside_{end}", "aside", (end,), tie_force(scene, numerics))
 
 
-def rounded(value: float) -> float:
-    """The number in as many digits as the files have."""
-    return float(f"{value:.{DIGITS}g}")
+def tie_force(scene: Scene, numerics: Numerics) -> float:
+    """Bound of the friction that holds what no law decides [N]."""
+    return numerics.tie_bound * pneunet.base_rigidity(scene.robot) / scene.robot.length**2
+
+
+def _tie(spec: mujoco.MjSpec, name: str, to: str, ends: Sequence[str], bound: float) -> None:
+    tendon = spec.add_tendon(name=name, frictionloss=bound, group=4)
+    tendon.width = 2e-4
+    tendon.solref_friction[:] = 0.001, 1.0  # nearly without creep
+    tendon.solimp_friction[:3] = 0.9999, 0.9999, 0.001
+    for i, end in enumerate(ends):
+        if i > 0:
+            tendon.wrap_pulley(1.0)
+        tendon.wrap_site(to)
+        tendon.wrap_site(f"end_{end}")

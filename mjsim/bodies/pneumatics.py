@@ -1,71 +1,95 @@
 """Pressure as a control: valves and chambers as MuJoCo actuators, a gait as their control sequence.
 
 The moment of a chamber on its hinges, beside that of the layer D0, is p (alpha D0 + eta k) +
-alpha eta p^2 with curvature k (9), or p alpha D0 with the valve open. So each hinge has an actuator
-whose gain is affine in its angle and whose input is the pressure, and each segment one for the
-square. A chamber that follows its valve with a lag is a filter on the input; the control of the
-square is what makes its filter follow the square of the pressure.
+alpha eta p^2 with curvature k (9), or p alpha D0 at constant pressure. So at constant pressure each
+segment has one actuator, whose control is its pressure; by (9) each hinge has one whose gain is
+affine in its angle and whose control is the pressure, and each segment one for the square. A
+chamber that follows its valve with a lag is a filter on the control; the control of the square is
+what makes its filter follow the square of the pressure.
 """
 
+import mujoco
 import numpy as np
-from dm_control import mjcf
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from analytic import pneunet
 from analytic.chain import segment_overlap
-from mjsim.scene import Numerics, Scene, check
+from mjsim.scene import Numerics, Scene
 
 Array = NDArray[np.float64]
 
 
-def chamber_pressure(scene: Scene, numerics: Numerics, command: Array) -> Array:
-    """Pressure at the end of each step under commands of the valves, both (T, S) [Pa]."""
-    keep = _kept(scene, numerics)
-    return np.asarray(lfilter([1 - keep], [1, -keep], command, axis=0)) if keep else command
+def chamber_pressure(scene: Scene, numerics: Numerics, valves: Array, before: Array) -> Array:
+    """Pressure at the end of each step.
+
+    Args:
+        scene, numerics: tell the lag and the time step.
+        valves: commanded during each step, (T, S) [Pa].
+        before: in the chambers before the first, (S,) [Pa].
+
+    Returns:
+        Shape (T, S) [Pa].
+    """
+    keep = kept(scene, numerics)
+    if not keep:
+        return valves
+    pressures, pressure = np.empty_like(valves), before
+    for step, command in enumerate(valves):
+        pressure = (1 - keep) * command + keep * pressure
+        pressures[step] = pressure
+    return pressures
 
 
-def controls(scene: Scene, numerics: Numerics, command: Array) -> Array:
-    """The control sequence of a model with actuators, (T, nu), for commands (T, S) [Pa]."""
+def controls(
+    scene: Scene, numerics: Numerics, valves: Array, before: Array, pressures: Array
+) -> Array:
+    """The control sequence of a model with actuators, (T, nu); see chamber_pressure."""
     if scene.chamber == "constant-pressure":
-        return command
-    keep = _kept(scene, numerics)
-    square = chamber_pressure(scene, numerics, command) ** 2
-    before = np.concatenate([np.zeros_like(square[:1]), square[:-1]])
-    hinges = command @ _overlap(scene, numerics).T
-    return np.concatenate([hinges, (square - keep * before) / (1 - keep)], axis=1)
+        return valves
+    keep = kept(scene, numerics)
+    square = pressures**2
+    earlier = np.concatenate([before[None] ** 2, square[:-1]])
+    hinges = valves @ segment_overlap(scene.robot.borders, numerics.links).T
+    return np.concatenate([hinges, (square - keep * earlier) / (1 - keep)], axis=1)
 
 
-def add_actuators(root: mjcf.RootElement, scene: Scene, numerics: Numerics) -> None:
-    """Give the planar strip's MJCF its actuators, in the order of `controls`."""
+def kept(scene: Scene, numerics: Numerics) -> float:
+    """Part of a pressure that is left after a step, the valve being at 0."""
+    return float(np.exp(-numerics.timestep / scene.lag)) if scene.lag else 0.0
+
+
+def add_actuators(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
+    """Give the planar strip its actuators, in the order of `controls`."""
     robot = scene.robot
     bend = pneunet.curvature_per_pressure(robot) * pneunet.base_rigidity(robot)
     stiffen = pneunet.rigidity_per_pressure(robot)
-    filtered = {"dyntype": "filterexact", "dynprm": (scene.lag,), "actearly": True}
-    dynamics = filtered if scene.lag else {"dyntype": "none"}
-    if scene.chamber != "constant-pressure":
-        for hinge in range(numerics.links):
-            affine = (-bend, -stiffen * numerics.links / robot.length, 0)
-            root.actuator.add("general", name=f"chamber_{hinge + 1}", joint=f"hinge_{hinge + 1}",
-                              gaintype="affine", gainprm=affine, **dynamics)  # fmt: skip
-    for segment, inside in enumerate(_overlap(scene, numerics).T):
-        tendon = root.tendon.add("fixed", name=f"segment_{segment + 1}")
+    by_segment = scene.chamber == "constant-pressure"
+    limit = robot.peak_pressure
+    if not by_segment:
+        slope = -stiffen * numerics.links / robot.length
+        for hinge in range(1, numerics.links + 1):
+            chamber = _actuator(spec, scene, f"chamber_{hinge}", limit)
+            chamber.trntype, chamber.target = mujoco.mjtTrn.mjTRN_JOINT, f"hinge_{hinge}"
+            chamber.gaintype = mujoco.mjtGain.mjGAIN_AFFINE
+            chamber.gainprm[:3] = -bend, slope, 0.0
+    for segment, inside in enumerate(segment_overlap(robot.borders, numerics.links).T, start=1):
+        tendon = spec.add_tendon(name=f"segment_{segment}", group=4)
         for hinge in np.flatnonzero(inside).tolist():
-            tendon.add("joint", joint=f"hinge_{hinge + 1}", coef=1)
-        gain = (
-            -bend
-            if scene.chamber == "constant-pressure"
-            else -pneunet.curvature_per_pressure(robot) * stiffen
+            tendon.wrap_joint(f"hinge_{hinge + 1}", 1.0)
+        chamber = _actuator(spec, scene, f"segment_{segment}", limit if by_segment else limit**2)
+        chamber.trntype, chamber.target = mujoco.mjtTrn.mjTRN_TENDON, f"segment_{segment}"
+        chamber.gaintype = mujoco.mjtGain.mjGAIN_FIXED
+        chamber.gainprm[0] = (
+            -bend if by_segment else -pneunet.curvature_per_pressure(robot) * stiffen
         )
-        root.actuator.add("general", name=f"segment_{segment + 1}", tendon=tendon,
-                          gaintype="fixed", gainprm=(gain,), **dynamics)  # fmt: skip
 
 
-def _overlap(scene: Scene, numerics: Numerics) -> Array:
-    check(scene, numerics)
-    return segment_overlap(scene.robot.borders, numerics.links)
-
-
-def _kept(scene: Scene, numerics: Numerics) -> float:
-    """Part of a pressure that is left after a step, the valve being at 0."""
-    return float(np.exp(-numerics.timestep / scene.lag)) if scene.lag else 0.0
+def _actuator(spec: mujoco.MjSpec, scene: Scene, name: str, limit: float) -> mujoco.MjsActuator:
+    """Its control runs from 0 to the limit in the viewer; simulations may go beyond it."""
+    actuator = spec.add_actuator(name=name)
+    actuator.ctrlrange[:] = 0.0, limit
+    actuator.ctrllimited = int(mujoco.mjtLimited.mjLIMITED_FALSE)
+    if scene.lag:
+        actuator.dyntype = mujoco.mjtDyn.mjDYN_FILTEREXACT
+        actuator.dynprm[0], actuator.actearly = scene.lag, True
+    return actuator

@@ -10,17 +10,17 @@ A rod has no width to stand on. The couples are in the x-z plane whatever the ro
 it upright.
 """
 
-from collections.abc import Callable
+from collections.abc import Sequence
+from typing import Any
 
 import mujoco
 import numpy as np
-from dm_control import mjcf
 from numpy.typing import NDArray
 
 from analytic.chain import joint_springs, link_lengths, node_positions
-from mjsim.bodies.expanded import add_friction_tendons, add_pads
-from mjsim.bodies.parts import template
-from mjsim.bodies.pneumatics import chamber_pressure
+from mjsim.bodies import parts
+from mjsim.bodies.body import Joints
+from mjsim.bodies.cable import refuse_planar_only
 from mjsim.scene import Numerics, Scene
 
 Array = NDArray[np.float64]
@@ -28,36 +28,62 @@ Array = NDArray[np.float64]
 _RADIUS = 1e-3  # of the section MuJoCo thinks of, whose rigidity is overwritten [m]
 _PER_VERTEX = 4  # numbers of flex_bending a vertex, after the count: three vertices and a rigidity
 
-
-def strip(scene: Scene, numerics: Numerics) -> mjcf.RootElement:
-    """The flexcomp alone, flat along +x, its left end at the origin; `complete` adds the rest."""
-    robot, links = scene.robot, numerics.links
-    root = template("strip.xml", scene, numerics)
-    nodes = node_positions(robot, links)
-    point = np.column_stack([nodes, np.zeros((links + 2, 2))]).ravel()
-    edges = np.column_stack([np.arange(links + 1), np.arange(1, links + 2)]).ravel()
-    rod = root.worldbody.add("flexcomp", name="rod", type="direct", dim=1, point=point,
-                             element=edges, radius=_RADIUS, mass=1.0)  # fmt: skip
-    rod.edge.equality = "true"
-    rod.edge.solref = numerics.edge_time * numerics.timestep, 1.0
-    rod.edge.solimp = 0.9999, 0.9999, 0.001, 0.5, 2
-    rod.elasticity.young, rod.elasticity.poisson = 1.0, 0.0
-    rod.elasticity.damping = numerics.damping_time
-    rod.contact.contype, rod.contact.conaffinity, rod.contact.selfcollide = 0, 0, "none"
-    return root
+_FLEXCOMP = """
+<mujoco model="robot">
+  <compiler angle="radian" autolimits="true"/>
+  <default><site size="0.0006" group="4" rgba="0.8 0.2 0.2 1"/></default>
+  <worldbody>
+    <flexcomp name="rod" type="direct" dim="1" point="{point}" element="{element}"
+              radius="{radius}" mass="1">
+      <edge equality="true" solref="{edge_time:.17g} 1" solimp="0.9999 0.9999 0.001 0.5 2"/>
+      <elasticity young="1" poisson="0" damping="{damping:.17g}"/>
+      <contact contype="0" conaffinity="0" selfcollide="none"/>
+    </flexcomp>
+  </worldbody>
+</mujoco>
+"""
 
 
-def complete(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
-    """Give the expanded vertices their masses, pads and friction."""
-    robot, links = scene.robot, numerics.links
-    half = 0.5 * robot.weight_per_length / scene.gravity * link_lengths(robot, links)
-    mass = np.concatenate([[0.0], half]) + np.concatenate([half, [0.0]])
-    bodies = [spec.body(f"robot/rod_{i}") for i in range(links + 2)]
-    for i, body in enumerate(bodies):
-        body.explicitinertial, body.mass = True, mass[i]
-        body.inertia = [mass[i] * _RADIUS**2] * 3  # a point does not turn
-        add_pads(body, scene, numerics, i, [(0.0, 0.0, 0.0)])
-    add_friction_tendons(spec, scene, bodies[0], bodies[-1], (0.0, 0.0, 0.0))
+class Rod:
+    """See mjsim.bodies.body.Body."""
+
+    name = "rod"
+
+    def check(self, scene: Scene, numerics: Numerics) -> None:
+        """Neither actuators nor sealed chambers."""
+        refuse_planar_only(self.name, scene)
+
+    def spec(self, scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
+        """The flexcomp, its vertices given their masses, pads and friction."""
+        robot, links = scene.robot, numerics.links
+        point = np.column_stack([node_positions(robot, links), np.zeros((links + 2, 2))]).ravel()
+        edges = np.column_stack([np.arange(links + 1), np.arange(1, links + 2)]).ravel()
+        assert numerics.edge_time is not None
+        spec = mujoco.MjSpec.from_string(
+            _FLEXCOMP.format(
+                point=" ".join(f"{v:.17g}" for v in point),
+                element=" ".join(map(str, edges.tolist())),
+                radius=_RADIUS,
+                edge_time=numerics.edge_time * numerics.timestep,
+                damping=numerics.damping_time,
+            )
+        )
+        half = 0.5 * robot.weight_per_length / scene.gravity * link_lengths(robot, links)
+        mass = np.concatenate([[0.0], half]) + np.concatenate([half, [0.0]])
+        bodies = [spec.body(f"rod_{i}") for i in range(links + 2)]
+        for i, body in enumerate(bodies):
+            body.explicitinertial, body.mass = True, mass[i]
+            body.inertia = [mass[i] * _RADIUS**2] * 3  # a point does not turn
+            parts.add_pads(body, scene, numerics, i, [(0.0, 0.0, 0.0)])
+        parts.add_ends(spec, scene, bodies[0], bodies[-1], (0.0, 0.0, 0.0))
+        parts.hold_sideways(spec, scene, numerics)
+        return spec
+
+    def bind(
+        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Numerics
+    ) -> Joints:
+        """The vertices."""
+        return _Vertices(model, data, scene, numerics)
 
 
 def half_stiffness(model: mujoco.MjModel) -> Array:
@@ -71,46 +97,45 @@ def rest_stiffness(model: mujoco.MjModel, scene: Scene, links: int) -> None:
     half_stiffness(model)[:] = 0.5 * stiffness[0]
 
 
-class Drive:
-    """What pressure does to the vertices, step by step; see mjsim.bodies.planar.Drive."""
+class _Vertices:
+    """Stiffness of the vertices and couples on the edges, set at each step."""
 
     def __init__(
-        self,
-        model: mujoco.MjModel,
-        data: mujoco.MjData,
-        scene: Scene,
-        numerics: Numerics,
-        command: Array,
+        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Numerics
     ) -> None:
-        pressure = chamber_pressure(scene, numerics, command)
-        links = numerics.links
-        nodes, lengths = node_positions(scene.robot, links), link_lengths(scene.robot, links)
-        stiffness, rest = joint_springs(scene.robot, links, pressure, scene.chamber)
+        self._scene, self._links = scene, numerics.links
+        self._lengths = link_lengths(scene.robot, numerics.links)
+        self._bending = half_stiffness(model)
+        self._qpos = data.qpos.reshape(-1, 3)
+        self._force = data.qfrc_applied.reshape(-1, 3)
+
+    def loads(self, valves: Array, before: Array, pressures: Array) -> Sequence[Any]:
+        scene, links = self._scene, self._links
+        stiffness, rest = joint_springs(scene.robot, links, pressures, scene.chamber)
         tan, cos2 = np.tan(rest / 2), np.cos(rest / 2) ** 2
         stiffness = stiffness * cos2 / (1 + 3 * tan**2)  # over g'(r)
-        couple = np.zeros((len(pressure), links + 2))  # none at the two ends
+        couple = np.zeros((len(pressures), links + 2))  # none at the two ends
         couple[:, 1:-1] = stiffness * 2 * tan / cos2
-        bending = half_stiffness(model)
-        qpos, force = data.qpos.reshape(-1, 3), data.qfrc_applied.reshape(-1, 3)
+        return list(zip(0.5 * stiffness, couple, strict=True))
 
-        def set_springs(step: int) -> None:
-            bending[:] = 0.5 * stiffness[step]
-            edge = np.diff(qpos, axis=0)
-            edge[:, 0] += lengths
-            turning = -np.diff(couple[step]) / (edge[:, 0] ** 2 + edge[:, 2] ** 2)
-            push = np.zeros((links + 2, 2))
-            push[1:, 0], push[1:, 1] = -turning * edge[:, 2], turning * edge[:, 0]
-            push[:-1] -= push[1:].copy()
-            force[:, 0], force[:, 2] = push[:, 0], push[:, 1]
+    def apply(self, load: Any) -> None:
+        self._bending[:], couple = load
+        edge = np.diff(self._qpos, axis=0)
+        edge[:, 0] += self._lengths
+        turning = -np.diff(couple) / (edge[:, 0] ** 2 + edge[:, 2] ** 2)
+        push = np.zeros((self._links + 2, 2))
+        push[1:, 0], push[1:, 1] = -turning * edge[:, 2], turning * edge[:, 0]
+        push[:-1] -= push[1:].copy()
+        self._force[:, 0], self._force[:, 2] = push[:, 0], push[:, 1]
 
-        def slopes() -> tuple[float, float]:
-            (x0, _, z0), (x1, _, z1) = qpos[0], qpos[1]
-            (x2, _, z2), (x3, _, z3) = qpos[-2], qpos[-1]
-            return (z1 - z0) / (x1 - x0 + nodes[1]), (z2 - z3) / (x3 - x2 + lengths[-1])
+    def slopes(self) -> tuple[float, float]:
+        (x0, _, z0), (x1, _, z1) = self._qpos[0], self._qpos[1]
+        (x2, _, z2), (x3, _, z3) = self._qpos[-2], self._qpos[-1]
+        first, last = self._lengths[0], self._lengths[-1]
+        return (z1 - z0) / (x1 - x0 + first), (z2 - z3) / (x3 - x2 + last)
 
-        def shift(distance: float) -> None:
-            qpos[:, 0] -= distance
+    def shift(self, distance: float) -> None:
+        self._qpos[:, 0] -= distance
 
-        self.set: Callable[[int], None] = set_springs
-        self.slopes: Callable[[], tuple[float, float]] = slopes
-        self.shift: Callable[[float], None] = shift
+
+BODY = Rod()

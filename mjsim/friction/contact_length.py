@@ -1,11 +1,9 @@
-"""How long each end lies on its side, from the forces of MuJoCo's contacts.
+"""How long each end lies on its side, and what it carries, from the forces of MuJoCo's contacts.
 
-An end is a tip if its segment is inflated, since to lie flat it would need a moment that an end has
-not, or if its first link is steeper than `side_angle`, whatever that link's length. Else it lies on
-its side, over a length that follows from the ground's forces, finer than the pads.
+The length follows from the ground's forces, finer than the pads; see analytic.contact. Plain
+floats: numpy is slow on a few numbers.
 """
 
-import math
 import re
 
 import mujoco
@@ -13,81 +11,104 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.chain import node_positions
+from analytic.contact import flat_length
+from mjsim.bodies.parts import PREFIX
 from mjsim.scene import Numerics, Scene
 
 Array = NDArray[np.float64]
 
+_PAD = re.compile(rf"{PREFIX}pad_(\d+)(_\d+)?")
 
-class Sides:
-    """Reads the contacts of the step just done. Plain floats: numpy is slow on a few numbers.
+
+def pads_by_node(model: mujoco.MjModel) -> NDArray[np.int_]:
+    """Geoms of the contact pads, a row a node, those abreast beside each other, (N + 2, A)."""
+    nodes: dict[int, list[int]] = {}
+    for geom in range(model.ngeom):
+        match = _PAD.fullmatch(model.geom(geom).name)
+        if match:
+            nodes.setdefault(int(match[1]), []).append(geom)
+    return np.array([nodes[node] for node in sorted(nodes)])
+
+
+class ContactForces:
+    """Reads the contacts of the step just done.
 
     Args:
         scene, numerics: what is simulated.
-        model, data: as compiled. The pads follow each other in order of their nodes, and each that
-            is lower than its radius has one contact.
+        model, data: as compiled.
     """
 
     def __init__(
         self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
-        self._data = data
+        assert numerics.pad_radius is not None
+        self._model, self._data, self._radius = model, data, numerics.pad_radius
         self._length, self._weight = scene.robot.length, scene.robot.weight_per_length
-        nodes = node_positions(scene.robot, numerics.links)
-        first, *others = pads_of(model, 0)
-        abreast = 1 + len(others)
-        self._first_link = float(nodes[1])
-        self._nodes: list[float] = np.repeat(nodes, abreast).tolist()
-        self._radius = numerics.pad_radius
-        self._heights = data.geom_xpos[first : first + len(self._nodes), 2]
-        # of a contact: a pyramid's edges add up to the normal force, else its row is the first
-        self._pyramids = scene.friction == "coulomb" and numerics.cone == "pyramidal"
-        self._rows = 4 if self._pyramids else 3 if scene.friction == "coulomb" else 1
+        arclength = node_positions(scene.robot, numerics.links)
+        self._least = float(arclength[1])  # the first link lies flat as a whole
+        pads = pads_by_node(model)
+        first, last = int(pads.min()), int(pads.max()) + 1
+        self._heights = data.geom_xpos[first:last, 2]  # of the pads, and of what is between them
+        self._rows = (pads[:, 0] - first).tolist()
+        self._every = self._rows == list(range(last - first))
+        self._arclength: list[float] = arclength.tolist()
+        place = np.full(model.ngeom, np.nan)
+        place[pads] = arclength[:, None]
+        self._place: list[float] = place.tolist()  # arclength of a pad, by its geom
+        pyramidal = model.opt.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
+        self._pyramidal = bool(pyramidal) and model.geom_condim[pads[0, 0]] > 1
+        self._six = np.zeros(6)
 
     def lengths(self, left: bool, right: bool) -> tuple[float, float]:
         """Lengths of side contact of the ends that may have one, 0 of the others [m]."""
-        data, heights = self._data, self._heights.tolist()
-        top = max(heights)
-        if top <= self._radius:
+        ends = self._sums()
+        if ends is None:
             half = 0.5 * self._length
             return half * left, half * right
-        rows = data.efc_force[data.ne + data.nf :]
-        if self._pyramids:
-            force = rows.reshape(-1, self._rows).sum(axis=1).tolist()
-        else:
-            force = rows[:: self._rows].tolist()
-        one = self._length_of(heights, force, top) if left else 0.0
-        if not right:
-            return one, 0.0
-        heights.reverse()
-        force.reverse()
-        return one, self._length_of(heights, force, top)
+        (force_left, moment_left), (force_right, moment_right) = ends
+        return (
+            self._length_of(force_left, moment_left) if left else 0.0,
+            self._length_of(force_right, moment_right) if right else 0.0,
+        )
 
-    def _length_of(self, heights: list[float], force: list[float], top: float) -> float:
-        """analytic.contact.flat_length of an end from pads and contacts counted from it.
+    def loads(self) -> tuple[float, float]:
+        """Normal force on the left and the right part of the strip [N]; half each lying flat."""
+        ends = self._sums()
+        if ends is None:
+            half = 0.5 * self._weight * self._length
+            return half, half
+        return ends[0][0], ends[1][0]
 
-        Its first link at least.
-        """
-        radius, nodes = self._radius, self._nodes
-        total = moment = 0.0
-        contact = 0
-        for pad, height in enumerate(heights):
-            if height < radius:
-                if contact == len(force):
-                    break  # the step burst half-way: pads moved that have no contacts yet
-                push = force[contact]
-                contact += 1
-                total += push
-                moment += push * nodes[pad]
-            elif height == top:
-                break
-        root = total * total - 2.0 * self._weight * moment
-        length = (total - math.sqrt(root if root > 0.0 else 0.0)) / self._weight
-        return length if length > self._first_link else self._first_link
+    def _length_of(self, force: float, moment: float) -> float:
+        return max(flat_length(self._weight, force, moment), self._least)
 
+    def _sums(self) -> tuple[tuple[float, float], tuple[float, float]] | None:
+        """Force and moment about its end of either part; None if no pad is in the air."""
+        heights = self._heights.tolist()
+        if not self._every:
+            heights = [heights[row] for row in self._rows]
+        top = max(heights)
+        if top <= self._radius:
+            return None
+        middle, end, place = self._arclength[heights.index(top)], self._length, self._place
+        data = self._data
+        contact = data.contact
+        left = right = moment_left = moment_right = 0.0
+        rows = contact.efc_address.tolist()
+        force = [self._normal(i) for i in range(len(rows))] if self._pyramidal else None
+        rowwise = data.efc_force.tolist()
+        # the ground is a plane, and MuJoCo names the plane of a pair first
+        for i, geom in enumerate(contact.geom2.tolist()):
+            push = force[i] if force else rowwise[rows[i]]
+            s = place[geom]
+            if s < middle:
+                left += push
+                moment_left += push * s
+            else:
+                right += push
+                moment_right += push * (end - s)
+        return (left, moment_left), (right, moment_right)
 
-def pads_of(model: mujoco.MjModel, node: int) -> list[int]:
-    """Geoms of the contact pads of one node, side by side, in order."""
-    body = model.geom_bodyid[model.geom(f"robot/pad_{node}").id]
-    name = re.compile(rf"robot/pad_{node}(_\d+)?")
-    begin, count = int(model.body_geomadr[body]), int(model.body_geomnum[body])
-    return [i for i in range(begin, begin + count) if name.fullmatch(model.geom(i).name)]
+    def _normal(self, contact: int) -> float:
+        mujoco.mj_contactForce(self._model, self._data, contact, self._six)
+        return self._six.item(0)

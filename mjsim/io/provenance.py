@@ -3,13 +3,13 @@
 import os
 import platform
 import subprocess
-from dataclasses import asdict
+from dataclasses import asdict, fields, is_dataclass, replace
 from functools import cache
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from analytic import Gait, Robot, Surface
+from analytic import SURFACES, Gait, Robot, Surface
 from mjsim.scene import Numerics, Scene
 
 DISTRIBUTION = "undulator"
@@ -39,21 +39,29 @@ def machine() -> str:
 
 def provenance(scene: Scene, numerics: Numerics) -> dict[str, Any]:
     """Plain data that says how to make a result again."""
-    return {
-        **origin(),
-        "scene": asdict(scene),
-        "numerics": asdict(numerics),
-    }
+    ground = scene.ground
+    described = asdict(replace(scene, ground=SURFACES["felt"]))
+    described["ground"] = (
+        asdict(ground) if is_dataclass(ground) and not isinstance(ground, type) else ground.name
+    )
+    return {**origin(), "scene": described, "numerics": asdict(numerics)}
 
 
 def configuration(described: dict[str, Any]) -> tuple[Scene, Numerics]:
     """The scene and numerics that `provenance` described.
 
     Raises:
-        KeyError, TypeError, ValueError: `described` is no such description.
+        KeyError, TypeError, ValueError: `described` is no such description, or of a ground that
+            this version does not know.
     """
     scene = dict(described["scene"])
-    for name, kind in (("robot", Robot), ("gait", Gait), ("surface", Surface)):
+    for name, kind in (("robot", Robot), ("gait", Gait), ("ground", Surface)):
+        if not isinstance(scene[name], dict):
+            raise ValueError(f"{name} {scene[name]!r} was not one of this program")
+        known = {field.name for field in fields(kind)}
+        for key in scene[name]:
+            if key not in known:
+                raise ValueError(f"key {key!r} of {name} is unknown; known are {', '.join(known)}")
         scene[name] = kind(**{key: _frozen(value) for key, value in scene[name].items()})
     return Scene(**scene), Numerics(**described["numerics"])
 

@@ -1,23 +1,6 @@
-"""What is simulated (Scene) and how (Numerics)."""
+"""What is simulated (Scene) and how (Numerics); needs no MuJoCo."""
 
-from mjsim.scene.scene import (
-    ACTUATIONS,
-    BODIES,
-    CONES,
-    INTEGRATORS,
-    Numerics,
-    Scene,
-    check,
-    default_numerics,
-)
+from mjsim.scene.numerics import CONES, INTEGRATORS, Numerics
+from mjsim.scene.scene import ACTUATIONS, Scene
 
-__all__ = [
-    "ACTUATIONS",
-    "BODIES",
-    "CONES",
-    "INTEGRATORS",
-    "Numerics",
-    "Scene",
-    "check",
-    "default_numerics",
-]
+__all__ = ["ACTUATIONS", "CONES", "INTEGRATORS", "Numerics", "Scene"]

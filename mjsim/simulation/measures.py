@@ -6,7 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic import Direction, direction
-from mjsim.simulation.trajectory import Status, Trajectory
+from mjsim.simulation.status import Status
+from mjsim.simulation.trajectory import Trajectory
 
 
 class Measures(NamedTuple):

@@ -1,41 +1,259 @@
-"""A scene stepped in MuJoCo."""
+"""A scene stepped in MuJoCo: the one loop, for gaits, controllers, environments and sweeps."""
 
 import time as clock
 from collections.abc import Callable
-from dataclasses import replace
-from typing import Any
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from analytic.contact import PASSIVE
+from analytic.contact import may_lie_flat
+from analytic.gait import Gait
+from mjsim import registry
+from mjsim.bodies.parts import PREFIX
 from mjsim.bodies.pneumatics import chamber_pressure
-from mjsim.friction.contact_length import pads_of
-from mjsim.friction.laws import friction
-from mjsim.mjcf.builder import BODY_MODULES, compile_model
-from mjsim.scene import Numerics, Scene, check, default_numerics
-from mjsim.simulation.trajectory import Status, Trajectory
+from mjsim.friction.contact_length import pads_by_node
+from mjsim.friction.traction import traction
+from mjsim.mjcf.builder import compile_model
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.status import AT_REST, FALLEN, Status, judge
+from mjsim.simulation.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 
-_FALLEN = 0.1  # an end this far off the ground, over L, is no foot any more; chosen
-_ASIDE = 0.02  # a vertex this far off the plane, over L, has left it; chosen
-_SLID = 0.02  # of the length that both ends went downhill at once: the whole slides; chosen
-_REPORT_EVERY = 256  # steps between progress reports
-_TOUCH = 1e-6  # how deep the strip starts in the ground, over L: a contact at 0 is not seen; chosen
+FEWEST_STEPS = 4  # of a ramp; with fewer the gait is not seen; chosen
+_BLOCK = 1024  # steps that are prepared at once
 
 
-def schedule(scene: Scene, numerics: Numerics) -> tuple[Array, Array]:
-    """End of each step, (T,) [s], 0 being the start of the first cycle, and what the gait commands
-    the valves to at it, (T, S) [Pa].
+class Observation(NamedTuple):
+    """What a controller sees after a step.
 
-    The discrete integrator takes springs at the end of a step, and so are pressures here.
+    Attributes:
+        time: since the first cycle began [s].
+        pressure: in the chambers, left segment first, (S,) [Pa].
+        left, right: x of the two ends [m].
+        contact_left, contact_right: length of side contact, 0 for a tip [m].
+        status: OK, or why the simulation stopped.
     """
-    settle = max(1, round(scene.settle_time / numerics.timestep))
-    walk = round(scene.cycles * scene.gait.period / numerics.timestep)
-    time = np.arange(1.0 - settle, walk + 1.0) * numerics.timestep
-    return time, scene.robot.peak_pressure * scene.gait.fractions(time)
+
+    time: float
+    pressure: Array
+    left: float
+    right: float
+    contact_left: float
+    contact_right: float
+    status: Status
+
+
+Policy = Callable[[Observation], ArrayLike]
+"""From what is seen to what the valves are commanded, (S,) [Pa]; a Gait is the open-loop one."""
+
+
+class Simulation:
+    """One scene, compiled once and stepped as often as needed.
+
+    Args:
+        scene: the walk.
+        numerics: how it is discretised; chosen for the scene where not given.
+
+    Attributes:
+        scene, numerics: what is simulated and how, with a number for everything.
+        model, data: MuJoCo's.
+
+    Raises:
+        ValueError: the scene and the numerics do not go together.
+    """
+
+    def __init__(self, scene: Scene, numerics: Numerics | None = None) -> None:
+        self.scene = scene
+        self.numerics = (numerics or Numerics()).resolved(scene.body, scene.friction)
+        check_steps(scene, self.numerics)
+        self.model = compile_model(scene, self.numerics)
+        self._rest = self.model.qpos_spring.copy(), self.model.jnt_stiffness.copy()
+        self.reset()
+
+    def reset(self, seed: int | None = None) -> Observation:
+        """Lay the strip on the ground and let it settle; inflate it to the gait's first stage.
+
+        Args:
+            seed: of `rng`, for controllers and environments that draw numbers.
+        """
+        scene, numerics, model = self.scene, self.numerics, self.model
+        self.rng = np.random.default_rng(seed)
+        model.qpos_spring[:], model.jnt_stiffness[:] = self._rest
+        self.data = mujoco.MjData(model)
+        mujoco.mj_forward(model, self.data)
+        self._joints = registry.find(scene.body).bind(model, self.data, scene, numerics)
+        self._traction = traction(scene, numerics, model, self.data)
+        self._pads = pads_by_node(model)
+        self._right = model.tendon(f"{PREFIX}right").id
+        self._at, self._slip = self.data.ten_length.item(self._right), 0.0
+        self._pressure = np.zeros(len(scene.robot.segments))
+        self._coordinates: list[Array] = []
+        self._ends: list[tuple[float, float, float]] = []
+        self._pressures: list[Array] = []
+        self._wall = self._cpu = 0.0
+        self._stopped = False
+        before = before_start(scene, numerics)
+        self._first = 1 - len(before)
+        late = max(1, len(before) // 10)
+        self._play(before[:-late])
+        ends = self.data.ten_length.copy()
+        self._play(before[-late:])
+        speed = np.abs(self.data.ten_length - ends).max() / (late * numerics.timestep)
+        self._unsettled = not speed < AT_REST * scene.robot.length
+        return self.observe()
+
+    def step(self, valves: ArrayLike) -> Observation:
+        """Do one time step.
+
+        Args:
+            valves: commanded pressures, left segment first, (S,) [Pa], at least 0.
+
+        Raises:
+            ValueError: the commands are not of that kind.
+        """
+        command = np.asarray(valves, dtype=float)
+        if command.shape != self._pressure.shape or not (command >= 0).all():
+            raise ValueError(
+                f"valves must be {len(self._pressure)} pressures of at least 0 Pa, got {valves!r}"
+            )
+        if not self._stopped:
+            self._play(command[None])
+        return self.observe()
+
+    def run(
+        self, policy: Gait | Policy | None = None, progress: Callable[[int], None] | None = None
+    ) -> Trajectory:
+        """Walk from rest for the scene's cycles.
+
+        Args:
+            policy: commands the valves; the scene's gait if None.
+            progress: called now and then with the number of steps done since the last call.
+
+        Returns:
+            The trajectory; look at its status before any number of it.
+        """
+        policy = self.scene.gait if policy is None else policy
+        observation = self.reset()
+        if progress:
+            progress(len(self._ends))
+        count = walking_steps(self.scene, self.numerics)
+        if isinstance(policy, Gait):
+            time = np.arange(1.0, count + 1.0) * self.numerics.timestep
+            valves = self.scene.robot.peak_pressure * policy.fractions(time)
+            for begin in range(0, count, _BLOCK):
+                if self._stopped:
+                    break
+                self._play(valves[begin : begin + _BLOCK])
+                if progress:
+                    progress(len(valves[begin : begin + _BLOCK]))
+        else:
+            for _ in range(count):
+                if self._stopped:
+                    break
+                observation = self.step(policy(observation))
+                if progress:
+                    progress(1)
+        return self.trajectory()
+
+    def observe(self) -> Observation:
+        """What there is to see now."""
+        kind = self._traction
+        left, right = self._x_of_ends()
+        return Observation(
+            time=(self._first + len(self._ends) - 1) * self.numerics.timestep,
+            pressure=self._pressure.copy(),
+            left=left,
+            right=right,
+            contact_left=kind.contact_left,
+            contact_right=kind.contact_right,
+            status=self._now(),
+        )
+
+    def trajectory(self) -> Trajectory:
+        """Everything since the last reset."""
+        count = len(self._ends)
+        contact_left, contact_right, left_slip = np.array(self._ends).T
+        coordinates = np.concatenate(self._coordinates)[:count]
+        walk = Trajectory(
+            scene=self.scene,
+            numerics=self.numerics,
+            status=Status.OK,
+            time=np.arange(self._first, self._first + count) * self.numerics.timestep,
+            pressure=np.concatenate(self._pressures)[:count],
+            coordinates=coordinates,
+            position=positions(self.model, self.numerics, coordinates),
+            contact_left=contact_left,
+            contact_right=contact_right,
+            left_slip_fraction=left_slip,
+            wall_time=self._wall,
+            cpu_time=self._cpu,
+        )
+        return judge(walk, stopped=self._stopped, unsettled=self._unsettled)
+
+    def _play(self, valves: Array) -> None:
+        """Do as many steps as there are commands, (T, S) [Pa], or up to a failure."""
+        scene, numerics, model, data = self.scene, self.numerics, self.model, self.data
+        pressures = chamber_pressure(scene, numerics, valves, self._pressure)
+        joints, law = self._joints, self._traction
+        loads = joints.loads(valves, self._pressure, pressures)
+        flat = may_lie_flat(pressures[:, [0, -1]], scene.robot.peak_pressure).tolist()
+        if not len(valves) or self._stopped:
+            return
+        coordinates = np.empty((len(valves), model.nq))
+        ends: list[tuple[float, float, float]] = []
+        apply, before_step, slopes, shift = (
+            joints.apply, law.before_step, joints.slopes, joints.shift,
+        )  # fmt: skip
+        step_model, dt, qpos = mujoco.mj_step, numerics.timestep, data.qpos
+        length, rate, right = data.ten_length.item, data.ten_velocity.item, self._right
+        height = data.geom_xpos[:, 2].item
+        first, last = int(self._pads[0, 0]), int(self._pads[-1, 0])
+        low, high = ends_may_be(scene, numerics)
+        at, slip = self._at, self._slip
+
+        started, worked = clock.perf_counter(), clock.process_time()
+        for step, (load, (left, right_end)) in enumerate(zip(loads, flat, strict=True)):
+            apply(load)
+            before_step(slopes(), left, right_end)
+            step_model(model, data)
+
+            # The left end's x is a coordinate, integrated exactly; the right end's is integrated to
+            # first order only, since a turning hinge moves it on a circle. The excess of the last
+            # step over dt times its velocity at the step's start, which is dt v - dx with the
+            # velocity at its end, would be slip of an anchor that friction holds: give it to the
+            # end that slid.
+            before, at = at, length(right)
+            if slip:
+                excess = slip * (dt * rate(right) - (at - before))
+                shift(excess)
+                at -= excess
+            slip = law.left_slip
+            coordinates[step] = qpos
+            ends.append((law.contact_left, law.contact_right, slip))
+            if not (low < height(first) < high and low < height(last) < high):
+                self._stopped = True
+                break
+        self._wall += clock.perf_counter() - started
+        self._cpu += clock.process_time() - worked
+
+        self._at, self._slip, self._pressure = at, slip, pressures[len(ends) - 1]
+        self._coordinates.append(coordinates[: len(ends)])
+        self._pressures.append(pressures[: len(ends)])
+        self._ends += ends
+
+    def _x_of_ends(self) -> tuple[float, float]:
+        """Where the ends are after the last step."""
+        mujoco.mj_kinematics(self.model, self.data)
+        left, right = (float(self.data.geom_xpos[self._pads[i], 0].mean()) for i in (0, -1))
+        return left, right
+
+    def _now(self) -> Status:
+        if self._stopped:
+            return self.trajectory().status
+        return Status.UNSETTLED if self._unsettled else Status.OK
 
 
 def simulate(
@@ -43,137 +261,50 @@ def simulate(
     numerics: Numerics | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> Trajectory:
-    """Let the strip settle and walk its cycles.
-
-    Args:
-        scene: the walk.
-        numerics: how it is discretised; `default_numerics` if None.
-        progress: called now and then with the number of steps done since the last call.
-
-    Returns:
-        The trajectory; look at its status before any number of it.
-
-    Raises:
-        ValueError: the scene and the numerics do not go together.
-    """
-    numerics = numerics or default_numerics(scene.body, scene.friction)
-    check(scene, numerics)
-    model = compile_model(scene, numerics)
-    # else MuJoCo starts anew after a divergence, and the walk would look like one
-    model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
-    data, _ = begin(model, scene)
-    time, command = schedule(scene, numerics)
-    pressure = chamber_pressure(scene, numerics, command)
-    actuation = BODY_MODULES[scene.body].Drive(model, data, scene, numerics, command)
-    at_ends = pressure[:, [0, -1]] <= PASSIVE * scene.robot.peak_pressure
-    passive = [(left, right) for left, right in at_ends.tolist()]
-    hold = friction(scene, numerics, model, data, actuation.slopes, passive)
-    coordinates = np.empty((len(time), model.nq))
-    held = []
-
-    set_springs, shift, qpos, dt = actuation.set, actuation.shift, data.qpos, numerics.timestep
-    right = model.tendon("robot/right").id
-    length, rate, step_model = data.ten_length, data.ten_velocity, mujoco.mj_step
-    first, last = (pads_of(model, node)[0] for node in (0, numerics.links + 1))
-    height = data.geom_xpos[:, 2]
-    low, high = (numerics.pad_radius + sign * _FALLEN * scene.robot.length for sign in (-1, 1))
-    step, share, at = -1, 0.0, length.item(right)
-
-    started, worked = clock.perf_counter(), clock.process_time()
-    for step in range(len(time)):
-        set_springs(step)
-        now = hold(step)
-        step_model(model, data)
-
-        # The left end's x is a coordinate, integrated exactly; the right end's is integrated to
-        # first order only, since a turning hinge moves it on a circle. The excess of the last step
-        # over dt times its velocity at the step's start, which is dt v - dx with the velocity at
-        # its end, would be slip of an anchor that friction holds: give it to the end that slid.
-        before, at = at, length.item(right)
-        excess = share * (dt * rate.item(right) - (at - before))
-        shift(excess)
-        at -= excess
-        share = now.left_slip_fraction
-        coordinates[step] = qpos
-        held.append(now)
-        if not (low < height.item(first) < high and low < height.item(last) < high):
-            break
-        if progress and step % _REPORT_EVERY == _REPORT_EVERY - 1:
-            progress(_REPORT_EVERY)
-    wall_time, cpu_time = clock.perf_counter() - started, clock.process_time() - worked
-
-    done = slice(0, step + 1)
-    contact_left, contact_right, left_slip_fraction = np.array(held).T
-    return finish(
-        model,
-        scene=scene,
-        numerics=numerics,
-        time=time[done],
-        pressure=pressure[done],
-        coordinates=coordinates[done],
-        contact_left=contact_left,
-        contact_right=contact_right,
-        left_slip_fraction=left_slip_fraction,
-        wall_time=wall_time,
-        cpu_time=cpu_time,
-    )
+    """Walk a scene's gait: `Simulation(scene, numerics).run()`."""
+    return Simulation(scene, numerics).run(progress=progress)
 
 
-def begin(model: mujoco.MjModel, scene: Scene) -> tuple[mujoco.MjData, Array]:
-    """The strip lying on the ground, and the same as MuJoCo's vector of its full physics state."""
-    data = mujoco.MjData(model)
-    model.body_pos[model.body("robot/").id, 2] -= _TOUCH * scene.robot.length
-    mujoco.mj_forward(model, data)
-    state = np.empty(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_FULLPHYSICS))
-    mujoco.mj_getState(model, data, state, mujoco.mjtState.mjSTATE_FULLPHYSICS)
-    return data, state
+def before_start(scene: Scene, numerics: Numerics) -> Array:
+    """Commands of the valves before the first cycle: rest, or a rise to the first stage (T, S)."""
+    dt, first = numerics.timestep, np.array(scene.gait.stages[0]) * scene.robot.peak_pressure
+    settle = max(1, round(scene.settle_time / dt))
+    rise = round(scene.rise_time / dt)
+    part = np.concatenate([np.arange(1, rise + 1) / max(rise, 1), np.ones(settle)])
+    return np.asarray(part[:, None] * first)
 
 
-def finish(model: mujoco.MjModel, **parts: Any) -> Trajectory:
-    """The trajectory of a walk from what was recorded: its positions, and how it ended.
-
-    Args:
-        model: as compiled.
-        parts: what else a Trajectory holds.
-    """
-    position = _positions(model, mujoco.MjData(model), parts["numerics"], parts["coordinates"])
-    walk = Trajectory(status=Status.OK, position=position, **parts)
-    return replace(walk, status=_status(walk))
+def walking_steps(scene: Scene, numerics: Numerics) -> int:
+    """Time steps of the scene's cycles."""
+    return round(scene.cycles * scene.gait.period / numerics.timestep)
 
 
-def _positions(
-    model: mujoco.MjModel, data: mujoco.MjData, numerics: Numerics, coordinates: Array
-) -> Array:
+def check_steps(scene: Scene, numerics: Numerics) -> None:
+    """Raise ValueError where a ramp of the gait has too few time steps to be seen."""
+    shortest = min(scene.gait.ramp_times)
+    if shortest < FEWEST_STEPS * numerics.timestep:
+        raise ValueError(
+            f"timestep must be at most {shortest / FEWEST_STEPS:g} s, so that the shortest ramp of "
+            f"{shortest:g} s has {FEWEST_STEPS} steps; got {numerics.timestep:g} s"
+        )
+
+
+def ends_may_be(scene: Scene, numerics: Numerics) -> tuple[float, float]:
+    """Heights between which the pad of an end is while it is still a foot [m]."""
+    assert numerics.pad_radius is not None
+    reach = FALLEN * scene.robot.length
+    return numerics.pad_radius - reach, numerics.pad_radius + reach
+
+
+def positions(model: mujoco.MjModel, numerics: Numerics, coordinates: Array) -> Array:
     """Vertices of the neutral line at each state, z over flat rest, (T, N + 2, 3) [m]."""
-    first = int(model.geom("robot/pad_0").bodyid[0])
-    links, end = slice(first, first + numerics.links + 1), model.site("robot/end_right").id
-    position = np.empty((len(coordinates), numerics.links + 2, 3))
+    data, pads = mujoco.MjData(model), pads_by_node(model)
+    position = np.empty((len(coordinates), *pads.shape, 3))
     for state, place in zip(coordinates, position, strict=True):
         data.qpos[:] = state
         mujoco.mj_kinematics(model, data)
-        place[:-1], place[-1] = data.xpos[links], data.site_xpos[end]
+        place[:] = data.geom_xpos[pads]
+    position = position.mean(axis=2)
+    assert numerics.pad_radius is not None
     position[..., 2] -= numerics.pad_radius
     return position
-
-
-def _status(walk: Trajectory) -> Status:
-    """How the walk ended, by its last state, and whether it ever left the plane."""
-    length = walk.scene.robot.length
-    z = walk.position[-1, :, 2]
-    if not np.abs(z).max() < length:
-        return Status.DIVERGED
-    if not np.abs(walk.position[..., 1]).max() < _ASIDE * length:
-        return Status.TURNED
-    ends = np.abs(z[[0, -1]]).max()
-    stopped = walk.time[-1] < walk.scene.duration - walk.scene.settle_time - walk.numerics.timestep
-    if stopped or not ends < _FALLEN * length:
-        return Status.TOPPLED
-    return Status.SLID if _slid(walk) > _SLID * length else Status.OK
-
-
-def _slid(walk: Trajectory) -> float:
-    """How far both ends went downhill together [m]."""
-    if not walk.scene.slope:
-        return 0.0
-    moves = -np.sign(walk.scene.slope) * np.diff(walk.position[:, [0, -1], 0], axis=0)
-    return float(np.maximum(moves.min(axis=1), 0.0).sum())

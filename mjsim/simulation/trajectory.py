@@ -1,30 +1,22 @@
 """What a simulation returns, and its netCDF file."""
 
 import json
-from dataclasses import dataclass
-from enum import StrEnum
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
+import h5netcdf
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
+from analytic.chain import node_positions
 from mjsim.io.files import whole
 from mjsim.io.provenance import configuration
 from mjsim.scene import Numerics, Scene
+from mjsim.simulation.status import Status
 
 Array = NDArray[np.float64]
-
-
-class Status(StrEnum):
-    """How a simulation ended."""
-
-    OK = "ok"
-    DIVERGED = "diverged"  # a coordinate left the range that any walk can have, or is not finite
-    TOPPLED = "toppled"  # an end left the ground: the strip fell over or rolled up
-    SLID = "slid"  # the whole strip slid down the slope: nothing anchored it
-    TURNED = "turned"  # it left its plane: turned away or fell sideways
 
 
 @dataclass(frozen=True)
@@ -41,7 +33,8 @@ class Trajectory:
         position: of the neutral line's vertices, left end first, z over flat rest,
             (T, N + 2, 3) [m].
         contact_left, contact_right: length of side contact, 0 for a tip, (T,) [m].
-        left_slip_fraction: part of a change of separation that the friction law gave to the left end, (T,).
+        left_slip_fraction: part of a change of separation that the friction law gives the left end,
+            (T,).
         wall_time, cpu_time: seconds the loop took, by the clock and of all cores together,
             assembly and compilation excluded.
     """
@@ -73,38 +66,54 @@ class Trajectory:
         x, _, z = np.diff(self.position[step], axis=0).T
         return np.unwrap(np.arctan2(z, x))
 
-    def to_dataset(self, provenance: dict[str, Any]) -> xr.Dataset:
-        """The walk with units; `provenance` is kept as JSON in the attributes."""
-        x, z = self.nodes()
-        data = xr.Dataset(coords={"time": ("time", self.time, {"units": "s"})})
-        columns: dict[str, tuple[tuple[str, ...], Array, str, str]] = {
-            "pressure": (("time", "segment"), self.pressure, "Pa", "pressure, left segment first"),
-            "x_left": (("time",), x[:, 0], "m", "position of the left end"),
-            "x_right": (("time",), x[:, -1], "m", "position of the right end"),
-            "contact_left": (("time",), self.contact_left, "m", "side contact, 0 for a tip"),
-            "contact_right": (("time",), self.contact_right, "m", "side contact, 0 for a tip"),
-            "left_slip_fraction": (
-                ("time",),
-                self.left_slip_fraction,
-                "1",
-                "left end's part of a change, by rule",
-            ),
-            "x": (("time", "node"), x, "m", "position of the chain's vertices"),
-            "height": (("time", "node"), z, "m", "height of the vertices over flat rest"),
-            "y": (("time", "node"), self.position[..., 1], "m", "out of the plane of the gait"),
-            "coordinates": (("time", "dof"), self.coordinates, "m, rad, 1", "generalised"),
+    def up_to(self, count: int) -> "Trajectory":
+        """The first so many states."""
+        rows = {
+            field.name: getattr(self, field.name)[:count]
+            for field in fields(self)
+            if isinstance(getattr(self, field.name), np.ndarray)
         }
-        for name, (dims, values, units, text) in columns.items():
-            data[name] = xr.Variable(dims, values, {"units": units, "long_name": text})
+        return replace(self, **rows)
+
+    def columns(self) -> Iterator[tuple[str, tuple[str, ...], Array, str, str]]:
+        """Name, dimensions, values, unit and meaning of each variable of the file."""
+        x, z = self.nodes()
+        yield "time", ("time",), self.time, "s", "since the first cycle began"
+        yield "pressure", ("time", "segment"), self.pressure, "Pa", "in the chambers, left first"
+        yield "x_left", ("time",), x[:, 0], "m", "position of the left end"
+        yield "x_right", ("time",), x[:, -1], "m", "position of the right end"
+        yield "contact_left", ("time",), self.contact_left, "m", "side contact, 0 for a tip"
+        yield "contact_right", ("time",), self.contact_right, "m", "side contact, 0 for a tip"
+        yield ("left_slip_fraction", ("time",), self.left_slip_fraction, "1",
+               "left end's part of a change of separation, by the anchor rule")  # fmt: skip
+        yield "x", ("time", "node"), x, "m", "position of the vertices along the ground"
+        yield "height", ("time", "node"), z, "m", "height of the vertices over flat rest"
+        yield "y", ("time", "node"), self.position[..., 1], "m", "out of the plane of the gait"
+        yield ("arclength", ("node",), node_positions(self.scene.robot, self.numerics.links), "m",
+               "of the vertices from the left end")  # fmt: skip
+        yield "coordinates", ("time", "dof"), self.coordinates, "m, rad, 1", "of MuJoCo"
         for name in ("wall_time", "cpu_time"):
-            data[name] = xr.Variable((), getattr(self, name), {"units": "s"})
-        data.attrs = {"status": str(self.status), "provenance": json.dumps(provenance)}
-        return data
+            yield name, (), np.array(getattr(self, name)), "s", "that the stepping took"
 
     def save(self, path: Path, provenance: dict[str, Any]) -> None:
-        """Write netCDF; the file appears under its name only when it is whole."""
-        with whole(path) as part:
-            self.to_dataset(provenance).to_netcdf(part, engine="h5netcdf")
+        """Write netCDF with units; the file appears under its name only when it is whole.
+
+        Args:
+            path: of the file.
+            provenance: kept as JSON in the attributes.
+
+        Raises:
+            OSError: the file cannot be written.
+        """
+        with whole(Path(path)) as part, h5netcdf.File(part, "w") as file:
+            file.attrs["status"] = str(self.status)
+            file.attrs["provenance"] = json.dumps(provenance)
+            for name, dimensions, values, units, text in self.columns():
+                for dimension, size in zip(dimensions, values.shape, strict=True):
+                    if dimension not in file.dimensions:
+                        file.dimensions[dimension] = size
+                variable = file.create_variable(name, dimensions, data=values)
+                variable.attrs["units"], variable.attrs["long_name"] = units, text
 
 
 def load(path: Path) -> Trajectory:
@@ -112,19 +121,18 @@ def load(path: Path) -> Trajectory:
 
     Raises:
         OSError: the file cannot be read.
-        KeyError, ValueError: it is not such a file.
+        KeyError, TypeError, ValueError: it is not such a file.
     """
-    with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as data:
-        scene, numerics = configuration(json.loads(data.attrs["provenance"]))
-        fields = ("pressure", "coordinates", "contact_left", "contact_right",
-                  "left_slip_fraction")  # fmt: skip
+    with h5netcdf.File(path, "r") as file:
+        scene, numerics = configuration(json.loads(file.attrs["provenance"]))
+        names = ("time", "pressure", "coordinates", "contact_left", "contact_right",
+                 "left_slip_fraction")  # fmt: skip
         return Trajectory(
             scene=scene,
             numerics=numerics,
-            status=Status(data.attrs["status"]),
-            time=data["time"].values,
-            position=np.stack([data[name].values for name in ("x", "y", "height")], axis=-1),
-            wall_time=float(data["wall_time"]),
-            cpu_time=float(data["cpu_time"]),
-            **{name: data[name].values for name in fields},
+            status=Status(file.attrs["status"]),
+            position=np.stack([file[name][...] for name in ("x", "y", "height")], axis=-1),
+            wall_time=float(file["wall_time"][...]),
+            cpu_time=float(file["cpu_time"][...]),
+            **{name: file[name][...] for name in names},
         )

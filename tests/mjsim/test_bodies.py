@@ -14,7 +14,7 @@ from mjsim.bodies.rod import Drive
 from mjsim.mjcf.builder import compile_model
 from mjsim.scene import BODIES, Scene, default_numerics
 from mjsim.simulation.measures import measure
-from mjsim.simulation.trajectory import Status
+from mjsim.simulation.status import Status
 
 IN_SPACE = ("cable", "rod")
 

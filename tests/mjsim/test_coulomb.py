@@ -13,7 +13,7 @@ from mjsim.mjcf.builder import compile_model
 from mjsim.report import record, table
 from mjsim.scene import BODIES, Scene, default_numerics
 from mjsim.simulation.simulation import begin
-from mjsim.simulation.trajectory import Status
+from mjsim.simulation.status import Status
 
 SLOW = 8.0  # s a ramp: no inertia to speak of
 

@@ -8,7 +8,8 @@ import mjsim.simulation.simulation as simulation
 from mjsim.report import record
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure
-from mjsim.simulation.trajectory import Status, load
+from mjsim.simulation.status import Status
+from mjsim.simulation.trajectory import load
 
 TOO_MUCH = 72e3  # Pa; kappa L = 5.7
 

@@ -13,7 +13,7 @@ from mjsim.scene import Scene
 from mjsim.scene.gait_files import find_gait
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
-from mjsim.simulation.trajectory import Status
+from mjsim.simulation.status import Status
 
 GALLOP = """
 name = "gallop"

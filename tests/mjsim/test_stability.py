@@ -9,7 +9,7 @@ from analytic import SURFACES
 from mjsim.io import cli
 from mjsim.scene import BODIES, Numerics, Scene
 from mjsim.simulation.simulation import simulate
-from mjsim.simulation.trajectory import Status
+from mjsim.simulation.status import Status
 from mjsim.studies.accuracy.grid import numerics_of
 from mjsim.studies.accuracy.setting import Setting
 from mjsim.studies.stability import __main__ as stability

@@ -11,7 +11,8 @@ from mjsim.io import cli
 from mjsim.scene import Numerics, Scene, default_numerics
 from mjsim.simulation.measures import Measures, measure
 from mjsim.simulation.simulation import simulate
-from mjsim.simulation.trajectory import Status, Trajectory
+from mjsim.simulation.status import Status
+from mjsim.simulation.trajectory import Trajectory
 
 
 @cache

@@ -12,7 +12,7 @@ from analytic import SURFACES, Robot, direction
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
-from mjsim.simulation.trajectory import Status
+from mjsim.simulation.status import Status
 from mjsim.studies.accuracy.benchmark_cases import WALK, exact
 from mjsim.studies.accuracy.grid import numerics_of
 from mjsim.studies.accuracy.setting import Setting

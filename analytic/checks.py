@@ -1,0 +1,55 @@
+"""Checks of values that people give: each refuses in one line that names the value."""
+
+import math
+from collections.abc import Iterable
+from numbers import Integral, Real
+from typing import Any
+
+
+def is_number(value: Any) -> bool:
+    """Whether it is a finite real number, of Python or NumPy, and no truth value."""
+    return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def positive(name: str, value: Any, unit: str = "") -> None:
+    """Raise ValueError unless it is a number above 0."""
+    if not (is_number(value) and value > 0):
+        raise ValueError(f"{name} must be a positive finite number{_of(unit)}, got {_shown(value)}")
+
+
+def not_negative(name: str, value: Any, unit: str = "") -> None:
+    """Raise ValueError unless it is a number of 0 or more."""
+    if not (is_number(value) and value >= 0):
+        raise ValueError(
+            f"{name} must be a finite number{_of(unit)}, at least 0, got {_shown(value)}"
+        )
+
+
+def whole(name: str, value: Any, least: int, most: int | None = None) -> None:
+    """Raise ValueError unless it is a whole number within bounds, both included."""
+    number = isinstance(value, Integral) and not isinstance(value, bool)
+    if not (number and value >= least and (most is None or value <= most)):
+        bounds = f"of at least {least}" if most is None else f"from {least} to {most}"
+        raise ValueError(f"{name} must be a whole number {bounds}, got {_shown(value)}")
+
+
+def one_of(name: str, value: Any, valid: Iterable[str]) -> None:
+    """Raise ValueError unless it is one of the valid words."""
+    known = list(valid)
+    if value not in known:
+        raise ValueError(f"{name} must be one of {', '.join(known)}; got {value!r}")
+
+
+def file_word(name: str, value: Any) -> None:
+    """Raise ValueError unless it can stand in a file name."""
+    if not (isinstance(value, str) and value and value.isprintable() and "/" not in value):
+        raise ValueError(f"{name} must be a word without slashes, got {value!r}")
+
+
+def _of(unit: str) -> str:
+    return f" [{unit}]" if unit else ""
+
+
+def _shown(value: Any) -> str:
+    """As people write it: NumPy's numbers without their type."""
+    return repr(value.item()) if hasattr(value, "item") else repr(value)

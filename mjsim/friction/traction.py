@@ -1,0 +1,175 @@
+"""What friction does before each step, and which end is said to slide.
+
+Two ways in MuJoCo for the laws of analytic.friction. `BoundedEnds`: each end is held along x by a
+dry friction of its own bound, on the neutral line, so that it has no lever arm, does not creep, and
+the physics lets the weaker end slide. Where both bounds are equal that would leave it to momentum
+who slides: the rule of [Majidi13], both alike, is a dry friction on the mean position of the ends in
+place of both. `ContactFriction`: Coulomb friction at every pad, by MuJoCo's own contacts.
+"""
+
+from typing import Protocol
+
+import mujoco
+
+from analytic.friction import LAWS, slip_fraction
+from analytic.surface import Surface
+from mjsim.bodies.parts import PREFIX, TENDONS, contact_softness, tie_force
+from mjsim.friction.contact_length import ContactForces, pads_by_node
+from mjsim.scene import Numerics, Scene
+
+
+_TIPS = (0.0, 0.0)  # side contact of two tips
+_UNLOADED = (0.0, 0.0)  # what a law gets that needs no load
+
+
+class Traction(Protocol):
+    """A law at work on a compiled scene.
+
+    Attributes:
+        contact_left, contact_right: lengths of side contact, 0 for a tip [m].
+        left_slip: part of the next change of separation that the left end takes up.
+    """
+
+    contact_left: float
+    contact_right: float
+    left_slip: float
+
+    def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
+        """Read the contacts and set what resists in the next step.
+
+        Args:
+            slopes: of the two ends, positive where the strip rises inwards [rad].
+            left, right: whether these ends may lie on their side, by their pressure.
+        """
+        ...
+
+
+def traction(
+    scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
+) -> Traction:
+    """The law of a scene at work."""
+    kind = ContactFriction if scene.friction == "coulomb" else BoundedEnds
+    return kind(scene, numerics, model, data)
+
+
+class _Ends:
+    """What both ways share: the ends' contact lengths, and who moves."""
+
+    def __init__(
+        self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
+    ) -> None:
+        self.contact_left = self.contact_right = 0.0
+        self.left_slip = 0.5
+        self._forces = ContactForces(scene, numerics, model, data)
+        self._flat = numerics.side_angle
+        self._left, self._right, self._both = (model.tendon(PREFIX + n).id for n in TENDONS)
+        self._rate, self._place = data.ten_velocity, data.ten_length
+        self._pads = pads_by_node(model)[[0, -1]]
+
+    def _see_who_moves(self) -> None:
+        left, right = self._rate.item(self._left), self._rate.item(self._right)
+        self.left_slip = 1.0 if abs(left) > abs(right) else 0.0
+
+
+class BoundedEnds(_Ends):
+    """Bounds of the friction along x at the two ends, whatever law gives them.
+
+    On a slope the weight decides a tie, and who takes up a change is seen as it moves.
+    """
+
+    def __init__(
+        self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
+    ) -> None:
+        super().__init__(scene, numerics, model, data)
+        self._law, self._ground, self._width = LAWS[scene.friction], scene.ground, scene.robot.width
+        self._surface = scene.ground if isinstance(scene.ground, Surface) else None
+        self._always = self._law.needs_load or self._surface is None
+        self._level, self._tied = scene.slope == 0, (0.0, 0.0, tie_force(scene, numerics))
+        self._softness = model.geom_solref
+        self._bounds = model.tendon_frictionloss[self._left : self._both + 1]
+        assert numerics.steep_contact_time is not None
+        self._firm = contact_softness(scene, numerics)[0][0]
+        self._soft = numerics.steep_contact_time * numerics.timestep
+        self._steep_angle = numerics.steep_angle
+        self._steep, self._last = (False, False), (-1.0, -1.0)
+        self._far = float(model.site_pos[model.site(f"{PREFIX}far").id][0])
+
+    def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
+        """See Traction.before_step."""
+        slope_left, slope_right = slopes
+        left, right = left and slope_left <= self._flat, right and slope_right <= self._flat
+        if left or right:
+            contacts = self._forces.lengths(left, right)
+        else:
+            contacts = _TIPS
+        steep_angle = self._steep_angle
+        steep = slope_left > steep_angle, slope_right > steep_angle
+        if steep != self._steep:
+            self._soften(steep)
+        if contacts != self._last or self._always:
+            self._last = self.contact_left, self.contact_right = contacts
+            self._set_bounds(contacts)
+        if not self._level:
+            self._see_who_moves()
+
+    def _soften(self, steep: tuple[bool, bool]) -> None:
+        self._steep = steep
+        for pads, is_steep in zip(self._pads, steep, strict=True):
+            self._softness[pads, 0] = self._soft if is_steep else self._firm
+
+    def _set_bounds(self, contacts: tuple[float, float]) -> None:
+        law, width, bounds = self._law, self._width, self._bounds
+        load_left, load_right = self._forces.loads() if law.needs_load else _UNLOADED
+        here = there = self._surface
+        if here is None:
+            here, there = (
+                self._ground.at(self._place.item(end) + self._far)
+                for end in (self._left, self._right)
+            )
+        left = law.bound(here, width, contacts[0], load_left)
+        right = law.bound(there, width, contacts[1], load_right)
+        self.left_slip = slip_fraction(left, right)
+        if left == right and self._level:
+            bounds[:3] = self._tied
+        else:
+            bounds[:3] = left, right, 0.0
+
+class ContactFriction(_Ends):
+    """Coulomb friction of the pads.
+
+    The outermost ones have the coefficient of a tip, or of a side while the end lies on it; the
+    others that of a side. On ground that changes along x each has that of its place.
+    """
+
+    def __init__(
+        self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
+    ) -> None:
+        super().__init__(scene, numerics, model, data)
+        self._ground, self._friction = scene.ground, model.geom_friction
+        self._uniform = isinstance(scene.ground, Surface)
+        self._x = data.geom_xpos[:, 0]
+        self._inner = pads_by_node(model)[1:-1].ravel()
+        self._sides = (False, False)
+
+    def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
+        """See Traction.before_step."""
+        sides = self._look(slopes, left, right)
+        if sides != self._sides or not self._uniform:
+            self._sides = sides
+            self._set_friction(sides)
+        self._see_who_moves()
+
+    def _look(self, slopes: tuple[float, float], left: bool, right: bool) -> tuple[bool, bool]:
+        """Read the lengths; whether each end lies on its side."""
+        left, right = left and slopes[0] <= self._flat, right and slopes[1] <= self._flat
+        contacts = self._forces.lengths(left, right) if left or right else _TIPS
+        self.contact_left, self.contact_right = contacts
+        return left, right
+
+    def _set_friction(self, sides: tuple[bool, bool]) -> None:
+        for pads, on_side in zip(self._pads, sides, strict=True):
+            surface = self._ground.at(self._x.item(pads[0]))
+            self._friction[pads, 0] = surface.friction if on_side else surface.tip_friction
+        if not self._uniform:
+            for pad in self._inner.tolist():
+                self._friction[pad, 0] = self._ground.at(self._x.item(pad)).friction
