@@ -17,7 +17,7 @@ class Robot:
     """A planar strip of segments, each one a pneu-net of the same design.
 
     The weight and the chamber height of the default robot are identified from two statements of
-    [Majidi13], see analytic.identification; the other values are chosen.
+    [Majidi13] by `python -m analytic.identification`; the other values are chosen.
 
     What was measured may be given in place of what it follows from: mass for weight_per_length,
     rigidity for modulus (both are turned into the other at once), curvature_per_pressure and
@@ -36,12 +36,12 @@ class Robot:
     """E of the strain-limiting layer [Pa]"""
     thickness: float = 4.0e-3
     """t of the strain-limiting layer [m]"""
-    chamber_height: float = 4.1e-3
-    """H [m]"""
+    chamber_height: float = 3.928e-3
+    """H [m]; identified"""
     chamber_fraction: float = 0.7
     """c/x, chamber width over the arclength it occupies [1]"""
-    weight_per_length: float = 2.0
-    """w of Appendix A [N/m]"""
+    weight_per_length: float = 1.416
+    """w of Appendix A [N/m]; identified"""
     peak_pressure: float = 7.0 * PSI
     """p [Pa]; [Majidi13], section 3"""
     segments: tuple[float, ...] = THREE_EQUAL

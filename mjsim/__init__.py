@@ -1,5 +1,79 @@
-"""MuJoCo replication of the undulating pneumatic strip, checked against `analytic`."""
+"""MuJoCo model of an undulating pneumatic strip, checked against `analytic`.
 
-from mjsim.video import gl
+What a user needs, imported when it is first used:
 
-gl.set_default_backend()  # before anything imports mujoco, which reads MUJOCO_GL once
+    from mjsim import SURFACES, Scene, measure, predict, simulate
+
+    scene = Scene(ground=SURFACES["gelatin"])
+    walk = simulate(scene)
+    print(walk.status, measure(walk).displacement)
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from analytic.friction import Friction
+    from analytic.gait import GAITS, Gait
+    from analytic.prediction import predict
+    from analytic.robot import Robot
+    from analytic.surface import SURFACES, Ground, Surface
+    from mjsim.scene import Numerics, Scene
+    from mjsim.simulation.batch import rollout, simulate_all
+    from mjsim.simulation.measures import Measures, measure
+    from mjsim.simulation.simulation import Observation, Policy, Simulation, simulate
+    from mjsim.simulation.status import Status
+    from mjsim.simulation.trajectory import Trajectory, load
+
+_HOMES = {
+    "analytic.friction": ("Friction",),
+    "analytic.gait": ("GAITS", "Gait"),
+    "analytic.prediction": ("predict",),
+    "analytic.robot": ("Robot",),
+    "analytic.surface": ("SURFACES", "Ground", "Surface"),
+    "mjsim.scene": ("Numerics", "Scene"),
+    "mjsim.simulation.batch": ("rollout", "simulate_all"),
+    "mjsim.simulation.measures": ("Measures", "measure"),
+    "mjsim.simulation.simulation": ("Observation", "Policy", "Simulation", "simulate"),
+    "mjsim.simulation.status": ("Status",),
+    "mjsim.simulation.trajectory": ("Trajectory", "load"),
+}
+_HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
+
+__all__ = [
+    "GAITS",
+    "SURFACES",
+    "Friction",
+    "Gait",
+    "Ground",
+    "Measures",
+    "Numerics",
+    "Observation",
+    "Policy",
+    "Robot",
+    "Scene",
+    "Simulation",
+    "Status",
+    "Surface",
+    "Trajectory",
+    "load",
+    "measure",
+    "predict",
+    "rollout",
+    "simulate",
+    "simulate_all",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("undulator")
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'mjsim' has no attribute {name!r}")
+    return getattr(import_module(_HOME_OF[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted([*__all__, "__version__"])

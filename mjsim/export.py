@@ -1,32 +1,67 @@
-"""Write models/: the robot and the three scenes of the default robot, as MJCF to open and share.
+"""Write scenes as MJCF that walks by itself: `python -m mjsim.export`."""
 
-`python -m mjsim.export` writes them anew, textures included.
-"""
-
-from collections.abc import Iterator
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from analytic import SURFACES
-from mjsim.ground.textures import write_textures
-from mjsim.io.assets import MODELS
-from mjsim.mjcf.builder import robot_mjcf, scene_mjcf, to_xml
+from analytic.surface import SURFACES
+from mjsim.io.cli import fail, parse
+from mjsim.io.files import check_folder
 from mjsim.scene import Numerics, Scene
+from mjsim.scene.options import SceneOptions, tables_of
+from mjsim.scene.tables import build
+from mjsim.video import gl
+
+PROGRAM = "python -m mjsim.export"
 
 
-def documents() -> Iterator[tuple[str, str]]:
-    """File names in models/ and their text."""
-    numerics = Numerics()
-    yield "robot.xml", to_xml(robot_mjcf(Scene(), numerics))
-    for surface in SURFACES.values():
-        yield f"{surface.name}.xml", to_xml(scene_mjcf(Scene(surface=surface), numerics))
+@dataclass(frozen=True)
+class Options(SceneOptions):
+    """Write a scene as MJCF with its textures, to open in MuJoCo's viewer and to drive.
+
+    Actuators take the pressures of the segments in Pa; friction is MuJoCo's own, by load; chambers
+    are at constant pressure. The files load from any folder on any machine with mujoco 3.17 or
+    later 3.x, and in dm_control by mjcf.from_path. MuJoCo 4 has no <composite>, but reads the
+    exported cable, which is written out as its bodies. Exit code 0: done; 2: bad input.
+
+    Example: python -m mjsim.export --scene my.toml --out folder
+    """
+
+    out: Path = Path("exported")
+    """folder for the files, made if need be"""
+    models: bool = False
+    """write the scenes of models/: the default robot on each named surface, and a cable and a rod"""
 
 
-def main(folder: Path = MODELS) -> None:
-    """Write every generated file of models/."""
-    write_textures(folder / "textures")
-    for name, text in documents():
-        (folder / name).write_text(text)
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    options = parse(Options, PROGRAM, argv)
+    gl.prepare()
+    from mjsim.mjcf.standalone import write
+
+    try:
+        if options.models:
+            cases = list(documents())
+        else:
+            built = [build(tables) for tables in tables_of(options)]
+            cases = [(scene.ground.name, scene, numerics) for scene, numerics in built]
+        check_folder(options.out)
+        for name, scene, numerics in cases:
+            write(scene, options.out / f"{name}.xml", numerics)
+            print(options.out / f"{name}.xml")
+    except (ValueError, OSError) as error:
+        fail(PROGRAM, str(error))
+    return 0
+
+
+def documents() -> Iterator[tuple[str, Scene, Numerics]]:
+    """Names of the files in models/, and what they hold."""
+    for name, surface in SURFACES.items():
+        yield name, Scene(ground=surface), Numerics()
+    for body in ("cable", "rod"):
+        yield body, replace(Scene(ground=SURFACES["gelatin"]), body=body), Numerics(links=12)
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

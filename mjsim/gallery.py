@@ -1,35 +1,53 @@
 """Make the videos and the picture that the README shows: `python -m mjsim.gallery`."""
 
+import os
 import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-from PIL import Image
-
-from analytic import SURFACES
-from mjsim.scene import Scene
+from mjsim.io.cli import FAILED, fail, parse
+from mjsim.io.files import check_folder
 from mjsim.video import gl
 
-FOLDER = Path("docs")
-MOMENT = 4.0  # s; two segments inflated, the arch at its steepest
+PROGRAM = "python -m mjsim.gallery"
 
 
-def main() -> int:
-    """Walk one cycle on each surface and film it."""
+@dataclass(frozen=True)
+class Options:
+    """Walk one cycle on each named surface and film it.
+
+    Writes a video a surface, one of all, and a picture of the start and the end of the cycle on
+    each. Exit code 0: done; 2: bad input; 3: nothing here can render.
+    """
+
+    out: Path = Path("docs")
+    """folder for the videos and the picture, made if need be"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    options = parse(Options, PROGRAM, argv)
+    try:
+        check_folder(options.out)
+    except ValueError as error:
+        fail(PROGRAM, str(error))
     if gl.use_backend() is None:
         print(gl.HELP, file=sys.stderr)
-        return 1
+        return FAILED
+    os.environ.pop("PYOPENGL_PLATFORM", None)
 
+    from analytic.surface import SURFACES
+    from mjsim.scene import Scene
     from mjsim.simulation.simulation import simulate
-    from mjsim.video.recording import bands, write_video
+    from mjsim.video.poster import poster
+    from mjsim.video.recording import film
 
-    FOLDER.mkdir(exist_ok=True)
-    walks = [simulate(Scene(surface=surface)) for surface in SURFACES.values()]
-    for walk in walks:
-        write_video([walk], FOLDER / f"{walk.scene.surface.name}.mp4")
-    write_video(walks, FOLDER / "all.mp4")
-    picture = Image.fromarray(next(bands(walks, np.array([MOMENT]))))
-    picture.save(FOLDER / "surfaces.jpg", quality=88)
+    walks = [simulate(Scene(ground=surface)) for surface in SURFACES.values()]
+    paths = [options.out / f"{name}.mp4" for name in SURFACES]
+    film(walks, paths, options.out / "all.mp4")
+    poster(walks).save(options.out / "surfaces.jpg", quality=85)
+    print(*paths, options.out / "all.mp4", options.out / "surfaces.jpg", sep="\n")
     return 0
 
 

@@ -41,7 +41,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except (OSError, KeyError, ValueError, json.JSONDecodeError) as error:
         fail(PROGRAM, f"cannot read a trajectory from {str(options.trajectory)!r}: {error}")
     video = options.trajectory.with_suffix(".mp4")
-    write_video([walk], video)
+    write_video(walk, video)
     print(video)
     return 0
 

@@ -3,9 +3,14 @@
 import math
 from typing import Any
 
-from analytic import REFERENCE, Prediction, direction, predict
-from analytic.locomotion import undecided
-from mjsim.simulation.measures import measure
+from analytic import pneunet
+from analytic.friction import friction_number
+from analytic.locomotion import direction, undecided
+from analytic.prediction import REFERENCE, Elastica, Prediction, predict
+from analytic.surface import Surface
+from mjsim.scene import Scene
+from mjsim.scene.scene import STRONG_FRICTION
+from mjsim.simulation.measures import measure, slid_over_length
 from mjsim.simulation.trajectory import Trajectory
 
 _OPEN = 1e-4  # of the length: less is a rounding
@@ -16,13 +21,13 @@ def record(walk: Trajectory) -> dict[str, Any]:
     scene, numerics = walk.scene, walk.numerics
     prediction = reference(walk)
     predicted = prediction.locomotion.per_cycle / scene.robot.length
-    known = predicted == predicted  # not NaN
-    coulomb = scene.friction == "coulomb"
-    tied = undecided(prediction.shapes, scene.surface) / scene.robot.length if coulomb else 0.0
-    measured = measure(walk)
+    known = math.isfinite(predicted)
+    numbers = measure(walk)
     simulated = float(len(walk.time) * numerics.timestep)
+    shift = numbers.displacement if numbers else None
+    meters = None if shift is None else shift * scene.robot.length
     return {
-        "surface": scene.surface.name,
+        "surface": scene.ground.name,
         "gait": scene.gait.name,
         "body": scene.body,
         "friction": scene.friction,
@@ -30,18 +35,22 @@ def record(walk: Trajectory) -> dict[str, Any]:
         "links": numerics.links,
         "timestep_s": numerics.timestep,
         "peak_pressure_Pa": scene.robot.peak_pressure,
-        "displacement_over_L": measured and measured.displacement,
-        "direction": measured and measured.direction,
+        "displacement_over_L": shift,
+        "displacement_m": meters,
+        "speed_m_per_s": None if meters is None else meters / scene.gait.period,
+        "direction": numbers and numbers.direction,
         "predicted_by": REFERENCE,
         "predicted_displacement_over_L": predicted if known else None,
         "predicted_direction": direction(predicted, 1.0) if known else None,
-        "prediction_undecided_over_L": tied,
+        "prediction_undecided_over_L": _undecided(scene, prediction) if known else None,
         "prediction_flags": [flag.name for flag in prediction.flags],
-        "error_over_L": measured.displacement - predicted if measured and known else None,
-        "slip_over_L": measured and measured.slip,
-        "heading_deg": measured and math.degrees(measured.heading),
-        "sideways_over_L": measured and measured.sideways,
-        "amplitude_over_L": measured and measured.amplitude,
+        "prediction_notes": notes(scene),
+        "error_over_L": None if shift is None or not known else shift - predicted,
+        "unexplained_over_L": numbers and numbers.unexplained,
+        "heading_deg": numbers and math.degrees(numbers.heading),
+        "sideways_over_L": numbers and numbers.sideways,
+        "amplitude_over_L": numbers and numbers.amplitude,
+        "slid_over_L": slid_over_length(walk) if walk.status == "slid" else None,
         "sim_time_s": simulated,
         "wall_time_s": walk.wall_time,
         "realtime_factor": simulated / walk.wall_time,
@@ -56,21 +65,41 @@ def reference(walk: Trajectory) -> Prediction:
     it is theirs that the reference follows.
     """
     scene = walk.scene
-    path = walk.pressure[walk.start :] if scene.lag else None
+    path = walk.pressure[walk.start :] if scene.lag and walk.time[-1] > 0 else None
     return predict(
         scene.robot,
         scene.gait,
-        scene.surface,
-        friction=scene.hold,
-        chamber=scene.chamber,
+        scene.ground,
+        Elastica(chamber=scene.chamber),
+        friction=scene.reference_friction,
         path=path,
+        cycles=1 if path is None else scene.cycles,
     )
+
+
+def notes(scene: Scene) -> list[str]:
+    """What the prediction leaves out that matters for the scene."""
+    surface = scene.ground
+    if not isinstance(surface, Surface) or scene.reference_friction.tension:
+        return []
+    number = friction_number(surface, scene.robot, pneunet.base_rigidity(scene.robot))
+    if number <= STRONG_FRICTION:
+        return []
+    return [f"strong friction (Phi {number:.3g}) bends the strip, the prediction leaves that out"]
+
+
+def _undecided(scene: Scene, prediction: Prediction) -> float:
+    """Displacement per cycle over L that hangs on ties under Coulomb friction."""
+    if scene.friction != "coulomb" or not isinstance(scene.ground, Surface):
+        return 0.0
+    cycles = scene.cycles if scene.lag else 1
+    return undecided(prediction.shapes, scene.ground) / (scene.robot.length * cycles)
 
 
 def table(records: list[dict[str, Any]]) -> str:
     """One line a run: direction and displacement beside the prediction, and what it cost."""
     head = (
-        f"{'surface':<14}{'direction':<11}{'Δ/L':>9}{REFERENCE:>9}{'error':>9}{'slip':>9}"
+        f"{'surface':<14}{'direction':<11}{'Δ/L':>9}{REFERENCE:>9}{'error':>9}{'unexpl.':>9}"
         f"{'height/L':>10}{'sim s':>8}{'wall s':>8}{'× real':>8}  status"
     )
     return "\n".join([head, *(_line(row) for row in records)])
@@ -80,18 +109,21 @@ def _line(row: dict[str, Any]) -> str:
     return (
         f"{row['surface']:<14}{row['direction'] or '-':<11}"
         f"{_signed(row['displacement_over_L'])}{_signed(row['predicted_displacement_over_L'])}"
-        f"{_signed(row['error_over_L'])}{_signed(row['slip_over_L'])}"
+        f"{_signed(row['error_over_L'])}{_signed(row['unexplained_over_L'])}"
         f"{_plain(row['amplitude_over_L'])}{row['sim_time_s']:>8.1f}{row['wall_time_s']:>8.2f}"
-        f"{row['realtime_factor']:>8.0f}  {row['status']}{_flags(row)}"
+        f"{row['realtime_factor']:>8.0f}  {row['status']}{_remarks(row)}"
     )
 
 
-def _flags(row: dict[str, Any]) -> str:
-    """What the reference met on its way, where it met anything."""
-    met = [flag.lower() for flag in row["prediction_flags"]]
-    if row["prediction_undecided_over_L"] > _OPEN:
-        met.append(f"undecided by ±{row['prediction_undecided_over_L']:.3f}")
-    return f" ({row['predicted_by']}: {', '.join(met)})" if met else ""
+def _remarks(row: dict[str, Any]) -> str:
+    """What the reference met on its way and leaves out, and how far a slope dragged the strip."""
+    remarks = [flag.lower() for flag in row["prediction_flags"]] + row["prediction_notes"]
+    if (row["prediction_undecided_over_L"] or 0.0) > _OPEN:
+        remarks.append(f"undecided by ±{row['prediction_undecided_over_L']:.3f}")
+    text = f" ({row['predicted_by']}: {', '.join(remarks)})" if remarks else ""
+    if row["slid_over_L"] is not None:
+        text += f" {row['slid_over_L']:.3f} L downhill: no bound holds its weight there"
+    return text
 
 
 def _signed(value: float | None) -> str:

@@ -65,5 +65,5 @@ class Body(Protocol):
     def bind(
         self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Numerics
     ) -> Joints:
-        """The joints of the compiled model, whose names begin with "robot/"."""
+        """The joints of the compiled model, whose names begin with "robot_"."""
         ...

@@ -19,7 +19,7 @@ FAR = 100.0  # m; a line to a point this far is horizontal to 1 part in 1e6
 _FARTHER = 1e4  # m; a walk of 0.1 m changes the distance to there by 1e-6 m
 _NO_BOUND = 1e-12  # N; without any bound a tendon would get no row to be given one
 TENDONS = ("left", "right", "both")
-PREFIX = "robot/"  # of the strip's names once it is on its ground
+PREFIX = "robot_"  # of the strip's names once it is on its ground
 TEMPLATE = Path(__file__).with_name("strip.xml")
 
 Place = tuple[float, float, float]

@@ -134,6 +134,7 @@ class BoundedEnds(_Ends):
         else:
             bounds[:3] = left, right, 0.0
 
+
 class ContactFriction(_Ends):
     """Coulomb friction of the pads.
 

@@ -17,7 +17,7 @@ def stage(ground: Ground) -> mujoco.MjSpec:
     spec.texturedir = str(MODELS / "textures")
     look = mujoco.MjSpec.from_file(str(look_of(ground)))
     look.texturedir = str(MODELS / "textures")
-    spec.attach(look, prefix="surface/", frame=spec.worldbody.add_frame())
+    spec.attach(look, prefix="surface_", frame=spec.worldbody.add_frame())
     return spec
 
 

@@ -2,18 +2,20 @@
 
 import contextlib
 import io
+import json
+import math
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NoReturn, TypeVar
 
 import tyro
-from tqdm import tqdm
 
 Options = TypeVar("Options")
 
 BAD_INPUT, FAILED = 2, 3  # exit codes, beside 0
 ALL = "all"
+_PLAINER = str.maketrans({"Δ": "D", "×": "x", "±": "+-", "°": "deg"})
 _PATIENCE = 2.0  # s before a progress bar shows
 
 
@@ -21,6 +23,29 @@ def fail(program: str, message: str) -> NoReturn:
     """Print one line on stderr and leave with the code for bad input."""
     print(f"{program}: error: {' '.join(message.split())}", file=sys.stderr)
     sys.exit(BAD_INPUT)
+
+
+def say(text: str) -> None:
+    """Print, in plainer letters where the terminal has no better ones."""
+    encoding = sys.stdout.encoding or "ascii"
+    try:
+        text.encode(encoding)
+    except UnicodeEncodeError:
+        text = text.translate(_PLAINER).encode(encoding, "replace").decode(encoding)
+    print(text)
+
+
+def strict_json(value: object) -> str:
+    """JSON, with null for numbers that are none."""
+
+    def clean(item: object) -> object:
+        if isinstance(item, dict):
+            return {key: clean(part) for key, part in item.items()}
+        if isinstance(item, list | tuple):
+            return [clean(part) for part in item]
+        return None if isinstance(item, float) and not math.isfinite(item) else item
+
+    return json.dumps(clean(value), allow_nan=False)
 
 
 def choose(name: str, text: str, valid: Iterable[str]) -> list[str]:
@@ -40,13 +65,17 @@ def choose(name: str, text: str, valid: Iterable[str]) -> list[str]:
 @contextlib.contextmanager
 def bar(text: str, total: int) -> Iterator[Callable[[int], None]]:
     """A progress bar on stderr for what takes long, where stderr is a terminal."""
+    if not sys.stderr.isatty():
+        yield lambda steps: None
+        return
+    from tqdm import tqdm
+
     with tqdm(
         total=total,
         desc=text,
         delay=_PATIENCE,
         leave=False,
         file=sys.stderr,
-        disable=not sys.stderr.isatty(),
     ) as shown:
         yield lambda steps: (shown.update(steps), None)[1]
 
@@ -80,11 +109,13 @@ def _first_message(text: str) -> str:
 
 
 def _plain(message: str) -> str:
-    """What tyro says of a word that is no number, in the words of our own checks."""
+    """What tyro says of a word that is no number or no choice, in the words of our own checks."""
     number = re.fullmatch(
-        r"(?i)Error parsing --(\S+): .*\b(int|float)\b.*(?:: |from \[)('.*?')\]?\.?", message
+        r"(?i)Error parsing (?:--\S+/)?--([^\s/]+): .*\b(int|float)\b.*(?:: |from \[)('.*?')\]?\.?",
+        message,
     )
-    if number is None:
-        return f"{message} (see --help)"
-    name, kind, word = number.groups()
-    return f"{name} must be a {'whole ' if kind.lower() == 'int' else ''}number, got {word}"
+    if number is not None:
+        name, kind, word = number.groups()
+        name = name.rpartition(".")[2].replace("-", "_")
+        return f"{name} must be a {'whole ' if kind.lower() == 'int' else ''}number, got {word}"
+    return f"{message} (see --help)"

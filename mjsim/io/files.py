@@ -1,6 +1,7 @@
 """Files that appear under their name only when they are whole."""
 
 import os
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -8,13 +9,38 @@ from pathlib import Path
 
 @contextmanager
 def whole(path: Path) -> Iterator[Path]:
-    """A hidden path beside `path`, of the same ending, to write to.
+    """A hidden path beside `path`, of the same ending and nobody else's, to write to.
 
     It takes the name of `path` when the block ends well, and is gone if it does not.
     """
-    part = path.with_name(f".{path.stem}.part{path.suffix}")
+    handle, name = tempfile.mkstemp(suffix=path.suffix, prefix=".part-", dir=path.parent)
+    os.close(handle)
+    part = Path(name)
     try:
         yield part
+        part.chmod(0o666 & ~_umask())
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)
+
+
+def check_folder(folder: Path) -> None:
+    """Make a folder and try to write in it, before any work is done.
+
+    Raises:
+        ValueError: it cannot be written.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise ValueError(
+            f"out must be a folder that can be written, got {str(folder)!r}: {reason}"
+        ) from error
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

@@ -1,7 +1,7 @@
 """Many walks at once, on all cores.
 
-`rollout` leaves the stepping to MuJoCo's threads: a gait of actuated chambers on Coulomb's ground
-is a control sequence, and needs no Python in the loop. The constant-bound law does, which threads would
+`rollout` leaves the stepping to MuJoCo's threads: a gait of actuated chambers under Coulomb friction
+is a control sequence, and needs no Python in the loop. Bounds of the ends do, which threads would
 only wait for each other with: `simulate_all` has processes.
 """
 
@@ -10,33 +10,83 @@ import os
 import time as clock
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
-from functools import partial
+from concurrent.futures.process import BrokenProcessPool
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
 from mujoco import rollout as mujoco_rollout
+from numpy.typing import NDArray
 
 from mjsim.bodies.pneumatics import chamber_pressure, controls
 from mjsim.mjcf.builder import compile_model
-from mjsim.scene import Numerics, Scene, default_numerics
-from mjsim.simulation.simulation import begin, finish, schedule, simulate
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.simulation import (
+    before_start,
+    check_steps,
+    positions,
+    simulate,
+    walking_steps,
+)
+from mjsim.simulation.status import Status, judge
 from mjsim.simulation.trajectory import Trajectory
+
+Array = NDArray[np.float64]
+
+_UNGUARDED = (
+    "simulate_all starts processes that import the script again: put what it does below "
+    'if __name__ == "__main__":'
+)
+
+
+class Refused(NamedTuple):
+    """A scene that could not be simulated.
+
+    Attributes:
+        scene: it.
+        message: why, in one line.
+    """
+
+    scene: Scene
+    message: str
 
 
 def simulate_all(
     scenes: Sequence[Scene], numerics: Numerics | None = None, workers: int | None = None
-) -> list[Trajectory]:
+) -> list[Trajectory | Refused]:
     """`simulate` for each scene, in order, in processes that take a second to start.
 
     Args:
         scenes: the walks.
-        numerics: for all of them; each its own default if None.
+        numerics: for all of them; chosen for each if None.
         workers: processes; one a core if None.
+
+    Returns:
+        A trajectory a scene, or why there is none.
+
+    Raises:
+        RuntimeError: called while a process imports the script anew, for want of a main guard.
     """
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
+        raise SystemExit(_UNGUARDED)  # the parent says it, in one line
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(["mjsim.simulation.simulation"])
     with ProcessPoolExecutor(workers or os.cpu_count(), mp_context=context) as pool:
-        return list(pool.map(partial(simulate, numerics=numerics), scenes))
+        futures = [pool.submit(_attempt, scene, numerics) for scene in scenes]
+        try:
+            return [future.result() for future in futures]
+        except BrokenProcessPool as error:
+            raise RuntimeError(_UNGUARDED) from error
+        except KeyboardInterrupt:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+def _attempt(scene: Scene, numerics: Numerics | None) -> Trajectory | Refused:
+    try:
+        return simulate(scene, numerics)
+    except ValueError as error:
+        return Refused(scene, str(error))
 
 
 def rollout(
@@ -45,11 +95,11 @@ def rollout(
     """Walks by `mujoco.rollout`, their gaits as control sequences.
 
     What only the loop in Python does is missing: the outermost pads keep the friction of tips when
-    an end lies on its side, and contact lengths and overlap are NaN.
+    an end lies on its side, and contact lengths and slip fractions are NaN.
 
     Args:
-        scenes: of one body, robot layout and duration, with actuators, under the Coulomb law.
-        numerics: for all of them; the default of the first if None.
+        scenes: of one body, robot layout and duration, with actuators, under Coulomb friction.
+        numerics: for all of them; chosen for each if None.
         threads: at work at a time; one a core if None.
 
     Raises:
@@ -61,36 +111,65 @@ def rollout(
                 "a rollout needs actuation actuators and friction coulomb, got "
                 f"{scene.actuation} and {scene.friction}"
             )
-    numerics = numerics or default_numerics(scenes[0].body, scenes[0].friction)
-    commands = [schedule(scene, numerics) for scene in scenes]
-    if len({command.shape for _, command in commands}) > 1:
+    if not scenes:
+        return []
+    numerics = (numerics or Numerics()).resolved(scenes[0].body, scenes[0].friction)
+    commands = [_commands(scene, numerics) for scene in scenes]
+    if len({command.shape for command in commands}) > 1:
         raise ValueError("scenes of a rollout must be of one duration and number of segments")
     models = [compile_model(scene, numerics) for scene in scenes]
-    states = [begin(model, scene)[1] for model, scene in zip(models, scenes, strict=True)]
+    states = np.array([_first_state(model) for model in models])
+    rest = np.zeros(commands[0].shape[1])
+    pressures = [
+        chamber_pressure(scene, numerics, command, rest)
+        for scene, command in zip(scenes, commands, strict=True)
+    ]
     sequence = np.array(
-        [controls(s, numerics, command) for s, (_, command) in zip(scenes, commands, strict=True)]
+        [
+            controls(scene, numerics, command, rest, pressure)
+            for scene, command, pressure in zip(scenes, commands, pressures, strict=True)
+        ]
     )
     scratch = [mujoco.MjData(models[0]) for _ in range(threads or os.cpu_count() or 1)]
     started, worked = clock.perf_counter(), clock.process_time()
-    found, _ = mujoco_rollout.rollout(models, scratch, np.array(states), sequence)
+    recorded, _ = mujoco_rollout.rollout(models, scratch, states, sequence)
     wall_time = (clock.perf_counter() - started) / len(scenes)
     cpu_time = (clock.process_time() - worked) / len(scenes)
     walks = []
-    for scene, model, (time, command), state in zip(scenes, models, commands, found, strict=True):
-        unknown = np.full(len(time), np.nan)
-        walks.append(
-            finish(
-                model,
-                scene=scene,
-                numerics=numerics,
-                time=time,
-                pressure=chamber_pressure(scene, numerics, command),
-                coordinates=state[:, 1 : 1 + model.nq],  # after the time
-                contact_left=unknown,
-                contact_right=unknown,
-                left_slip_fraction=unknown,
-                wall_time=wall_time,
-                cpu_time=cpu_time,
-            )
+    for scene, model, pressure, state in zip(scenes, models, pressures, recorded, strict=True):
+        coordinates = state[:, 1 : 1 + model.nq]  # after the time
+        unknown = np.full(len(coordinates), np.nan)
+        first = walking_steps(scene, numerics) - len(coordinates) + 1
+        walk = Trajectory(
+            scene=scene,
+            numerics=numerics,
+            status=Status.OK,
+            time=np.arange(first, first + len(coordinates)) * numerics.timestep,
+            pressure=pressure,
+            coordinates=coordinates,
+            position=positions(model, numerics, coordinates),
+            contact_left=unknown,
+            contact_right=unknown,
+            left_slip_fraction=unknown,
+            wall_time=wall_time,
+            cpu_time=cpu_time,
         )
+        walks.append(judge(walk))
     return walks
+
+
+def _commands(scene: Scene, numerics: Numerics) -> Array:
+    """Commands of the valves at each step, what comes before the first cycle included (T, S)."""
+    check_steps(scene, numerics)
+    time = np.arange(1.0, walking_steps(scene, numerics) + 1.0) * numerics.timestep
+    gait = scene.robot.peak_pressure * scene.gait.fractions(time)
+    return np.concatenate([before_start(scene, numerics), gait])
+
+
+def _first_state(model: mujoco.MjModel) -> Array:
+    """The strip lying on the ground, as MuJoCo's vector of its full physics state."""
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    state = np.empty(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_FULLPHYSICS))
+    mujoco.mj_getState(model, data, state, mujoco.mjtState.mjSTATE_FULLPHYSICS)
+    return state

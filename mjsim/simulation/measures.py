@@ -1,25 +1,31 @@
-"""Numbers of one walk: how far, which way, how high, how straight, and how much was slip."""
+"""Numbers of one walk: how far, which way, how high, how straight, and what is unexplained."""
 
 import math
 from typing import NamedTuple
 
 import numpy as np
 
-from analytic import Direction, direction
-from mjsim.simulation.status import Status
+from analytic.locomotion import Direction, direction
+from mjsim.simulation.status import Status, slid
 from mjsim.simulation.trajectory import Trajectory
 
 
 class Measures(NamedTuple):
-    """Attributes, lengths over L: displacement of the left end per cycle; its direction; greatest
-    height; slip, the displacement per cycle that the anchor rule does not account for; the angle
-    it turned by to the left [rad]; and how far any of it ever was beside its plane.
+    """Numbers of a walk, lengths over L.
+
+    Attributes:
+        displacement: of the left end per cycle.
+        direction: of it.
+        amplitude: greatest height.
+        unexplained: displacement per cycle that the anchor rule does not account for.
+        heading: the angle it turned by to the left [rad].
+        sideways: how far any of it ever was beside its plane.
     """
 
     displacement: float
     direction: Direction
     amplitude: float
-    slip: float
+    unexplained: float
     heading: float
     sideways: float
 
@@ -27,8 +33,9 @@ class Measures(NamedTuple):
 def measure(walk: Trajectory) -> Measures | None:
     """Measures of a walk that ended well; None of one that did not, as it has none.
 
-    Slip is what inertia drags the anchored end along for want of friction. It vanishes as the gait
-    slows, and is a lower bound on the error of the displacement at finite speed.
+    What the anchor rule does not explain is what inertia drags the anchored end along for want of
+    friction. It vanishes as the gait slows, and is a lower bound on the error of the displacement
+    at finite speed.
     """
     if walk.status is not Status.OK:
         return None
@@ -44,7 +51,12 @@ def measure(walk: Trajectory) -> Measures | None:
         displacement=travel / (cycles * length),
         direction=direction(travel / cycles, length),
         amplitude=float(z[begin:].max()) / length,
-        slip=(travel - ruled) / (cycles * length),
+        unexplained=(travel - ruled) / (cycles * length),
         heading=math.atan2(aside, along),
         sideways=float(np.abs(walk.position[..., 1]).max()) / length,
     )
+
+
+def slid_over_length(walk: Trajectory) -> float:
+    """How far both ends went downhill together, over L."""
+    return slid(walk) / walk.scene.robot.length

@@ -50,12 +50,12 @@ def _status(walk: "Trajectory", stopped: bool, unsettled: bool) -> Status:
         return Status.TURNED
     if stopped:
         return Status.TOPPLED
-    if _slid(walk) > _SLID * length:
+    if slid(walk) > _SLID * length:
         return Status.SLID
     return Status.UNSETTLED if unsettled else Status.OK
 
 
-def _slid(walk: "Trajectory") -> float:
+def slid(walk: "Trajectory") -> float:
     """How far both ends went downhill together [m]."""
     if not walk.scene.slope:
         return 0.0

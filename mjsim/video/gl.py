@@ -1,23 +1,23 @@
 """Which OpenGL backend renders without a screen: EGL, else OSMesa, else none.
 
 MuJoCo reads MUJOCO_GL once, when it is imported, and has no fallback; a backend whose library is
-there can still fail at the first context. So the default is set from the libraries present, and
-`find_backend` tries each one in a child process before a video is promised.
+there can still fail at the first context. So `find_backend` tries each one in a child process before
+a video is promised, and videos are drawn in processes of their own.
 """
 
-import ctypes.util
 import os
 import subprocess
 import sys
 
 VARIABLE = "MUJOCO_GL"
 NONE = "off"
-_LIBRARIES = {"egl": "EGL", "osmesa": "OSMesa"}
+_BACKENDS = ("egl", "osmesa")
 _PROBE = (
     "import mujoco as m\n"
     "with m.Renderer(m.MjModel.from_xml_string('<mujoco/>'), 8, 8) as renderer:\n"
     "    renderer.render()\n"
 )
+_chosen: dict[str, str] = {}  # what the user asked for, before `prepare`
 _PROBE_TIMEOUT = 60  # s; software rendering compiles its shaders on first use
 
 HELP = (
@@ -26,13 +26,19 @@ HELP = (
 )
 
 
-def set_default_backend() -> None:
-    """Set MUJOCO_GL from the libraries on this machine, unless the user has set it."""
-    found = (name for name, lib in _LIBRARIES.items() if ctypes.util.find_library(lib))
-    os.environ.setdefault(VARIABLE, next(found, NONE))
+def prepare() -> None:
+    """Let mujoco be imported without OpenGL, for a program that draws in other processes only.
+
+    An OpenGL that MUJOCO_GL or PYOPENGL_PLATFORM names and that is not there would else fail at the
+    import, of a program that draws nothing, too.
+    """
+    if "mujoco" not in sys.modules:
+        _chosen.setdefault(VARIABLE, os.environ.get(VARIABLE, NONE))
+        os.environ[VARIABLE] = NONE
+        os.environ.pop("PYOPENGL_PLATFORM", None)
 
 
-def cases(backend: str) -> bool:
+def renders(backend: str) -> bool:
     """Whether a child process can render one frame with this backend."""
     environment = {**os.environ, VARIABLE: backend}
     environment.pop("PYOPENGL_PLATFORM", None)
@@ -54,13 +60,13 @@ def find_backend() -> str | None:
 
     See `use_backend`.
     """
-    chosen = os.environ.get(VARIABLE, NONE)
-    candidates = [chosen, *_LIBRARIES] if chosen != NONE else [*_LIBRARIES]
-    return next((name for name in dict.fromkeys(candidates) if cases(name)), None)
+    chosen = _chosen.get(VARIABLE) or os.environ.get(VARIABLE, NONE)
+    candidates = [chosen, *_BACKENDS] if chosen != NONE else [*_BACKENDS]
+    return next((name for name in dict.fromkeys(candidates) if renders(name)), None)
 
 
 def use_backend() -> str | None:
-    """Set MUJOCO_GL to the backend that renders and return it; call before mujoco is imported."""
+    """Set MUJOCO_GL to the backend that renders, for processes that start later; return it."""
     backend = find_backend()
     if backend:
         os.environ[VARIABLE] = backend

@@ -2,14 +2,18 @@
 
 from typing import NamedTuple
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic import Robot
 from analytic.chain import link_lengths, node_positions
+from analytic.robot import Robot
+from mjsim.bodies.parts import PALE, PREFIX
+from mjsim.scene import Numerics
 
 Array = NDArray[np.float64]
 
+PALE_SKIN = (*PALE, 1.0)
 CELLS = 6  # pneu-net chambers drawn per segment; chosen, the theory needs only their fraction
 _PER_CELL = 8  # stations along a cell
 _CORNER = 5  # points round each upper corner
@@ -27,6 +31,21 @@ class Skin(NamedTuple):
     vertex: Array
     face: NDArray[np.int_]
     bones: list[tuple[int, NDArray[np.int_], Array]]
+
+
+def add_skins(spec: mujoco.MjSpec, robot: Robot, numerics: Numerics) -> None:
+    """Give a planar strip on its ground what it looks like, a skin a segment."""
+    nodes = node_positions(robot, numerics.links)
+    assert numerics.pad_radius is not None
+    for segment in range(len(robot.segments)):
+        shape = segment_skin(robot, numerics.links, segment, numerics.pad_radius)
+        skin = spec.add_skin(name=f"segment_{segment + 1}", rgba=PALE_SKIN)
+        skin.vert, skin.face = shape.vertex.ravel(), shape.face.ravel()
+        skin.bodyname = [f"{PREFIX}link_{link}" for link, _, _ in shape.bones]
+        skin.bindpos = np.ravel([(nodes[link], 0.0, 0.0) for link, _, _ in shape.bones])
+        skin.bindquat = [1.0, 0.0, 0.0, 0.0] * len(shape.bones)
+        skin.vertid = [moved.tolist() for _, moved, _ in shape.bones]
+        skin.vertweight = [weight.tolist() for _, _, weight in shape.bones]
 
 
 def segment_skin(robot: Robot, links: int, segment: int, below: float) -> Skin:

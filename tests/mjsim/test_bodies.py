@@ -89,7 +89,7 @@ def test_a_robot_that_is_turned_away_has_no_displacement(monkeypatch):
 def test_every_body_weighs_what_the_theory_says(body):
     scene = Scene(body=body)
     model = compile_model(scene, small(body))
-    weight = model.body("robot/").subtreemass[0] * scene.gravity
+    weight = model.body("robot_").subtreemass[0] * scene.gravity
     assert weight == pytest.approx(Robot().weight_per_length * Robot().length, rel=1e-8)
 
 
@@ -136,7 +136,7 @@ def test_contacts_of_bodies_in_space_are_those_of_the_low_pads_in_order(body):
     result = walk("felt", links=12, body=body)
     model = compile_model(result.scene, result.numerics)
     data = mujoco.MjData(model)
-    pads = [i for i in range(model.ngeom) if model.geom(i).name.startswith("robot/pad_")]
+    pads = [i for i in range(model.ngeom) if model.geom(i).name.startswith("robot_pad_")]
     assert pads == list(range(pads[0], pads[-1] + 1))
     for step in range(0, len(result.time), 29):
         data.qpos[:] = result.coordinates[step]

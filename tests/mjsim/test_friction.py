@@ -27,7 +27,7 @@ class PADS:
 
     @staticmethod
     def geom(which):
-        return SimpleNamespace(id=0, name="robot/pad_0")
+        return SimpleNamespace(id=0, name="robot_pad_0")
 
 
 lengths = st.floats(0.0, 0.4).map(lambda part: part * Scene().robot.length)
@@ -89,7 +89,7 @@ def test_contacts_are_those_of_the_pads_below_their_radius_in_order():
     result = walk("felt")
     model = compile_model(scene, numerics)
     data = mujoco.MjData(model)
-    first = model.geom("robot/pad_0").id
+    first = model.geom("robot_pad_0").id
     for step in range(0, len(result.time), 7):
         data.qpos[:] = result.coordinates[step]
         mujoco.mj_forward(model, data)

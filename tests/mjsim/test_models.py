@@ -57,14 +57,14 @@ def test_a_chain_of_n_links_has_n_hinges_and_three_degrees_more(model):
 
 
 def test_the_strip_weighs_what_the_theory_says(model):
-    weight = model.body("robot/link_0").subtreemass[0] * -model.opt.gravity[2]
+    weight = model.body("robot_link_0").subtreemass[0] * -model.opt.gravity[2]
     assert weight == pytest.approx(Robot().weight_per_length * Robot().length, rel=1e-8)  # 9 digits
 
 
 def test_pads_sit_on_the_neutral_line_and_push_straight_up(model):
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    pads = [model.geom(f"robot/pad_{i}") for i in range(Numerics().links + 2)]
+    pads = [model.geom(f"robot_pad_{i}") for i in range(Numerics().links + 2)]
     for pad in pads:
         assert pad.condim[0] == 1
         assert pad.priority[0] == 1  # so that the ground's own softness has no say
@@ -76,8 +76,8 @@ def test_pads_sit_on_the_neutral_line_and_push_straight_up(model):
 def test_nothing_but_pads_touches_the_ground(model):
     colliding = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
     names = {model.geom(i).name for i in np.flatnonzero(colliding)}
-    pads = {f"robot/pad_{i}" for i in range(Numerics().links + 2)}
-    assert names == pads | {"surface/floor"}
+    pads = {f"robot_pad_{i}" for i in range(Numerics().links + 2)}
+    assert names == pads | {"surface_floor"}
 
 
 def test_friction_tendons_read_the_ends_and_their_mean(model):
@@ -85,7 +85,7 @@ def test_friction_tendons_read_the_ends_and_their_mean(model):
     for x in (0.0, 0.02):
         data.qpos[0] = x
         mujoco.mj_forward(model, data)
-        left, right, both = (data.ten_length[model.tendon(f"robot/{n}").id]
+        left, right, both = (data.ten_length[model.tendon(f"robot_{n}").id]
                              for n in ("left", "right", "both"))  # fmt: skip
         assert left == pytest.approx(100 + x)
         assert right == pytest.approx(100 + x + Robot().length)

@@ -90,7 +90,7 @@ def _diverged(data: mujoco.MjData) -> bool:
 
 def _tip(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[float, float, float]:
     mujoco.mj_kinematics(model, data)
-    x, y, z = data.site_xpos[model.site("robot/end_right").id]
+    x, y, z = data.site_xpos[model.site("robot_end_right").id]
     return float(x), float(y), float(z)
 
 
@@ -111,7 +111,7 @@ def _clamped(setting: Setting) -> mujoco.MjModel:
         spec.delete(tendon)
     held = ("rod_0", "rod_1") if setting.method == "rod" else ("link_0", "cable_B_first")
     for body in spec.bodies:
-        if body.name.removeprefix("robot/") in held:
+        if body.name.removeprefix("robot_") in held:
             for joint in list(body.joints):
                 spec.delete(joint)
     model = spec.compile()
@@ -121,9 +121,9 @@ def _clamped(setting: Setting) -> mujoco.MjModel:
 
 
 def _prefixed(text: str) -> str:
-    """Names in the file, and references to them, with "robot/" before them."""
+    """Names in the file, and references to them, with "robot_" before them."""
     names = r'\b(name|prefix|joint|tendon|site|body)="(?!robot/)([^"]+)"'
-    return re.sub(names, r'\1="robot/\2"', text)
+    return re.sub(names, r'\1="robot_\2"', text)
 
 
 def _stock(setting: Setting) -> mujoco.MjModel:
@@ -157,5 +157,5 @@ def _stock(setting: Setting) -> mujoco.MjModel:
       </worldbody>
     </mujoco>"""
     spec = mujoco.MjSpec.from_string(text)
-    spec.body("c_B_last").add_site(name="robot/end_right", pos=(link, 0, 0))
+    spec.body("c_B_last").add_site(name="robot_end_right", pos=(link, 0, 0))
     return spec.compile()

@@ -106,7 +106,7 @@ def _at_rest(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
 def _rise(model: mujoco.MjModel, data: mujoco.MjData, end: str) -> Array:
     """How fast an end rises with each velocity of the flat strip, (nv,)."""
     moves = np.zeros((3, model.nv))
-    mujoco.mj_jacSite(model, data, moves, None, model.site(f"robot/end_{end}").id)
+    mujoco.mj_jacSite(model, data, moves, None, model.site(f"robot_end_{end}").id)
     return np.asarray(moves[2])
 
 

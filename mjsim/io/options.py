@@ -1,0 +1,107 @@
+"""Options of a command from the fields of a dataclass: their types, units and help."""
+
+import ast
+import inspect
+import textwrap
+from collections.abc import Iterable, Mapping
+from dataclasses import field, fields, make_dataclass
+from functools import cache
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+
+import tyro
+
+
+@cache
+def field_docs(kind: type[Any]) -> Mapping[str, str]:
+    """What stands below each field of a dataclass as its documentation."""
+    (tree,) = ast.parse(textwrap.dedent(inspect.getsource(kind))).body
+    assert isinstance(tree, ast.ClassDef)
+    docs: dict[str, str] = {}
+    for one, two in zip(tree.body, tree.body[1:], strict=False):
+        if (
+            isinstance(one, ast.AnnAssign)
+            and isinstance(one.target, ast.Name)
+            and isinstance(two, ast.Expr)
+            and isinstance(two.value, ast.Constant)
+            and isinstance(two.value.value, str)
+        ):
+            docs[one.target.id] = " ".join(two.value.value.split())
+    return docs
+
+
+def optional(
+    name: str,
+    kind: type[Any],
+    names: Iterable[str],
+    aliases: Mapping[str, str] | None = None,
+    more: Iterable[tuple[str, Any, Any]] = (),
+) -> type[Any]:
+    """A dataclass of the same fields, each None unless it is given.
+
+    Args:
+        name: of the new class.
+        kind: whose fields, documented by the words below each.
+        names: of the fields.
+        aliases: other options that mean the same, by field.
+        more: fields that `kind` has not, as for dataclasses.make_dataclass.
+    """
+    hints, docs = get_type_hints(kind), field_docs(kind)
+    defaults = {item.name: item.default for item in fields(kind)}
+    items = [
+        (key, option(_plain(hints[key]), docs.get(key, ""), defaults[key],
+                     (aliases or {}).get(key)), field(default=None))
+        for key in names
+    ]  # fmt: skip
+    new = make_dataclass(name, [*items, *more], frozen=True)
+    new.__doc__ = " "
+    return new
+
+
+def option(kind: Any, text: str, default: Any = None, alias: str | None = None) -> Any:
+    """The type of an option that is None unless given.
+
+    Args:
+        kind: of its value.
+        text: its help.
+        default: what holds if it is not given, to be shown.
+        alias: another name of it.
+    """
+    words = get_args(kind) if get_origin(kind) is Literal else ()
+    of = tyro.conf.arg(
+        help=text,
+        aliases=(alias,) if alias else None,
+        metavar="{" + ",".join(words) + "}" if words else kind.__name__.upper(),
+        help_behavior_hint="" if default is None else f"(default: {_shown(default)})",
+    )
+    return Annotated[kind | None, of]
+
+
+def given(options: Any) -> dict[str, Any]:
+    """The fields that are not None."""
+    return {key: value for key, value in vars(options).items() if value is not None}
+
+
+def numbers(name: str, text: str) -> tuple[float, ...]:
+    """Numbers from a text with commas between.
+
+    Raises:
+        ValueError: a word is no number.
+    """
+    try:
+        return tuple(float(word) for word in text.split(","))
+    except ValueError:
+        raise ValueError(f"{name} must be numbers with commas between, got {text!r}") from None
+
+
+def _shown(default: Any) -> str:
+    if isinstance(default, tuple):
+        return ",".join(f"{part:g}" for part in default)
+    return f"{default:.6g}" if isinstance(default, float) else str(default)
+
+
+def _plain(hint: Any) -> Any:
+    """A type without None, and text in place of a list."""
+    parts = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+    parts = tuple(part for part in parts if part is not NoneType)
+    return str if any(get_origin(part) is tuple for part in parts) else Union[parts]  # noqa: UP007

@@ -1,0 +1,134 @@
+"""Every field of a scene as an option of the command line."""
+
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+from typing import Annotated, Any, get_type_hints
+
+import tyro
+
+from analytic.robot import Robot
+from analytic.surface import SURFACES, Surface
+from mjsim.io.options import field_docs, given, numbers, option, optional
+from mjsim.scene.numerics import Numerics
+from mjsim.scene.scene import Scene
+from mjsim.scene.tables import SCENE_FIELDS, Tables, merged, read_tables
+
+ALL = "all"  # the three named surfaces
+
+
+_RobotOptions = optional(
+    "RobotOptions",
+    Robot,
+    [item.name for item in fields(Robot)],
+    {"peak_pressure": "--pressure", "segments": "--segments"},
+)
+_SurfaceOptions = optional(
+    "SurfaceOptions", Surface, [item.name for item in fields(Surface) if item.name != "name"]
+)
+_GaitOptions = optional(
+    "GaitOptions",
+    Scene,
+    [],
+    more=[
+        ("stages", option(str, "segments inflated at each stage, the first again at the end, such as "
+                          "000,100,110,011,001,000", "of gait wave"), field(default=None)),
+        ("ramp_time", option(str, "duration of the ramp between two stages, one for all or one each "
+                             "with commas between [s]", 2.0), field(default=None)),
+    ],
+)  # fmt: skip
+_GroundOptions = optional(
+    "GroundOptions",
+    Scene,
+    [],
+    more=[("slope_deg", option(float, "the ground rises towards +x by this angle [degrees]", 0.0,
+                          "--slope"), field(default=None))],
+)  # fmt: skip
+_HINTS = get_type_hints(Scene)
+_NUMERICS_FIELDS = [item.name for item in fields(Numerics)]
+_NumericsOptions = optional(
+    "NumericsOptions",
+    Numerics,
+    _NUMERICS_FIELDS,
+    {"links": "--links", "timestep": "--timestep"},
+    more=[
+        (name, option(_HINTS[name], field_docs(Scene)[name], getattr(Scene, name),
+                      f"--{name.replace('_', '-')}"), field(default=None))
+        for name in SCENE_FIELDS
+    ],
+)  # fmt: skip
+
+
+_bare = tyro.conf.arg(help_behavior_hint="")
+
+
+@dataclass(frozen=True)
+class SceneOptions:
+    """What of a scene can be given."""
+
+    scene: Annotated[Path | None, _bare] = None
+    """a TOML file with tables [robot], [gait], [ground] and [numerics]; options go over it"""
+    surface: Annotated[str | None, _bare] = None
+    """felt, polyethylene, gelatin, several with commas between, or all: the three, and a video of
+    them in step; felt if nothing is given"""
+    gait: Annotated[str | None, _bare] = None
+    """wave, full-wave, pulse: the order in which the segments inflate; or a .toml file with stages
+    and ramp_time"""
+    reverse: bool = False
+    """run the gait's stages backwards"""
+    robot_: Annotated[_RobotOptions, tyro.conf.arg(name="robot")] = field(
+        default_factory=_RobotOptions
+    )  # type: ignore[valid-type]
+    """what its owner measured; the rest is the default robot's"""
+    gait_: Annotated[_GaitOptions, tyro.conf.arg(name="gait")] = field(default_factory=_GaitOptions)  # type: ignore[valid-type]
+    """another order and timing of the stages"""
+    surface_: Annotated[_SurfaceOptions, tyro.conf.arg(name="surface")] = field(
+        default_factory=_SurfaceOptions
+    )  # type: ignore[valid-type]
+    """a ground of your own, in SI units, in place of a named one"""
+    ground_: Annotated[_GroundOptions, tyro.conf.arg(name="ground")] = field(
+        default_factory=_GroundOptions
+    )  # type: ignore[valid-type]
+    """how the ground lies"""
+    numerics_: Annotated[_NumericsOptions, tyro.conf.arg(name="numerics")] = field(
+        default_factory=_NumericsOptions
+    )  # type: ignore[valid-type]
+    """how it is simulated"""
+
+
+def tables_of(options: SceneOptions) -> list[Tables]:
+    """The tables of each scene that is asked for, one a surface.
+
+    Raises:
+        ValueError: the scene file or an option is not what it should be.
+    """
+    ground: dict[str, Any] = {**given(options.surface_), **given(options.ground_)}
+    robot, gait = given(options.robot_), given(options.gait_)
+    if "segments" in robot:
+        robot["segments"] = numbers("segments", robot["segments"])
+    if "ramp_time" in gait:
+        times = numbers("gait.ramp-time", gait["ramp_time"])
+        gait["ramp_time"] = times if len(times) > 1 else times[0]
+    if "stages" in gait:
+        gait["stages"] = _stages(gait["stages"])
+    if options.gait is not None:
+        gait["file" if options.gait.endswith(".toml") else "name"] = options.gait
+    if options.reverse:
+        gait["reverse"] = True
+    layers = [read_tables(options.scene)] if options.scene else []
+    over: Tables = {
+        "robot": robot, "gait": gait, "ground": ground, "numerics": given(options.numerics_),
+    }  # fmt: skip
+    if options.surface is None:
+        return [merged(*layers, over)]
+    names = list(SURFACES) if options.surface == ALL else options.surface.split(",")
+    return [merged(*layers, {**over, "ground": {**ground, "surface": name}}) for name in names]
+
+
+def _stages(text: str) -> tuple[tuple[float, ...], ...]:
+    stages = text.split(",")
+    if not all(stage and set(stage) <= {"0", "1"} for stage in stages):
+        raise ValueError(
+            f"gait.stages must be words of 0 and 1 with commas between, such as 000,100,000; "
+            f"got {text!r} (fractions: in a .toml file)"
+        )
+    return tuple(tuple(float(digit) for digit in stage) for stage in stages)

@@ -1,0 +1,216 @@
+"""Scenes as tables of plain values, from TOML files and from the command line.
+
+    [robot]     fields of analytic.Robot, in SI units
+    [gait]      name of a gait, or stages and ramp_time, or file of a TOML table of these
+    [ground]    surface, a name; or fields of analytic.Surface; slope_deg
+    [numerics]  body, friction, cycles, ... of mjsim.Scene, and fields of mjsim.Numerics
+
+Every table and every key is optional over the defaults.
+"""
+
+import math
+import tomllib
+from collections.abc import Mapping
+from dataclasses import MISSING, Field, fields, replace
+from pathlib import Path
+from types import NoneType, UnionType
+from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+
+from analytic.checks import is_number, one_of
+from analytic.gait import GAITS, Gait
+from analytic.robot import Robot
+from analytic.surface import SURFACES, Surface
+from mjsim.scene.numerics import Numerics
+from mjsim.scene.scene import Scene
+
+Table = dict[str, Any]
+Tables = dict[str, Table]
+Kind = TypeVar("Kind")
+
+NAMES = ("robot", "gait", "ground", "numerics")
+SCENE_FIELDS = ("cycles", "body", "friction", "chamber", "actuation", "lag", "gravity",
+                "settle_time")  # fmt: skip
+_SURFACE_FIELDS = tuple(field.name for field in fields(Surface) if field.name != "name")
+_KEYS: dict[str, tuple[str, ...]] = {
+    "robot": tuple(field.name for field in fields(Robot)),
+    "gait": ("name", "stages", "ramp_time", "reverse", "file"),
+    "ground": ("surface", *_SURFACE_FIELDS, "slope_deg"),
+    "numerics": (*SCENE_FIELDS, *(field.name for field in fields(Numerics))),
+}
+
+
+def read_tables(path: Path) -> Tables:
+    """The tables of a scene file.
+
+    Raises:
+        ValueError: the file cannot be read, is no TOML, or has a table or a key that is not known.
+    """
+    tables = _toml(path, "scene")
+    for name, table in tables.items():
+        one_of(f"scene {str(path)!r}: table", name, NAMES)
+        if not isinstance(table, dict):
+            raise ValueError(f"scene {str(path)!r}: {name} must be a table, got {table!r}")
+        check_keys(name, table, f"scene {str(path)!r}: ")
+    return tables
+
+
+def check_keys(name: str, table: Mapping[str, Any], where: str = "") -> None:
+    """Raise ValueError for a key that a table does not have."""
+    for key in table:
+        if key not in _KEYS[name]:
+            raise ValueError(
+                f"{where}key {key!r} of [{name}] is unknown; known are {', '.join(_KEYS[name])}"
+            )
+
+
+def merged(*layers: Tables) -> Tables:
+    """Tables laid over each other, the later ones above.
+
+    A surface by name or a gait by name, stages or file replaces what a lower layer says of it.
+    """
+    result: Tables = {name: {} for name in NAMES}
+    for layer in layers:
+        for name, table in layer.items():
+            if name == "ground" and "surface" in table:
+                kept = {k: v for k, v in result[name].items() if k == "slope_deg"}
+                result[name] = kept
+            if name == "gait" and {"name", "stages", "file"} & table.keys():
+                kept = {k: v for k, v in result[name].items() if k in ("ramp_time", "reverse")}
+                result[name] = kept
+            result[name] = {**result[name], **table}
+    return result
+
+
+def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
+    """The scene and the numerics of tables.
+
+    Raises:
+        ValueError: a value cannot be; the message names its table and key.
+    """
+    robot = make(Robot, tables.get("robot", {}), f"{where}[robot] ")
+    gait = build_gait(tables.get("gait", {}), f"{where}[gait] ")
+    ground = tables.get("ground", {})
+    slope = ground.get("slope_deg", 0.0)
+    if not is_number(slope):
+        raise ValueError(f"{where}[ground] slope_deg must be a number, got {slope!r}")
+    values = tables.get("numerics", {})
+    scene_values = {key: value for key, value in values.items() if key in SCENE_FIELDS}
+    scene = make(
+        Scene, scene_values, f"{where}[numerics] ", robot=robot, gait=gait,
+        ground=build_surface(ground, f"{where}[ground] "), slope=math.radians(slope),
+    )  # fmt: skip
+    rest = {key: value for key, value in values.items() if key not in SCENE_FIELDS}
+    return scene, make(Numerics, rest, f"{where}[numerics] ")
+
+
+def build_surface(table: Table, where: str = "") -> Surface:
+    """A named surface, or one of given properties, which may start from a named one."""
+    given = {key: value for key, value in table.items() if key in _SURFACE_FIELDS}
+    name = table.get("surface")
+    if name is None:
+        return make(Surface, given, where) if given else SURFACES["felt"]
+    if name in SURFACES:
+        if not given:
+            return SURFACES[name]
+        raise ValueError(
+            f"{where}surface must be a name, or {next(iter(given))} and the like a new surface, "
+            f"not both; got {name!r}"
+        )
+    if not given:
+        raise ValueError(f"{where}surface must be one of {', '.join(SURFACES)}; got {name!r}")
+    return make(Surface, given, where, name=name)
+
+
+def build_gait(table: Table, where: str = "") -> Gait:
+    """A named gait, one of given stages, or one from a file; reversed and timed as given."""
+    table = dict(table)
+    if "file" in table:
+        path = Path(str(table.pop("file")))
+        content = _toml(path, "gait")
+        content.setdefault("name", path.stem)
+        check_keys("gait", content, f"gait {str(path)!r}: ")
+        table = {**content, **table}
+        where = f"gait {str(path)!r}: "
+    backward = table.pop("reverse", False)
+    if "stages" in table:
+        table.setdefault("name", "custom")
+        gait = make(Gait, table, where)
+    else:
+        name = table.pop("name", "wave")
+        one_of(f"{where}name of a gait without stages", name, GAITS)
+        gait = GAITS[name]
+        if table:
+            gait = replace(gait, **_checked(Gait, table, where))
+    return gait.reversed() if backward else gait
+
+
+def make(kind: type[Kind], table: Mapping[str, Any], where: str = "", **more: Any) -> Kind:
+    """A dataclass of given values and defaults, its values checked against their types.
+
+    Raises:
+        ValueError: a key is no field, a value is not of its type or out of range, or one is
+            missing.
+    """
+    values = {**_checked(kind, table, where), **more}
+    for field in fields(kind):  # type: ignore[arg-type]
+        if field.name not in values and _needed(field):
+            raise ValueError(f"{where}{field.name} is missing")
+    try:
+        return kind(**values)
+    except ValueError as error:
+        raise ValueError(f"{where}{error}") from error
+
+
+def _checked(kind: type[Any], table: Mapping[str, Any], where: str) -> Table:
+    hints = get_type_hints(kind)
+    values = {}
+    for key, value in table.items():
+        if key not in hints:
+            raise ValueError(f"{where}key {key!r} is unknown; known are {', '.join(hints)}")
+        values[key] = _as(hints[key], value, f"{where}{key}")
+    return values
+
+
+def _as(hint: Any, value: Any, name: str) -> Any:
+    """The value as its type has it.
+
+    Lists become tuples and whole numbers floats.
+
+    Raises:
+        ValueError: it is not of that type.
+    """
+    options = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+    for option in options:
+        if option is NoneType:
+            continue
+        if get_origin(option) is Literal:
+            one_of(name, value, get_args(option))
+            return value
+        if option is float and is_number(value):
+            return float(value)
+        if option is int and is_number(value) and not isinstance(value, float):
+            return value
+        if option is str and isinstance(value, str):
+            return value
+        if get_origin(option) is tuple and isinstance(value, list | tuple):
+            inner = get_args(option)[0]
+            return tuple(_as(inner, item, f"{name}'s parts") for item in value)
+    raise ValueError(f"{name} must be {_described(options)}, got {value!r}")
+
+
+def _described(options: tuple[Any, ...]) -> str:
+    words = {float: "a number", int: "a whole number", str: "a word"}
+    return " or ".join(words.get(o, "a list") for o in options if o is not NoneType)
+
+
+def _needed(field: "Field[Any]") -> bool:
+    return field.default is MISSING and field.default_factory is MISSING
+
+
+def _toml(path: Path, what: str) -> Table:
+    try:
+        return tomllib.loads(path.read_bytes().decode("utf-8-sig"))  # Windows marks the byte order
+    except OSError as error:
+        raise ValueError(f"{what} {str(path)!r} cannot be read: {error.strerror}") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ValueError(f"{what} {str(path)!r} is no TOML: {error}") from error
