@@ -22,8 +22,8 @@ from analytic.robot import Robot
 
 Array = NDArray[np.float64]
 
-# what the air in a chamber does as the strip is bent: (9); closed valves, the exact (6); or chambers
-# at constant pressure, which add no stiffness, the moment D0 (k - alpha p) of (2) and (3)
+# what the air in a chamber does as the strip bends: (9); closed valves, the exact (6); or constant
+# pressure, which adds no stiffness, the moment D0 (k - alpha p) of (2) and (3)
 CHAMBER_LAWS = ("linearized", "sealed", "constant-pressure")
 
 

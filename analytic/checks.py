@@ -5,6 +5,8 @@ from collections.abc import Iterable
 from numbers import Integral, Real
 from typing import Any
 
+_LONGEST_WORD = 60  # of a file name
+
 
 def is_number(value: Any) -> bool:
     """Whether it is a finite real number, of Python or NumPy, and no truth value."""
@@ -42,8 +44,11 @@ def one_of(name: str, value: Any, valid: Iterable[str]) -> None:
 
 def file_word(name: str, value: Any) -> None:
     """Raise ValueError unless it can stand in a file name."""
-    if not (isinstance(value, str) and value and value.isprintable() and "/" not in value):
-        raise ValueError(f"{name} must be a word without slashes, got {value!r}")
+    fine = isinstance(value, str) and value.isprintable() and "/" not in value
+    if not (fine and 0 < len(value) <= _LONGEST_WORD):
+        raise ValueError(
+            f"{name} must be a word of up to {_LONGEST_WORD} letters without slashes, got {value!r}"
+        )
 
 
 def _of(unit: str) -> str:

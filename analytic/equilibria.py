@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 
 
 class Mode(IntEnum):
-    """Contact mode: which end lies flat, and in which segment it lifts off ([Majidi13], Figure 6)."""
+    """Contact mode: which end lies flat, and in which segment it lifts off (Figure 6)."""
 
     TIP = 0  # both ends in point contact
     LEFT_1 = 1  # (i): the left end lies flat up to a lift-off in segment 1

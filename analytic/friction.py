@@ -105,9 +105,8 @@ class Friction:
         if not 0 <= self.tension <= 1:
             raise ValueError(f"tension must lie in [0, 1], got {self.tension!r}")
         if not abs(self.slope) < math.pi / 2:
-            raise ValueError(
-                f"slope must be less steep than 90 degrees, got {math.degrees(self.slope):g} degrees"
-            )
+            degrees = math.degrees(self.slope)
+            raise ValueError(f"slope must be less steep than 90 degrees, got {degrees:g} degrees")
         if self.slope and not self.tension:
             raise ValueError("on a slope friction must bend the strip: tension must be above 0")
 
@@ -137,7 +136,7 @@ def slip_fraction(
 
 
 def neutral_ratio(surface: Surface, robot: Robot) -> float:
-    """V_t / (tau q L), which places a surface between felt (0) and gelatin (inf) for a robot [1]."""
+    """V_t / (tau q L), which places a surface between felt (0) and gelatin (inf) [1]."""
     side = surface.shear_strength * robot.width * robot.length
     return math.inf if side == 0 else surface.tip_force / side
 

@@ -41,12 +41,12 @@ class Gait:
             raise ValueError(f"stages must be at least two, got {len(self.stages)}")
         for stage in self.stages:
             if not stage or not all(is_number(f) and 0 <= f <= 1 for f in stage):
-                raise ValueError(f"a stage is one fraction in [0, 1] a segment, got {stage!r}")
+                raise ValueError(f"stages must hold a fraction in [0, 1] a segment, got {stage!r}")
             if len(stage) != self.segments:
                 raise ValueError(f"stages must have {self.segments} fractions each, got {stage!r}")
         if self.stages[0] != self.stages[-1]:
             raise ValueError(
-                f"the cycle must close: first stage {self.stages[0]!r}, last {self.stages[-1]!r}"
+                f"stages must close the cycle: first {self.stages[0]!r}, last {self.stages[-1]!r}"
             )
         if len(self.ramp_times) != self.ramps:
             raise ValueError(f"ramp_time must be one or {self.ramps} times, got {self.ramp_time!r}")
@@ -88,7 +88,8 @@ class Gait:
             cycles: number of cycles, at least 1.
 
         Returns:
-            Shape (T, S) with T = cycles * ramps * states_per_ramp + 1; rows 0, states_per_ramp, ... are stages.
+            Shape (T, S), T = cycles * ramps * states_per_ramp + 1; every states_per_ramp-th row is
+            a stage.
         """
         if states_per_ramp < 1 or cycles < 1:
             raise ValueError(

@@ -45,6 +45,10 @@ class Surface:
         """What resists at a place: the same everywhere."""
         return self
 
+    def scaled(self, factor: float) -> "Surface":
+        """The same surface, so many times as resistant in every way."""
+        return Surface(self.name, *(factor * getattr(self, item.name) for item in fields(self)[1:]))
+
 
 class Ground(Protocol):
     """A field of surfaces along x.
@@ -54,7 +58,9 @@ class Ground(Protocol):
     """
 
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """How files and tables call it."""
+        ...
 
     def at(self, x: float) -> Surface:
         """The surface at a place [m]."""

@@ -10,9 +10,8 @@ import mjsim.simulation.simulation as simulation
 from analytic import Surface
 from mjsim.mjcf.builder import compile_model
 from mjsim.scene import Numerics, Scene
+from mjsim.scene.auto import cheapest
 from mjsim.simulation.batch import rollout
-from mjsim.studies.accuracy.choice import cheapest
-from mjsim.studies.accuracy.grid import numerics_of
 
 REPEATS = 7
 STEP = mujoco.mj_step
@@ -38,7 +37,7 @@ def inside(scene: Scene, numerics: Numerics) -> float:
 
 def main() -> None:
     scene = Scene()
-    for numerics in (Numerics(), numerics_of(cheapest(0.02).setting)):
+    for numerics in (Numerics(), Numerics(cheapest(0.02).links, cheapest(0.02).timestep)):
         whole, steps = (
             min(times)
             for times in zip(
@@ -54,12 +53,13 @@ def main() -> None:
     times = []
     for _ in range(REPEATS):
         started = clock.perf_counter()
-        compile_model(scene, Numerics())
+        compile_model(scene, Numerics().resolved(scene.body, scene.friction))
         times.append(clock.perf_counter() - started)
     print(f"assembly and compilation {1e3 * min(times):.0f} ms")
     rolled = replace(scene, friction="coulomb", actuation="actuators")
     scenes = [
-        replace(rolled, surface=Surface("any", 1.0, area)) for area in np.linspace(0, 0.5, 16)
+        replace(rolled, ground=Surface("any", friction=side, tip_friction=0.37))
+        for side in np.linspace(0, 0.2, 16).tolist()
     ]
     one, two = (
         min(sum(walk.wall_time for walk in rollout(scenes, threads=n)) for _ in range(3))

@@ -1,6 +1,5 @@
-"""Every solver on the same scenes in one table: `python -m mjsim.compare`."""
+"""Every model on the same scenes in one table: `python -m mjsim.compare`."""
 
-import json
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -8,32 +7,38 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic import GAITS, REFERENCE, SOLVERS, SURFACES, Gait, Robot, Surface, direction, predict
-from mjsim.io.cli import bar, choose, fail, parse
-from mjsim.scene import BODIES, Scene
-from mjsim.simulation.measures import measure
-from mjsim.simulation.simulation import simulate
+from analytic.gait import GAITS, Gait
+from analytic.locomotion import direction
+from analytic.prediction import REFERENCE, SOLVERS, Elastica, predict
+from analytic.robot import Robot
+from analytic.surface import SURFACES, Ground
+from mjsim import registry
+from mjsim.io.cli import bar, choose, fail, parse, say, strict_json
+from mjsim.scene import Scene
+from mjsim.video import gl
 
 PROGRAM = "python -m mjsim.compare"
-LADDER = (*SOLVERS, *BODIES)  # cheapest theory first, then MuJoCo
+MODELS = (*SOLVERS, *registry.names())  # cheapest theory first, then MuJoCo
 
 
 @dataclass(frozen=True)
 class Options:
-    """Compare the quasi-static models and MuJoCo on one cycle of each gait on each surface.
+    """Compare the quasi-static solvers and MuJoCo on one cycle of each gait on each surface.
 
-    The reference is elastica; +- is the half-links estimate of its own error. Lists are
-    comma-separated. Exit code 0: done, also where a solver has no answer (its status says why);
-    2: bad input.
+    The reference is elastica. Columns: Δ/L, displacement of the left end per cycle over the length;
+    +-, what is known of its error: of elastica, what half the links and states change; of MuJoCo,
+    the part that the anchor rule does not explain; - ref, difference from the reference; height/L,
+    the greatest height; status, ok or what limits the answer. Lists are comma-separated. Exit code
+    0: done, also where a model has no answer (its status says why); 2: bad input.
 
-    Example: python -m mjsim.compare --surface felt,gelatin --gait wave --solver modes,planar
+    Example: python -m mjsim.compare --surface felt,gelatin --gait wave --model modes,planar
     """
 
     surface: str = "all"
     """felt, polyethylene, gelatin, or all"""
     gait: str = "all"
     """wave, full-wave, pulse, or all"""
-    solver: str = "all"
+    model: str = "all"
     """modes, obstacle, elastica, planar, cable, rod, or all"""
     reverse: bool = False
     """run the gaits backwards too"""
@@ -44,11 +49,11 @@ class Options:
 
 
 class Row(NamedTuple):
-    """One solver on one scene; what does not exist is None."""
+    """One model on one scene; what does not exist is None."""
 
     surface: str
     gait: str
-    solver: str
+    model: str
     displacement_over_L: float | None  # noqa: N815 - the contract's name
     uncertainty_over_L: float | None  # noqa: N815
     difference_over_L: float | None  # noqa: N815
@@ -57,65 +62,68 @@ class Row(NamedTuple):
     status: str
 
 
-def compare(robot: Robot, gait: Gait, surface: Surface, models: Sequence[str]) -> list[Row]:
+def compare(robot: Robot, gait: Gait, ground: Ground, models: Sequence[str]) -> list[Row]:
     """Rows of the models asked for, each beside the reference."""
-    reference = _quasi_static(robot, gait, surface, REFERENCE)
+    reference = _quasi_static(robot, gait, ground, REFERENCE)
     rows = []
-    for solver in models:
-        if solver == REFERENCE:
+    for model in models:
+        if model == REFERENCE:
             row = reference._replace(
-                uncertainty_over_L=_uncertainty(robot, gait, surface, reference)
+                uncertainty_over_L=_uncertainty(robot, gait, ground, reference)
             )
-        elif solver in SOLVERS:
-            row = _quasi_static(robot, gait, surface, solver)
+        elif model in SOLVERS:
+            row = _quasi_static(robot, gait, ground, model)
         else:
-            row = _simulated(Scene(robot, gait, surface, body=solver))
-        exact, found = reference.displacement_over_L, row.displacement_over_L
-        if exact is not None and found is not None:
-            row = row._replace(difference_over_L=found - exact)
+            row = _simulated(Scene(robot, gait, ground, body=model))
+        exact, shift = reference.displacement_over_L, row.displacement_over_L
+        if exact is not None and shift is not None:
+            row = row._replace(difference_over_L=shift - exact)
         rows.append(row)
     return rows
 
 
-def _quasi_static(robot: Robot, gait: Gait, surface: Surface, solver: str) -> Row:
-    found = predict(robot, gait, surface, solver)
-    shift = found.locomotion.per_cycle / robot.length
+def _quasi_static(robot: Robot, gait: Gait, ground: Ground, model: str) -> Row:
+    walk = predict(robot, gait, ground, model)
+    shift = walk.locomotion.per_cycle / robot.length
     known = bool(np.isfinite(shift))
-    flags = "+".join(flag.name.lower() for flag in found.flags if flag.name) or "ok"
+    flags = "+".join(flag.name.lower() for flag in walk.flags if flag.name) or "ok"
     return Row(
-        surface.name,
+        ground.name,
         gait.name,
-        solver,
+        model,
         displacement_over_L=shift if known else None,
         uncertainty_over_L=None,
         difference_over_L=None,
         direction=direction(shift, 1.0) if known else None,
-        amplitude_over_L=float(found.shapes.amplitude.max()) / robot.length if known else None,
+        amplitude_over_L=float(walk.shapes.amplitude.max()) / robot.length if known else None,
         status=flags,
     )
 
 
-def _uncertainty(robot: Robot, gait: Gait, surface: Surface, fine: Row) -> float | None:
+def _uncertainty(robot: Robot, gait: Gait, ground: Ground, fine: Row) -> float | None:
     """What half the links and half the states would change in the reference, over L."""
     if fine.displacement_over_L is None:
         return None
-    coarse = predict(robot, gait, surface, states_per_ramp=25, links=30)
+    coarse = predict(robot, gait, ground, Elastica(links=30), states_per_ramp=25)
     gap = abs(fine.displacement_over_L - coarse.locomotion.per_cycle / robot.length)
     return gap if np.isfinite(gap) else None
 
 
 def _simulated(scene: Scene) -> Row:
+    from mjsim.simulation.measures import measure
+    from mjsim.simulation.simulation import simulate
+
     walk = simulate(scene)
-    found = measure(walk)
+    numbers = measure(walk)
     return Row(
-        scene.surface.name,
+        scene.ground.name,
         scene.gait.name,
         scene.body,
-        displacement_over_L=found and found.displacement,
-        uncertainty_over_L=found and abs(found.slip),
+        displacement_over_L=numbers and numbers.displacement,
+        uncertainty_over_L=numbers and abs(numbers.unexplained),
         difference_over_L=None,
-        direction=found and found.direction,
-        amplitude_over_L=found and found.amplitude,
+        direction=numbers and numbers.direction,
+        amplitude_over_L=numbers and numbers.amplitude,
         status=str(walk.status),
     )
 
@@ -123,7 +131,7 @@ def _simulated(scene: Scene) -> Row:
 def table(rows: Sequence[Row]) -> str:
     """The rows as text, a blank line between scenes."""
     lines = [
-        f"{'surface':<14}{'gait':<19}{'solver':<10}{'direction':<11}{'Δ/L':>9}{'+-':>8}"
+        f"{'surface':<14}{'gait':<19}{'model':<10}{'direction':<11}{'Δ/L':>9}{'+-':>8}"
         f"{'- ref':>9}{'height/L':>10}  status"
     ]
     scene = None
@@ -132,7 +140,7 @@ def table(rows: Sequence[Row]) -> str:
             lines.append("")
         scene = (row.surface, row.gait)
         lines.append(
-            f"{row.surface:<14}{row.gait:<19}{row.solver:<10}{row.direction or '-':<11}"
+            f"{row.surface:<14}{row.gait:<19}{row.model:<10}{row.direction or '-':<11}"
             f"{_number(row.displacement_over_L, 9, '+.4f')}"
             f"{_number(row.uncertainty_over_L, 8, '.4f')}"
             f"{_number(row.difference_over_L, 9, '+.4f')}"
@@ -151,11 +159,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         surfaces = choose("surface", options.surface, SURFACES)
         gaits = [GAITS[name] for name in choose("gait", options.gait, GAITS)]
-        models = choose("solver", options.solver, LADDER)
+        models = choose("model", options.model, MODELS)
         robot = replace(Robot(), peak_pressure=options.pressure)
-        Scene(robot)  # says whether the pressure is absurd
+        for gait in gaits:
+            Scene(robot, gait)  # says whether the pressure is absurd
     except ValueError as error:
         fail(PROGRAM, str(error))
+    gl.prepare()
     if options.reverse:
         gaits = [way for gait in gaits for way in (gait, gait.reversed())]
     rows: list[Row] = []
@@ -165,9 +175,9 @@ def main(argv: Sequence[str] | None = None) -> int:
                 rows += compare(robot, gait, SURFACES[name], models)
                 advance(1)
     if options.json:
-        print(json.dumps({"reference": REFERENCE, "rows": [row._asdict() for row in rows]}))
+        say(strict_json({"reference": REFERENCE, "rows": [row._asdict() for row in rows]}))
     else:
-        print(table(rows))
+        say(table(rows))
     return 0
 
 

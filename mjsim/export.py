@@ -31,7 +31,7 @@ class Options(SceneOptions):
     out: Path = Path("exported")
     """folder for the files, made if need be"""
     models: bool = False
-    """write the scenes of models/: the default robot on each named surface, and a cable and a rod"""
+    """write the scenes of models/: the default robot on each named surface, a cable and a rod"""
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -1,6 +1,5 @@
 """Make a video from a saved trajectory, of a run that failed too: `python -m mjsim.replay`."""
 
-import json
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -38,7 +37,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     try:
         walk = load(options.trajectory)
-    except (OSError, KeyError, ValueError, json.JSONDecodeError) as error:
+    except (OSError, KeyError, TypeError, ValueError) as error:
         fail(PROGRAM, f"cannot read a trajectory from {str(options.trajectory)!r}: {error}")
     video = options.trajectory.with_suffix(".mp4")
     write_video(walk, video)

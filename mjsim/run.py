@@ -94,7 +94,7 @@ def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables]
     picked = {"body": choice.body, "links": choice.links, "timestep": choice.timestep}
     for table in tables:
         numerics = table["numerics"]
-        both = [key for key in ("links", "timestep") if key in numerics]
+        both: list[str] = [key for key in ("links", "timestep") if key in numerics]
         if numerics.get("friction", "constant") != "constant":
             both.append(f"friction {numerics['friction']}")
         if both:
@@ -183,9 +183,12 @@ def file_name(scene: Scene, numerics: Numerics) -> str:
     words += [w for w, d in ((scene.gait.name, Scene.gait.name), (scene.body, Scene.body),
                              (scene.friction, Scene.friction)) if w != d]  # fmt: skip
     named = scene.gait in [*GAITS.values(), *(gait.reversed() for gait in GAITS.values())]
-    told = {"gait": scene.gait} if named and len(scene.robot.segments) == 3 else {}
-    told |= {"body": scene.body, "friction": scene.friction}
-    usual = Scene(ground=SURFACES.get(scene.ground.name, Scene.ground), **told)
+    usual = Scene(
+        gait=scene.gait if named and len(scene.robot.segments) == 3 else Scene.gait,
+        ground=SURFACES.get(scene.ground.name, Scene.ground),
+        body=scene.body,
+        friction=scene.friction,
+    )
     if (scene, numerics) != (usual, Numerics().resolved(scene.body, scene.friction)):
         described = json.dumps([repr(scene), asdict(numerics)], sort_keys=True)
         words.append(hashlib.sha256(described.encode()).hexdigest()[:8])

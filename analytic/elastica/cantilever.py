@@ -10,7 +10,7 @@ from analytic.robot import Robot
 
 Array = NDArray[np.float64]
 
-_STEPS = 20  # of weight and pressure on the way from the straight strip
+_FIRST, _LEAST = 0.05, 1e-6  # steps of weight and pressure on the way from the straight strip
 
 
 def solve_cantilever(
@@ -31,12 +31,17 @@ def solve_cantilever(
     (pressure,) = check_pressures(robot, pressure_pa)
     chain = Chain(robot, links, chamber, clamped=True)
     weight, state = chain.weight, chain.flat()
-    for part in np.linspace(0, 1, _STEPS + 1)[1:]:
-        chain.weight = part * weight
-        chain.load_at(part * pressure)
+    done, step = 0.0, _FIRST
+    while done < 1.0:
+        step = min(step, 1.0 - done)
+        chain.weight = (done + step) * weight
+        chain.load_at((done + step) * pressure)
         found = chain.equilibrium(state)
         if found is None:
-            raise ArithmeticError(f"no stable equilibrium at {part:.0%} of weight and pressure")
-        state = found
+            step *= 0.5
+            if step < _LEAST:
+                raise ArithmeticError(f"no stable equilibrium beyond {done:.2%} of the load")
+        else:
+            state, done, step = found, done + step, 2 * step
     x = np.concatenate([[0.0], np.cumsum(link_lengths(robot, links) * np.cos(state.theta))])
     return x, robot.length * state.y

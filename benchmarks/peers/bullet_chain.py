@@ -125,7 +125,7 @@ def walk(scene, links, timestep):
         body, joints = _body(robot, lengths, springs, Numerics.damping_time, box=True)
         for j in (-1, *joints):
             at_end = j in (-1, joints[-1])
-            mu = scene.friction_scale * (scene.surface.tip if at_end else scene.surface.area)
+            mu = scene.ground.tip_friction if at_end else scene.ground.friction
             p.changeDynamics(body, j, lateralFriction=mu)
         begin, spent = None, stopwatch()
         for step in range(steps):

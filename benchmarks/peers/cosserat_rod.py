@@ -98,8 +98,8 @@ def walk(scene, links, timestep):
     halves = segment_overlap(robot.borders, 2 * n)
     overlap = 0.5 * (halves[1:-1:2] + halves[2::2])  # of the element around each inner node
     times, bent = knots(scene, lambda p: pneunet.natural_curvature(robot, p) @ overlap.T)
-    mu = np.full(n + 1, scene.friction_scale * scene.surface.area)
-    mu[[0, -1]] = scene.friction_scale * scene.surface.tip
+    mu = np.full(n + 1, scene.ground.friction)
+    mu[[0, -1]] = scene.ground.tip_friction
     damping = np.sqrt(STIFFNESS * robot.weight_per_length / GRAVITY * robot.length / n)
 
     def go():

@@ -90,7 +90,7 @@ def walk(scene, links, timestep):
         plant.AddJoint(PlanarJoint("base", at, end))
 
     last, bodies = _chain(plant, robot, lengths, springs[0], Numerics.damping_time, free)
-    tip, side = (scene.friction_scale * mu for mu in (scene.surface.tip, scene.surface.area))
+    tip, side = scene.ground.tip_friction, scene.ground.friction
     ground = _material(max(tip, side), timestep)
     plant.RegisterCollisionGeometry(
         plant.world_body(), RigidTransform(), HalfSpace(), "ground", ground

@@ -70,8 +70,10 @@ def cases() -> Iterator[tuple[str, Case]]:
             yield f"{model} {chamber}", case(model, "gelatin", chamber=chamber)
     for law in ("constant", "coulomb"):
         for chamber in ("linearized", "constant-pressure"):
-            yield f"actuators {law} {chamber}", case("planar", "gelatin", friction=law,
-                                                     chamber=chamber, actuation="actuators")  # fmt: skip
+            yield (
+                f"actuators {law} {chamber}",
+                case("planar", "gelatin", friction=law, chamber=chamber, actuation="actuators"),
+            )
     for model in ("elastica", "planar", "cable", "rod"):
         for ground in ("polyethylene", "gelatin"):
             yield f"{model} coulomb {ground}", case(model, ground, friction="coulomb", ramp=4.0,

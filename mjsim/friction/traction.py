@@ -1,10 +1,10 @@
 """What friction does before each step, and which end is said to slide.
 
 Two ways in MuJoCo for the laws of analytic.friction. `BoundedEnds`: each end is held along x by a
-dry friction of its own bound, on the neutral line, so that it has no lever arm, does not creep, and
+dry friction of its own bound, on the neutral line, so that it has no lever arm and does not creep;
 the physics lets the weaker end slide. Where both bounds are equal that would leave it to momentum
-who slides: the rule of [Majidi13], both alike, is a dry friction on the mean position of the ends in
-place of both. `ContactFriction`: Coulomb friction at every pad, by MuJoCo's own contacts.
+who slides: the rule of [Majidi13], both alike, is a dry friction on the mean position of the ends,
+in place of both. `ContactFriction`: Coulomb friction at every pad, by MuJoCo's own contacts.
 """
 
 from typing import Protocol
@@ -16,7 +16,6 @@ from analytic.surface import Surface
 from mjsim.bodies.parts import PREFIX, TENDONS, contact_softness, tie_force
 from mjsim.friction.contact_length import ContactForces, pads_by_node
 from mjsim.scene import Numerics, Scene
-
 
 _TIPS = (0.0, 0.0)  # side contact of two tips
 _UNLOADED = (0.0, 0.0)  # what a law gets that needs no load
@@ -98,10 +97,7 @@ class BoundedEnds(_Ends):
         """See Traction.before_step."""
         slope_left, slope_right = slopes
         left, right = left and slope_left <= self._flat, right and slope_right <= self._flat
-        if left or right:
-            contacts = self._forces.lengths(left, right)
-        else:
-            contacts = _TIPS
+        contacts = self._forces.lengths(left, right) if left or right else _TIPS
         steep_angle = self._steep_angle
         steep = slope_left > steep_angle, slope_right > steep_angle
         if steep != self._steep:
@@ -121,7 +117,7 @@ class BoundedEnds(_Ends):
         law, width, bounds = self._law, self._width, self._bounds
         load_left, load_right = self._forces.loads() if law.needs_load else _UNLOADED
         here = there = self._surface
-        if here is None:
+        if here is None or there is None:
             here, there = (
                 self._ground.at(self._place.item(end) + self._far)
                 for end in (self._left, self._right)

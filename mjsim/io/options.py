@@ -5,14 +5,12 @@ import inspect
 import textwrap
 from collections.abc import Iterable, Mapping
 from dataclasses import field, fields, make_dataclass
-from functools import cache
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
 import tyro
 
 
-@cache
 def field_docs(kind: type[Any]) -> Mapping[str, str]:
     """What stands below each field of a dataclass as its documentation."""
     (tree,) = ast.parse(textwrap.dedent(inspect.getsource(kind))).body

@@ -1,6 +1,7 @@
 """The robot on its ground as MJCF: one way for every body, with mujoco.MjSpec."""
 
 import mujoco
+import numpy as np
 
 from mjsim import registry
 from mjsim.bodies.parts import PREFIX, set_options
@@ -23,8 +24,12 @@ def scene_spec(scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
     set_options(spec, scene, numerics)
     assert numerics.pad_radius is not None
     height = numerics.pad_radius - TOUCH * scene.robot.length
-    start = spec.worldbody.add_frame(pos=(0.0, 0.0, height))
-    spec.attach(body.spec(scene, numerics), prefix=PREFIX, frame=start)
+    strip = body.spec(scene, numerics)
+    for item in (*strip.worldbody.bodies, *strip.worldbody.sites):
+        item.pos = np.add(
+            item.pos, (0.0, 0.0, height)
+        )  # not by a frame, which dm_control does not read
+    spec.attach(strip, prefix=PREFIX, frame=spec.worldbody.add_frame())
     return spec
 
 
@@ -38,4 +43,13 @@ def compile_model(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
     Raises:
         ValueError: the body cannot do what the scene asks for, or mujoco refuses the model.
     """
-    return scene_spec(scene, numerics).compile()
+    spec = scene_spec(scene, numerics)
+    try:
+        return spec.compile()
+    except ValueError as error:
+        if "mjMINVAL" not in str(error):
+            raise
+        raise ValueError(
+            f"length {scene.robot.length:g} m is too small for {numerics.links} links: MuJoCo "
+            "takes no link whose inertia is below 1e-15 kg m^2; take fewer links"
+        ) from error

@@ -22,6 +22,7 @@ from mjsim.mjcf.builder import scene_spec
 from mjsim.scene import Numerics, Scene
 
 TEXTURES = "textures"
+_INERTIA = 0.9999  # of a plate about its normal, so that rounded digits still are of a body
 _DARKER = 0.86  # every other segment, so that they can be told apart
 
 
@@ -108,6 +109,9 @@ def _actuate_balls(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> Non
     """A motor a ball joint, whose control is the pressure of its chamber."""
     robot = scene.robot
     bend = pneunet.curvature_per_pressure(robot) * pneunet.base_rigidity(robot)
+    for body in spec.bodies:
+        if body.explicitinertial:
+            body.inertia[2] *= _INERTIA
     joints = [joint for joint in spec.joints if joint.name.startswith(f"{PREFIX}cable_J")]
     for number, joint in enumerate(joints, start=1):
         motor = spec.add_actuator(name=f"{PREFIX}chamber_{number}", target=joint.name)

@@ -39,7 +39,7 @@ class Numerics:
     side_angle: float = 1e-3
     """an end less steep than this lies on its side [rad]; chosen"""
     contact_time: float | None = None
-    """time constant of contacts, critically damped [timestep]; 0.5 with discrete, else at least 2"""
+    """time constant of contacts, critically damped [timestep]; 0.5 with discrete, else 2 or more"""
     steep_contact_time: float | None = None
     """that of an end steeper than steep_angle [timestep]; 2 with discrete, 4 for the cable"""
     steep_angle: float = 0.3

@@ -30,10 +30,10 @@ _GaitOptions = optional(
     Scene,
     [],
     more=[
-        ("stages", option(str, "segments inflated at each stage, the first again at the end, such as "
-                          "000,100,110,011,001,000", "of gait wave"), field(default=None)),
-        ("ramp_time", option(str, "duration of the ramp between two stages, one for all or one each "
-                             "with commas between [s]", 2.0), field(default=None)),
+        ("stages", option(str, "segments inflated at each stage, the first again at the end, "
+                          "as in 000,100,110,011,001,000", "of gait wave"), field(default=None)),
+        ("ramp_time", option(str, "duration of the ramp between two stages, one for all or one "
+                             "each with commas between [s]", 2.0), field(default=None)),
     ],
 )  # fmt: skip
 _GroundOptions = optional(
@@ -77,21 +77,21 @@ class SceneOptions:
     """run the gait's stages backwards"""
     robot_: Annotated[_RobotOptions, tyro.conf.arg(name="robot")] = field(
         default_factory=_RobotOptions
-    )  # type: ignore[valid-type]
+    )
     """what its owner measured; the rest is the default robot's"""
-    gait_: Annotated[_GaitOptions, tyro.conf.arg(name="gait")] = field(default_factory=_GaitOptions)  # type: ignore[valid-type]
+    gait_: Annotated[_GaitOptions, tyro.conf.arg(name="gait")] = field(default_factory=_GaitOptions)
     """another order and timing of the stages"""
     surface_: Annotated[_SurfaceOptions, tyro.conf.arg(name="surface")] = field(
         default_factory=_SurfaceOptions
-    )  # type: ignore[valid-type]
+    )
     """a ground of your own, in SI units, in place of a named one"""
     ground_: Annotated[_GroundOptions, tyro.conf.arg(name="ground")] = field(
         default_factory=_GroundOptions
-    )  # type: ignore[valid-type]
+    )
     """how the ground lies"""
     numerics_: Annotated[_NumericsOptions, tyro.conf.arg(name="numerics")] = field(
         default_factory=_NumericsOptions
-    )  # type: ignore[valid-type]
+    )
     """how it is simulated"""
 
 

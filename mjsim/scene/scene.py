@@ -74,8 +74,8 @@ class Scene:
         self._check_turn()
         if not LAWS[self.friction].acts_on(self.ground.at(0.0)):
             raise ValueError(
-                f"surface {self.ground.name!r} resists by nothing under friction {self.friction!r}: "
-                "give tip_force or shear_strength for constant, friction or tip_friction for coulomb"
+                f"surface {self.ground.name!r} resists by nothing under friction {self.friction}; "
+                "give tip_force or shear_strength (constant), friction or tip_friction (coulomb)"
             )
 
     def _check_turn(self) -> None:
@@ -84,9 +84,13 @@ class Scene:
         most = max(float(lengths @ np.array(stage)) for stage in self.gait.stages)
         if most * pneunet.turn_number(self.robot) >= 2 * math.pi:
             limit = 2 * math.pi / pneunet.turn_number(self.robot) * self.robot.peak_pressure / most
+            robot, hint = self.robot, ""
+            if limit < 0.1 * robot.peak_pressure:
+                hint = (f"; is its length {robot.length:g} m, its modulus {robot.modulus:g} Pa, "
+                        f"its thickness {robot.thickness:g} m?")  # fmt: skip
             raise ValueError(
-                f"peak_pressure must be below {limit:.0f} Pa, where gait {self.gait.name} would "
-                f"close this strip into a circle, got {self.robot.peak_pressure:g}"
+                f"peak_pressure must be below {limit:.6g} Pa, where gait {self.gait.name} would "
+                f"close this strip into a circle, got {self.robot.peak_pressure:g}{hint}"
             )
 
     @property

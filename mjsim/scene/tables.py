@@ -12,6 +12,7 @@ import math
 import tomllib
 from collections.abc import Mapping
 from dataclasses import MISSING, Field, fields, replace
+from numbers import Real
 from pathlib import Path
 from types import NoneType, UnionType
 from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
@@ -129,6 +130,8 @@ def build_gait(table: Table, where: str = "") -> Gait:
         content = _toml(path, "gait")
         content.setdefault("name", path.stem)
         check_keys("gait", content, f"gait {str(path)!r}: ")
+        if "stages" not in content:
+            raise ValueError(f"gait {str(path)!r}: stages is missing")
         table = {**content, **table}
         where = f"gait {str(path)!r}: "
     backward = table.pop("reverse", False)
@@ -186,9 +189,10 @@ def _as(hint: Any, value: Any, name: str) -> Any:
         if get_origin(option) is Literal:
             one_of(name, value, get_args(option))
             return value
-        if option is float and is_number(value):
-            return float(value)
-        if option is int and is_number(value) and not isinstance(value, float):
+        real = isinstance(value, Real) and not isinstance(value, bool)
+        if option is float and real:
+            return float(value)  # whether it is finite is asked where it is used
+        if option is int and real and not isinstance(value, float):
             return value
         if option is str and isinstance(value, str):
             return value

@@ -1,8 +1,8 @@
 """Many walks at once, on all cores.
 
-`rollout` leaves the stepping to MuJoCo's threads: a gait of actuated chambers under Coulomb friction
-is a control sequence, and needs no Python in the loop. Bounds of the ends do, which threads would
-only wait for each other with: `simulate_all` has processes.
+`rollout` leaves the stepping to MuJoCo's threads: under Coulomb friction a gait of actuated
+chambers is a control sequence, and needs no Python in the loop. Bounds of the ends do, and threads
+would only wait for each other: `simulate_all` has processes.
 """
 
 import multiprocessing
@@ -144,7 +144,7 @@ def rollout(
             scene=scene,
             numerics=numerics,
             status=Status.OK,
-            time=np.arange(first, first + len(coordinates)) * numerics.timestep,
+            time=numerics.timestep * np.arange(first, first + len(coordinates), dtype=float),
             pressure=pressure,
             coordinates=coordinates,
             position=positions(model, numerics, coordinates),

@@ -23,6 +23,11 @@ from mjsim.simulation.trajectory import Trajectory
 Array = NDArray[np.float64]
 
 FEWEST_STEPS = 4  # of a ramp; with fewer the gait is not seen; chosen
+MOST_STEPS = 5_000_000  # of a walk, 2 GB of states
+# what bodies and friction set in the model while it is stepped
+_SET = ("qpos_spring", "jnt_stiffness", "flex_bending", "tendon_frictionloss", "geom_solref",
+        "geom_friction")  # fmt: skip
+_MORE_TIMES = 100  # that the last tenth of the settling time is repeated for want of rest; chosen
 _BLOCK = 1024  # steps that are prepared at once
 
 
@@ -70,7 +75,7 @@ class Simulation:
         self.numerics = (numerics or Numerics()).resolved(scene.body, scene.friction)
         check_steps(scene, self.numerics)
         self.model = compile_model(scene, self.numerics)
-        self._rest = self.model.qpos_spring.copy(), self.model.jnt_stiffness.copy()
+        self._compiled = {name: getattr(self.model, name).copy() for name in _SET}
         self.reset()
 
     def reset(self, seed: int | None = None) -> Observation:
@@ -81,7 +86,8 @@ class Simulation:
         """
         scene, numerics, model = self.scene, self.numerics, self.model
         self.rng = np.random.default_rng(seed)
-        model.qpos_spring[:], model.jnt_stiffness[:] = self._rest
+        for name, values in self._compiled.items():
+            getattr(model, name)[:] = values
         self.data = mujoco.MjData(model)
         mujoco.mj_forward(model, self.data)
         self._joints = registry.find(scene.body).bind(model, self.data, scene, numerics)
@@ -95,15 +101,23 @@ class Simulation:
         self._pressures: list[Array] = []
         self._wall = self._cpu = 0.0
         self._stopped = False
-        before = before_start(scene, numerics)
-        self._first = 1 - len(before)
-        late = max(1, len(before) // 10)
-        self._play(before[:-late])
-        ends = self.data.ten_length.copy()
-        self._play(before[-late:])
-        speed = np.abs(self.data.ten_length - ends).max() / (late * numerics.timestep)
-        self._unsettled = not speed < AT_REST * scene.robot.length
+        self._unsettled = not self._settle()
+        self._first = 1 - len(self._ends)
         return self.observe()
+
+    def _settle(self) -> bool:
+        """Do the steps before the first cycle, more if need be; whether the strip is at rest."""
+        before = before_start(self.scene, self.numerics)
+        late = max(1, round(0.1 * self.scene.settle_time / self.numerics.timestep))
+        self._play(before[:-late])
+        still = before[-late:]
+        for _ in range(_MORE_TIMES):
+            ends = self.data.ten_length.copy()
+            self._play(still)
+            speed = np.abs(self.data.ten_length - ends).max() / (late * self.numerics.timestep)
+            if speed < AT_REST * self.scene.robot.length:
+                return True
+        return False
 
     def step(self, valves: ArrayLike) -> Observation:
         """Do one time step.
@@ -181,7 +195,7 @@ class Simulation:
             scene=self.scene,
             numerics=self.numerics,
             status=Status.OK,
-            time=np.arange(self._first, self._first + count) * self.numerics.timestep,
+            time=self.numerics.timestep * np.arange(self._first, self._first + count, dtype=float),
             pressure=np.concatenate(self._pressures)[:count],
             coordinates=coordinates,
             position=positions(self.model, self.numerics, coordinates),
@@ -280,7 +294,12 @@ def walking_steps(scene: Scene, numerics: Numerics) -> int:
 
 
 def check_steps(scene: Scene, numerics: Numerics) -> None:
-    """Raise ValueError where a ramp of the gait has too few time steps to be seen."""
+    """Raise ValueError where a ramp has too few time steps to be seen, or a walk too many."""
+    if scene.duration > MOST_STEPS * numerics.timestep:
+        raise ValueError(
+            f"timestep must be at least {scene.duration / MOST_STEPS:.2g} s, so that "
+            f"{scene.duration:g} s have at most {MOST_STEPS:,} steps; got {numerics.timestep:g} s"
+        )
     shortest = min(scene.gait.ramp_times)
     if shortest < FEWEST_STEPS * numerics.timestep:
         raise ValueError(

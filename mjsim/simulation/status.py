@@ -48,10 +48,10 @@ def _status(walk: "Trajectory", stopped: bool, unsettled: bool) -> Status:
         return Status.DIVERGED
     if not np.abs(walk.position[..., 1]).max() < _ASIDE * length:
         return Status.TURNED
+    if slid(walk) > _SLID * length:
+        return Status.SLID  # whatever became of it on the way down
     if stopped:
         return Status.TOPPLED
-    if slid(walk) > _SLID * length:
-        return Status.SLID
     return Status.UNSETTLED if unsettled else Status.OK
 
 

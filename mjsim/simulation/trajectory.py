@@ -1,5 +1,6 @@
 """What a simulation returns, and its netCDF file."""
 
+import io
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
@@ -95,7 +96,7 @@ class Trajectory:
         for name in ("wall_time", "cpu_time"):
             yield name, (), np.array(getattr(self, name)), "s", "that the stepping took"
 
-    def save(self, path: Path, provenance: dict[str, Any]) -> None:
+    def save(self, path: Path | str, provenance: dict[str, Any]) -> None:
         """Write netCDF with units; the file appears under its name only when it is whole.
 
         Args:
@@ -105,7 +106,8 @@ class Trajectory:
         Raises:
             OSError: the file cannot be written.
         """
-        with whole(Path(path)) as part, h5netcdf.File(part, "w") as file:
+        content = io.BytesIO()  # HDF5 does not survive a disk that is full
+        with h5netcdf.File(content, "w") as file:
             file.attrs["status"] = str(self.status)
             file.attrs["provenance"] = json.dumps(provenance)
             for name, dimensions, values, units, text in self.columns():
@@ -114,6 +116,8 @@ class Trajectory:
                         file.dimensions[dimension] = size
                 variable = file.create_variable(name, dimensions, data=values)
                 variable.attrs["units"], variable.attrs["long_name"] = units, text
+        with whole(Path(path)) as part:
+            part.write_bytes(content.getvalue())
 
 
 def load(path: Path) -> Trajectory:

@@ -1,8 +1,8 @@
 """Which OpenGL backend renders without a screen: EGL, else OSMesa, else none.
 
 MuJoCo reads MUJOCO_GL once, when it is imported, and has no fallback; a backend whose library is
-there can still fail at the first context. So `find_backend` tries each one in a child process before
-a video is promised, and videos are drawn in processes of their own.
+there can still fail at the first context. So `find_backend` tries each one in a child process
+before a video is promised, and videos are drawn in processes of their own.
 """
 
 import os

@@ -126,10 +126,11 @@ def _draw(walk: Trajectory, path: Path, band: Path | None, times: Times) -> None
 def _stack(bands: Sequence[Path], path: Path) -> None:
     """One video of several above each other, by ffmpeg."""
     inputs = [word for band in bands for word in ("-i", str(band))]
+    stacked = f"vstack=inputs={len(bands)},scale={_JOINT_WIDTH}:-2"
     with whole(path) as part:
         run = subprocess.run(
             [imageio_ffmpeg.get_ffmpeg_exe(), "-y", "-loglevel", "error", *inputs,
-             "-filter_complex", f"vstack=inputs={len(bands)},scale={_JOINT_WIDTH}:-2", "-c:v", "libx264",
+             "-filter_complex", stacked, "-c:v", "libx264",
              "-crf", str(_JOINT_QUALITY), "-pix_fmt", "yuv420p", str(part)],
             capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
         )  # fmt: skip

@@ -140,9 +140,7 @@ class Camera:
     def _pixel(self, place: NDArray[np.float64]) -> tuple[float, float]:
         """Column and line where a point of the scene is seen."""
         camera = self._model.camera(self._view).id
-        turned = self._data.cam_xmat[camera].reshape(3, 3).T @ (
-            place - self._data.cam_xpos[camera]
-        )
+        turned = self._data.cam_xmat[camera].reshape(3, 3).T @ (place - self._data.cam_xpos[camera])
         lines, columns = self._renderer.height, self._renderer.width
         reach = 0.5 * lines / np.tan(0.5 * np.deg2rad(self._model.cam_fovy[camera]))
         x, y = turned[:2] / -turned[2] * reach

@@ -6,7 +6,8 @@ Robots are drawn by their dimensionless groups: Gamma = w L^3 / D0, kappa L and 
 import numpy as np
 from hypothesis import strategies as st
 
-from analytic import Gait, Robot, Surface, pneunet
+from analytic import Gait, Robot, pneunet
+from analytic.surface import from_ratios
 
 
 def robot_from_groups(gamma: float, kappa_length: float, stiffening: float, length: float) -> Robot:
@@ -46,7 +47,7 @@ robots = st.builds(
 fractions = st.tuples(*[st.integers(0, 64).map(lambda i: i / 64)] * 3)
 batches = st.lists(fractions, min_size=1, max_size=30).map(np.array)
 resistances = st.integers(0, 64).map(lambda i: i / 32)
-surfaces = st.builds(Surface, st.just("any"), tip=resistances, area=resistances)
+surfaces = st.builds(from_ratios, st.just("any"), tip=resistances, side=resistances)
 gaits = st.lists(st.tuples(*[st.sampled_from([0.0, 0.5, 1.0])] * 3), min_size=1, max_size=5).map(
     lambda middle: Gait("any", ((0, 0, 0), *middle, (0, 0, 0)))
 )

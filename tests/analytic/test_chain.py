@@ -51,7 +51,7 @@ def test_a_bending_moment_turns_the_chain_as_it_turns_the_strip(robot, n, fracti
     moment = part * pneunet.base_rigidity(robot) / robot.length
     chain = (rest[0] + moment / stiffness[0]).sum()
     turn = moment / pneunet.rigidity(robot, p) - pneunet.natural_curvature(robot, p)
-    assert chain == pytest.approx(float(turn.sum()) * robot.segment_length, abs=1e-9)
+    assert chain == pytest.approx(float(turn.sum()) * robot.length / 3, abs=1e-9)
 
 
 def test_no_pressure_means_straight_joints_of_the_base_rigidity():

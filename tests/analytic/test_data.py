@@ -8,7 +8,9 @@ import pytest
 from hypothesis import given
 from strategies import gaits
 
-from analytic import GAITS, SURFACES, Gait, Robot, Surface
+from analytic import GAITS, SURFACES, Gait, Robot, Surface, pneunet
+from analytic.friction import friction_number, neutral_ratio
+from analytic.surface import SHEAR_STRENGTH, TIP_FORCE
 
 
 @pytest.mark.parametrize(
@@ -32,12 +34,12 @@ def test_a_robot_cannot_be_changed():
      ((0, 0, 0), (1, 0, 0))],
 )  # fmt: skip
 def test_a_gait_that_is_no_closed_cycle_is_refused(stages):
-    with pytest.raises(ValueError, match=r"stage|close"):
+    with pytest.raises(ValueError, match="stages must"):
         Gait("bad", stages)
 
 
 @pytest.mark.parametrize("time", [0.0, -1.0, np.nan, np.inf])
-def test_a_leg_takes_a_positive_time(time):
+def test_a_ramp_takes_a_positive_time(time):
     with pytest.raises(ValueError, match="ramp_time"):
         Gait("bad", GAITS["wave"].stages, ramp_time=time)
 
@@ -58,21 +60,29 @@ def test_fractions_in_time_are_the_pressures_in_states(gait):
     assert np.allclose(gait.fractions(np.array([-1.0])), gait.stages[0])
 
 
-def test_states_per_leg_must_be_positive():
+def test_states_per_ramp_must_be_positive():
     with pytest.raises(ValueError, match="states_per_ramp"):
         GAITS["wave"].pressures(0)
 
 
-@pytest.mark.parametrize(("tip", "area"), [(-1.0, 0.0), (0.0, np.nan)])
-def test_a_surface_resists_or_does_not_but_never_drives(tip, area):
-    with pytest.raises(ValueError, match=r"tip|area"):
-        Surface("bad", tip, area)
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [("tip_force", -1.0), ("shear_strength", np.nan), ("friction", "wet"), ("tip_friction", True)],
+)
+def test_a_surface_resists_or_does_not_but_never_drives(field, value):
+    with pytest.raises(ValueError, match=field):
+        Surface("bad", **{field: value})
 
 
 def test_the_three_surfaces_are_the_paper_s():
-    pairs = {name: (surface.tip, surface.area) for name, surface in SURFACES.items()}
+    """{V_t, tau} in units of V0 and of V0 over a third of the default robot (section 2.2)."""
+    pairs = {name: (surface.tip_force / TIP_FORCE, surface.shear_strength / SHEAR_STRENGTH)
+             for name, surface in SURFACES.items()}  # fmt: skip
     assert pairs == {"felt": (0, 1), "polyethylene": (0.5, 1), "gelatin": (1, 0)}
-    assert SURFACES["polyethylene"].tip_to_area_ratio == pytest.approx(1 / 6)
+    assert neutral_ratio(SURFACES["polyethylene"], Robot()) == pytest.approx(1 / 6)
+    rigidity = pneunet.base_rigidity(Robot())
+    for surface in SURFACES.values():
+        assert friction_number(surface, Robot(), rigidity) == pytest.approx(1.5, rel=0.01)
 
 
 def test_analytic_imports_numpy_and_scipy_only():

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from strategies import robots
 
 from analytic import Robot, pneunet
+from analytic.robot import GRAVITY
 
 pressures = st.floats(1e3, 1e5)
 
@@ -101,13 +102,26 @@ def test_sealed_curvature_expands_as_7(robot, pressure):
     assert rise[0] - rise[1] == pytest.approx(expected, rel=1e-5)
 
 
-def test_default_robot_has_the_published_groups():
-    robot = Robot()
-    d0 = pneunet.base_rigidity(robot)
-    assert d0 == pytest.approx(3.84e-4)
-    assert pneunet.curvature_per_pressure(robot) == pytest.approx(6.129e-4, rel=1e-4)
-    kappa = float(pneunet.natural_curvature(robot, robot.peak_pressure))
-    assert kappa * robot.length == pytest.approx(3.845, rel=1e-3)
-    stiffening = pneunet.rigidity_per_pressure(robot) * robot.peak_pressure / d0
-    assert stiffening == pytest.approx(0.0606, rel=1e-3)
-    assert robot.weight_per_length * robot.length**3 / d0 == pytest.approx(11.44, rel=1e-3)
+def test_what_was_measured_may_stand_for_what_it_follows_from():
+    """Mass for weight, rigidity for modulus, the two slopes for the chambers' geometry."""
+    usual = Robot()
+    d0, alpha = pneunet.base_rigidity(usual), pneunet.curvature_per_pressure(usual)
+    eta = pneunet.rigidity_per_pressure(usual)
+    told = Robot(
+        mass=usual.weight / GRAVITY, rigidity=d0, curvature_per_pressure=alpha,
+        rigidity_per_pressure=eta, chamber_height=1.0,
+    )  # fmt: skip
+    assert told.weight_per_length == pytest.approx(usual.weight_per_length)
+    assert told.modulus == pytest.approx(usual.modulus)
+    assert told.mass is None
+    p = usual.peak_pressure
+    assert pneunet.natural_curvature(told, p) == pytest.approx(pneunet.natural_curvature(usual, p))
+    assert pneunet.rigidity(told, p) == pytest.approx(pneunet.rigidity(usual, p))
+
+
+@pytest.mark.parametrize(
+    "both", [{"mass": 0.02, "weight_per_length": 2.0}, {"rigidity": 1e-4, "modulus": 2e6}]
+)
+def test_one_quantity_in_two_ways_is_refused(both):
+    with pytest.raises(ValueError, match="not both"):
+        Robot(**both)

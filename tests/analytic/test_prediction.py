@@ -18,24 +18,23 @@ def test_refining_the_changes_of_anchor_is_as_good_as_refining_everything(solver
 
 
 @pytest.mark.parametrize("solver", list(SOLVERS))
-def test_felt_and_gelatin_are_equal_and_opposite_on_every_rung(solver):
+def test_felt_and_gelatin_are_equal_and_opposite_by_every_solver(solver):
     assert distance(solver) == pytest.approx(-distance(solver, "gelatin"), abs=1e-4)
 
 
-def test_the_rungs_agree_on_the_distance_as_far_as_small_slopes_go():
+def test_the_solvers_agree_on_the_distance_as_far_as_small_slopes_go():
     modes, obstacle, elastica = (distance(solver) for solver in SOLVERS)
     assert modes == pytest.approx(obstacle, abs=2e-4)
     assert modes == pytest.approx(elastica, rel=0.05)
-    assert 0.0414 < elastica < 0.0422
 
 
 def test_flags_tell_what_was_met_on_the_way():
-    heavy = Robot(peak_pressure=70e3)
+    heavy = Robot(weight_per_length=2.0, chamber_height=4.1e-3, peak_pressure=70e3)
     walked = predict(heavy, GAITS["wave"], SURFACES["felt"])
     assert walked.flags == Status.BRANCH_END
     assert walked.locomotion.per_cycle != walked.locomotion.per_cycle  # NaN
 
 
-def test_an_unknown_rung_is_refused_by_name():
+def test_an_unknown_solver_is_refused_by_name():
     with pytest.raises(ValueError, match="modes, obstacle, elastica"):
         predict(Robot(), GAITS["wave"], SURFACES["felt"], "ladder")

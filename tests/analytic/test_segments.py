@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from analytic import GAITS, Gait, Robot, Surface, predict, solve_elastica, solve_modes
+from analytic import GAITS, SURFACES, Gait, Robot, predict, solve_elastica, solve_modes
 from analytic.obstacle import solve_obstacle
 
 THREE = Robot()
@@ -33,11 +33,11 @@ def test_a_segment_in_two_parts_at_one_pressure_is_the_segment(solve, fractions)
 
 
 def test_so_it_walks_as_far():
-    """Friction by area counts in mean segments, of which the four are shorter than the three."""
+    """On the same ground: its shear strength is per area, however the robot is described."""
     wave = GAITS["wave"]
     gait = Gait("wave", tuple(tuple(row) for row in split(wave.stages).tolist()))
-    surface, scaled = Surface("any", 0.5, 1.0), Surface("any", 0.5, 0.75)
-    three, four = predict(THREE, wave, surface), predict(SPLIT, gait, scaled)
+    surface = SURFACES["polyethylene"]
+    three, four = predict(THREE, wave, surface), predict(SPLIT, gait, surface)
     assert four.locomotion.per_cycle == pytest.approx(three.locomotion.per_cycle, rel=1e-6)
 
 
@@ -70,7 +70,7 @@ def test_segments_have_lengths(segments):
         Robot(segments=segments)
 
 
-def test_each_leg_may_take_its_own_time():
+def test_each_ramp_may_take_its_own_time():
     gait = Gait("odd", GAITS["wave"].stages, (1.0, 2.0, 0.5, 1.0, 3.0))
     ends = np.concatenate([[0.0], np.cumsum(gait.ramp_times)])
     assert gait.period == 7.5

@@ -1,4 +1,4 @@
-"""Measure speed against accuracy and draw it: `python -m mjsim.studies.accuracy.__main__`."""
+"""Measure speed against accuracy and draw it: `python -m mjsim.studies.accuracy`."""
 
 import logging
 import sys
@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from mjsim.io.cli import bar, choose, fail, parse
+from mjsim.io.files import check_folder
 from mjsim.io.provenance import machine, signature
 from mjsim.studies.accuracy import (
     benchmark_cases,
@@ -17,32 +18,36 @@ from mjsim.studies.accuracy import (
     heavy_cantilever,
     walking,
 )
+from mjsim.studies.accuracy.choices import write_choices
 from mjsim.studies.accuracy.rows import MEASURED, Row, append, read
 from mjsim.studies.accuracy.setting import Setting
 
-PROGRAM = "python -m mjsim.studies.accuracy.__main__"
-WORKS = (heavy_cantilever.CASE, *benchmark_cases.GROUNDS)
+PROGRAM = "python -m mjsim.studies.accuracy"
+CASES = (heavy_cantilever.CASE, *benchmark_cases.GROUNDS)
 
 
 @dataclass(frozen=True)
 class Options:
-    """Measure every method over links and time steps on three pieces of case, and draw the fronts.
+    """Measure every method over links and time steps on three cases, and draw the Pareto fronts.
 
-    settle: a heavy clamped strip sags to rest, without contact; error of its tip, whose place is
+    cantilever: a heavy clamped strip settles, without contact; error of its tip, whose place is
     known exactly. walk: one slow cycle of the default gait on felt and on gelatin; error of the
-    displacement against the converged elastica. coulomb: the same on gelatin by Coulomb's law,
-    which peers know as well. Rows are appended to a table as they come, and a
-    run that was stopped goes on where it was. Exit code 0: done; 2: bad input.
+    displacement against the converged elastica. coulomb: the same on gelatin under Coulomb
+    friction, which peers know as well. Rows are appended to a table as they come, and a run that
+    was stopped goes on where it was. Exit code 0: done; 2: bad input.
 
-    Example: python -m mjsim.studies.accuracy.__main__ --quick --out /tmp/chart
+    Example: python -m mjsim.studies.accuracy --quick --out /tmp/chart
     """
 
     case: str = "all"
-    """settle, walk, coulomb, or all"""
+    """cantilever, walk, coulomb, or all"""
     out: Path = Path("docs")
     """folder for the figures"""
-    rows: Path = MEASURED
-    """the table: CSV that measurements are read from and appended to"""
+    rows: Path | None = None
+    """the table: CSV that measurements are read from and appended to; accuracy.csv in the folder
+    of the figures if not given"""
+    auto: Path | None = None
+    """also write the table that body auto picks from, mjsim/scene/auto.csv of a checkout"""
     fresh: bool = False
     """measure everything anew"""
     quick: bool = False
@@ -53,11 +58,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv)
     try:
-        cases = choose("case", options.case, WORKS)
+        cases = choose("case", options.case, CASES)
+        check_folder(options.out)
+        path = options.rows or options.out / MEASURED.name
         if options.fresh:
-            options.rows.unlink(missing_ok=True)
-        known = read(options.rows)
-        options.out.mkdir(parents=True, exist_ok=True)
+            path.unlink(missing_ok=True)
+        known = read(path)
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
     logging.getLogger("absl").setLevel(logging.ERROR)  # divergence is a row, not a warning
@@ -65,10 +71,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     todo = [job for job in _jobs(cases, options.quick) if job[0] not in seen]
     with bar("measuring", len(todo)) as advance:
         for row in append(
-            (replace(run(), machine=machine(), **signature()) for _, run in todo), options.rows
+            (replace(run(), machine=machine(), **signature()) for _, run in todo), path
         ):
             known.append(row)
             advance(1)
+    if options.auto:
+        write_choices(known, options.auto)
     for case in cases:
         figure.save(figure.draw(known, case), options.out / f"{case}.png")
         print(figure.table(known, case))

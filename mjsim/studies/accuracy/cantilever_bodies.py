@@ -1,9 +1,7 @@
-"""The case of settling: the heavy strip of mjsim.studies.accuracy.heavy_cantilever in each of MuJoCo's bodies."""
+"""The heavy cantilever, settling in each of MuJoCo's bodies."""
 
 import math
-import re
 from collections.abc import Iterator
-from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -11,9 +9,10 @@ from numpy.typing import NDArray
 
 from analytic import pneunet
 from analytic.elastica.cantilever import solve_cantilever
+from mjsim import registry
+from mjsim.bodies.parts import set_options
 from mjsim.bodies.rod import rest_stiffness
-from mjsim.mjcf.builder import BODY_MODULES, robot_mjcf
-from mjsim.scene import BODIES, INTEGRATORS, Scene, default_numerics
+from mjsim.scene import INTEGRATORS, Scene
 from mjsim.studies.accuracy.heavy_cantilever import DAMPING, DURATION, settled, strip
 from mjsim.studies.accuracy.rows import Row
 from mjsim.studies.accuracy.setting import Setting
@@ -90,40 +89,28 @@ def _diverged(data: mujoco.MjData) -> bool:
 
 def _tip(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[float, float, float]:
     mujoco.mj_kinematics(model, data)
-    x, y, z = data.site_xpos[model.site("robot_end_right").id]
+    x, y, z = data.site_xpos[model.site("end_right").id]
     return float(x), float(y), float(z)
 
 
 def _clamped(setting: Setting) -> mujoco.MjModel:
     """A body of mjsim with its first link, or its first edge, held; friction taken away."""
     scene = Scene(robot=strip(), body=setting.method)
-    numerics = replace(
-        default_numerics(setting.method),
-        links=setting.links, timestep=setting.timestep, integrator=setting.integrator,
-        damping_time=DAMPING,
-    )  # fmt: skip
-    root = robot_mjcf(scene, numerics, skin=False)
-    # attached models have names with a prefix, and so `complete` expects them
-    spec = mujoco.MjSpec.from_string(_prefixed(root.to_xml_string(precision=17)))
-    if setting.method in BODIES[1:]:
-        BODY_MODULES[setting.method].complete(spec, scene, numerics)
+    numerics = setting.numerics(damping_time=DAMPING)
+    spec = registry.find(setting.method).spec(scene, numerics)
+    set_options(spec, scene, numerics)
+    spec.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_REFSAFE)
     for tendon in list(spec.tendons):
         spec.delete(tendon)
     held = ("rod_0", "rod_1") if setting.method == "rod" else ("link_0", "cable_B_first")
     for body in spec.bodies:
-        if body.name.removeprefix("robot_") in held:
+        if body.name in held:
             for joint in list(body.joints):
                 spec.delete(joint)
     model = spec.compile()
     if setting.method == "rod":
         rest_stiffness(model, scene, setting.links)
     return model
-
-
-def _prefixed(text: str) -> str:
-    """Names in the file, and references to them, with "robot_" before them."""
-    names = r'\b(name|prefix|joint|tendon|site|body)="(?!robot/)([^"]+)"'
-    return re.sub(names, r'\1="robot_\2"', text)
 
 
 def _stock(setting: Setting) -> mujoco.MjModel:
@@ -157,5 +144,5 @@ def _stock(setting: Setting) -> mujoco.MjModel:
       </worldbody>
     </mujoco>"""
     spec = mujoco.MjSpec.from_string(text)
-    spec.body("c_B_last").add_site(name="robot_end_right", pos=(link, 0, 0))
+    spec.body("c_B_last").add_site(name="end_right", pos=(link, 0, 0))
     return spec.compile()

@@ -8,8 +8,8 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from mjsim.io.files import whole
-from mjsim.scene import default_numerics
-from mjsim.studies.accuracy import benchmark_cases, grid, heavy_cantilever
+from mjsim.scene import Numerics
+from mjsim.studies.accuracy import benchmark_cases, heavy_cantilever
 from mjsim.studies.accuracy.rows import Row, everywhere
 from mjsim.studies.paper.style import FONT
 
@@ -101,8 +101,8 @@ def is_default(row: Row) -> bool:
     """Whether a row is what `python -m mjsim.run` does unless told otherwise."""
     if row.case not in benchmark_cases.GROUNDS or row.method != "planar":
         return False
-    usual = default_numerics("planar", "coulomb" if row.cone else "constant")
-    return grid.numerics_of(row.setting) == usual
+    usual = Numerics().resolved("planar", "coulomb" if row.cone else "constant")
+    return row.setting.numerics() == usual
 
 
 def cheapest(rows: Sequence[Row], case: str, goal: float) -> dict[str, Row]:

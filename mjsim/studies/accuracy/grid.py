@@ -1,16 +1,13 @@
 """Settings that walking is measured at, and that `auto` picks from; needs no MuJoCo."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import NamedTuple
 
 from analytic import REFERENCE, SOLVERS
-from mjsim.scene import CONES, INTEGRATORS, Numerics, default_numerics
+from mjsim.scene import CONES, INTEGRATORS, Numerics
 from mjsim.studies.accuracy.benchmark_cases import COULOMB, WALK
 from mjsim.studies.accuracy.setting import Setting
 
-_FIRM, _STEEP = 0.005, 0.02  # s, contact times of the default; the other integrators need ...
-_FIRM_STEPS, _STEEP_STEPS = 2.0, 4.0  # ... at least so many steps; measured
 _IMPRATIO = Numerics.impratio
 
 
@@ -67,19 +64,3 @@ def settings(case: str, quick: bool = False) -> Iterator[Setting]:
             for timestep in block.timesteps:
                 yield Setting(block.method, links, timestep, block.integrator, block.cone,
                               block.impratio)  # fmt: skip
-
-
-def numerics_of(setting: Setting) -> Numerics:
-    """The numerics of a body at a setting: under Coulomb's law if it has a cone."""
-    usual = default_numerics(setting.method, "coulomb" if setting.cone else "constant")
-    if setting.cone:
-        usual = replace(usual, cone=setting.cone, impratio=setting.impratio)
-    if setting.integrator != usual.integrator:
-        usual = replace(
-            usual,
-            contact_time=max(_FIRM_STEPS, _FIRM / setting.timestep),
-            steep_contact_time=max(_STEEP_STEPS, _STEEP / setting.timestep),
-            edge_time=_FIRM_STEPS,
-        )
-    return replace(usual, links=setting.links, timestep=setting.timestep,
-                   integrator=setting.integrator)  # fmt: skip

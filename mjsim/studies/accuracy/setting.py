@@ -1,6 +1,10 @@
 """A method at one setting: the points of the charts."""
 
 from dataclasses import dataclass
+from typing import Any, cast
+
+from mjsim.scene import Numerics
+from mjsim.scene.numerics import Integrator
 
 
 @dataclass(frozen=True)
@@ -21,3 +25,10 @@ class Setting:
     integrator: str = ""
     cone: str = ""
     impratio: float = 0.0
+
+    def numerics(self, **more: Any) -> Numerics:
+        """The numerics of a body at this setting: under Coulomb friction if it has a cone."""
+        if self.cone:
+            more = {"cone": self.cone, "impratio": self.impratio, **more}
+        numerics = Numerics(self.links, self.timestep, cast(Integrator, self.integrator), **more)
+        return numerics.resolved(self.method, "coulomb" if self.cone else "constant")

@@ -2,12 +2,11 @@
 
 import math
 
-from analytic import SOLVERS, predict
+from analytic import SOLVERS, Elastica, predict
 from mjsim.scene import Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 from mjsim.studies.accuracy.benchmark_cases import scene_of, walked
-from mjsim.studies.accuracy.grid import numerics_of
 from mjsim.studies.accuracy.rows import Row
 from mjsim.studies.accuracy.setting import Setting
 from mjsim.studies.accuracy.timing import Spent, Timing, repeated
@@ -15,26 +14,28 @@ from mjsim.studies.accuracy.timing import Spent, Timing, repeated
 
 def run(case: str, ground: str, setting: Setting) -> Row:
     """Measure one setting on one ground."""
-    found = (_rung if setting.method in SOLVERS else _body)(case, ground, setting)
-    return walked(case, ground, setting, *found)
+    measured = (_solver if setting.method in SOLVERS else _body)(case, ground, setting)
+    return walked(case, ground, setting, *measured)
 
 
 def _body(case: str, ground: str, setting: Setting) -> tuple[float, Timing, str]:
-    scene, numerics = scene_of(case, ground, setting.method), numerics_of(setting)
+    scene, numerics = scene_of(case, ground, setting.method), setting.numerics()
     walk, timing = repeated(
         lambda: simulate(scene, numerics),
         scene.duration,
         lambda walk: Spent(walk.wall_time, walk.cpu_time),
     )
-    found = measure(walk)
-    return found.displacement if found else math.nan, timing, str(walk.status)
+    numbers = measure(walk)
+    return numbers.displacement if numbers else math.nan, timing, str(walk.status)
 
 
-def _rung(case: str, ground: str, setting: Setting) -> tuple[float, Timing, str]:
-    scene = scene_of(case, ground)
+def _solver(case: str, ground: str, setting: Setting) -> tuple[float, Timing, str]:
+    scene, solver = scene_of(case, ground), SOLVERS[setting.method]()
+    if isinstance(solver, Elastica):
+        solver = Elastica(setting.links, scene.chamber)
     walk, timing = repeated(
-        lambda: predict(scene.robot, scene.gait, scene.surface, setting.method,
-                        links=setting.links, friction=scene.hold, chamber=scene.chamber),
+        lambda: predict(scene.robot, scene.gait, scene.ground, solver,
+                        friction=scene.reference_friction),
         Scene().gait.period,  # however slow, a cycle of states costs the same
     )  # fmt: skip
     return walk.locomotion.per_cycle / scene.robot.length, timing, "ok"

@@ -1,4 +1,4 @@
-"""Make the figures: `python -m mjsim.figures`."""
+"""Make the figures: `python -m mjsim.studies.paper`."""
 
 import json
 import sys
@@ -15,7 +15,7 @@ from mjsim.io.provenance import origin
 from mjsim.studies.paper import amplitude, contact, regime, sequence
 from mjsim.studies.paper.style import FONT
 
-PROGRAM = "python -m mjsim.figures"
+PROGRAM = "python -m mjsim.studies.paper"
 FIGURES = {module.NAME: module for module in (sequence, amplitude, contact, regime)}
 
 
@@ -23,10 +23,10 @@ FIGURES = {module.NAME: module for module in (sequence, amplitude, contact, regi
 class Options:
     """Make the paper's Figures 4, 5 and 6 anew on every solver, and the regime map.
 
-    Each one is written as data (netCDF) and picture (PNG), and a page, figures.md, shows those
-    asked for and says what agrees with the paper and what does not. Exit code 0: done; 2: bad input.
+    Each one is written as data (netCDF) and picture (PNG); a page, figures.md, shows those asked
+    for and says what agrees with the paper and what does not. Exit code 0: done; 2: bad input.
 
-    Example: python -m mjsim.figures --figure figure5,regime
+    Example: python -m mjsim.studies.paper --figure figure5,regime
     """
 
     figure: str = "all"

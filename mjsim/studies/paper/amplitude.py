@@ -17,7 +17,7 @@ from analytic import (
     predict,
     solve_modes,
 )
-from analytic.locomotion import slip_fraction
+from analytic.locomotion import state_slip
 from mjsim.scene import Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
@@ -49,7 +49,7 @@ _GAMMAS = (11.44, 4.0)
 
 def coarse_displacement(shapes: Shapes) -> float:
     """Displacement on felt over L with the rule taken at the end of each increment (2.2)."""
-    share = slip_fraction(shapes, SURFACES["felt"])[1:]
+    share = state_slip(shapes, SURFACES["felt"])[1:]
     return float(-(share * np.diff(shapes.separation)).sum()) / shapes.robot.length
 
 

@@ -8,7 +8,8 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
 
-from analytic import GAITS, SURFACES, Robot, Surface, locomotion, solve_elastica
+from analytic import GAITS, SURFACES, Robot, Surface, displacements, solve_elastica
+from analytic.friction import neutral_ratio
 from mjsim.studies.paper.style import FONT
 
 NAME = "regime"
@@ -40,8 +41,9 @@ def make() -> xr.Dataset:
             )
             shapes = solve_elastica(robot, path * pressure)
             for k, ratio in enumerate(_RATIOS):
-                surface = Surface("any", tip=3 * float(ratio), area=1.0)
-                shift[i, j, k] = locomotion(shapes, surface).per_cycle / robot.length
+                side = robot.width * robot.length  # of a shear strength of 1 Pa
+                surface = Surface("any", tip_force=float(ratio) * side, shear_strength=1.0)
+                shift[i, j, k] = displacements(shapes, surface).per_cycle / robot.length
     return xr.Dataset(
         {"displacement": (("load", "pressure", "ratio"), shift)},
         coords={"load": list(_LOADS), "pressure": _PRESSURES, "ratio": _RATIOS},
@@ -57,7 +59,7 @@ def draw(data: xr.Dataset) -> Figure:
     ratio[0] = 0.5 * ratio[1]  # 0 has no place on a logarithmic axis: felt sits at the left edge
     pressure = 1e-3 * data["pressure"].values
     limit = 0.08
-    polyethylene = SURFACES["polyethylene"].tip_to_area_ratio
+    polyethylene = neutral_ratio(SURFACES["polyethylene"], Robot())
     norm, colours = TwoSlopeNorm(0, -limit, limit), "RdBu"
     for ax, load in zip(axes, data["load"].values, strict=True):
         shift = data["displacement"].sel(load=load).values

@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from analytic import GAITS, SURFACES, Gait, Robot, locomotion, solve_elastica
+from analytic import GAITS, SURFACES, Gait, Robot, displacements, solve_elastica
 from mjsim.scene import Scene
 from mjsim.simulation.simulation import simulate
 from mjsim.studies.paper.style import SIMULATED, draw_ground, draw_strip
@@ -36,7 +36,7 @@ def make() -> xr.Dataset:
     x, y = shapes.curve(np.linspace(0, robot.length, _POINTS))
     theory, simulated = [], []
     for surface in SURFACES.values():
-        left = locomotion(shapes, surface).left[index, None]
+        left = displacements(shapes, surface).left[index, None]
         theory.append(np.stack([x[index] + left, y[index]]))
         walk = simulate(Scene(robot, gait, surface))
         steps = np.clip(np.searchsorted(walk.time, moments * _RAMP_TIME), 0, len(walk.time) - 1)

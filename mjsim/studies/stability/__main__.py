@@ -1,4 +1,4 @@
-"""Map where methods fail: `python -m mjsim.studies.stability.__main__`."""
+"""Map where methods fail: `python -m mjsim.studies.stability`."""
 
 import logging
 import multiprocessing
@@ -10,16 +10,17 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from mjsim import registry
 from mjsim.io.cli import bar, choose, fail, parse
 from mjsim.io.provenance import signature
-from mjsim.scene import BODIES
 from mjsim.studies.accuracy.figure import save
 from mjsim.studies.accuracy.rows import append, read
 from mjsim.studies.stability import figure, maps, parameters
 
-PROGRAM = "python -m mjsim.studies.stability.__main__"
+PROGRAM = "python -m mjsim.studies.stability"
 KINDS: dict[str, type[Any]] = {
-    **dict.fromkeys(BODIES, maps.Tried), "robots": maps.Standing, "parameters": parameters.Turned,
+    **dict.fromkeys(registry.names(), maps.Tried), "robots": maps.Standing,
+    "parameters": parameters.Varied,
 }  # fmt: skip
 
 
@@ -29,12 +30,12 @@ class Options:
 
     planar, cable, rod: time step over links and over stiffness of that body, for each integrator,
     with the time step beyond which its highest mode is predicted to grow. robots: pressure over
-    weight, where the reference's stable branch ends, where MuJoCo topples, how far the paper's modes
-    lie below the ground, and what the solvers of the theory have to do. parameters: the error over gait
-    time, friction, softness and what else may matter. Walks are appended to a table as they come,
-    and a run that was stopped goes on where it was. Exit code 0: done; 2: bad input.
+    weight, where the reference's stable branch ends, where MuJoCo topples, how far the paper's
+    modes lie below the ground, and what the solvers of the theory have to do. parameters: the error
+    over ramp time, friction, softness and what else may matter. Walks are appended to a table as
+    they come, and a run that was stopped goes on where it was. Exit code 0: done; 2: bad input.
 
-    Example: python -m mjsim.studies.stability.__main__ --map robots --quick --out /tmp/maps
+    Example: python -m mjsim.studies.stability --map robots --quick --out /tmp/maps
     """
 
     map: str = "all"
@@ -86,7 +87,7 @@ def _grid(options: Options, name: str) -> list[Any]:
     if name == "robots":
         return list(maps.robots(options.quick))
     if name == "parameters":
-        return list(parameters.turns(options.quick))
+        return list(parameters.variations(options.quick))
     return list(dict.fromkeys(maps.integrators(name, options.quick)))
 
 

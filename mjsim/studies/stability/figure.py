@@ -10,8 +10,9 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from mjsim.scene import INTEGRATORS, default_numerics
-from mjsim.studies.accuracy.grid import numerics_of
+from analytic import pneunet
+from analytic.friction import friction_number
+from mjsim.scene import INTEGRATORS, Numerics
 from mjsim.studies.accuracy.setting import Setting
 from mjsim.studies.stability import maps, parameters
 from mjsim.studies.stability.limits import highest_frequency, predicted_limit
@@ -100,7 +101,7 @@ def draw_robots(rows: Sequence[maps.Standing]) -> Figure:
     return figure
 
 
-def draw_knobs(rows: Sequence[parameters.Turned]) -> Figure:
+def draw_knobs(rows: Sequence[parameters.Varied]) -> Figure:
     """Error of the distance over each parameter; the default of each is dotted."""
     figure = Figure(figsize=(11, 5.4), layout="constrained", dpi=110)
     panels = figure.subplots(2, 3, sharey=True).ravel()
@@ -125,10 +126,13 @@ def draw_knobs(rows: Sequence[parameters.Turned]) -> Figure:
 
 def _usual(parameter: str) -> float:
     law = parameters.law_of(parameter)
-    scene, numerics = parameters.scene_of(law, "felt"), default_numerics("planar", law)
+    scene, numerics = parameters.scene_of(law, "felt"), Numerics().resolved("planar", law)
     if parameter == "ramp_time":
         return float(scene.gait.ramp_times[0])
-    return float(getattr(scene if hasattr(scene, parameter) else numerics, parameter))
+    if parameter == "friction_number":
+        rigidity = pneunet.base_rigidity(scene.robot)
+        return friction_number(scene.ground.at(0.0), scene.robot, rigidity)
+    return float(getattr(numerics, parameter))
 
 
 def _limit(axes: Axes, body: str, integrator: str, at: Sequence[tuple[float, int, float]]) -> None:
@@ -136,7 +140,7 @@ def _limit(axes: Axes, body: str, integrator: str, at: Sequence[tuple[float, int
     damped, bare = [], []
     for _, links, stiffness in at:
         # frequencies are no matter of the integrator: each is looked for once
-        numerics = numerics_of(Setting(body, links, 1e-3, "discrete"))
+        numerics = Setting(body, links, 1e-3, "discrete").numerics()
         scene = replace(stiffened(stiffness), body=body)
         omega = highest_frequency(scene, numerics, standing=True)
         damped.append(predicted_limit(integrator, omega, numerics.damping_time, body))

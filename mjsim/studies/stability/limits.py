@@ -13,7 +13,6 @@ from analytic import SURFACES
 from mjsim.bodies.rod import rest_stiffness
 from mjsim.mjcf.builder import compile_model
 from mjsim.scene import Numerics, Scene
-from mjsim.studies.accuracy.grid import numerics_of
 from mjsim.studies.accuracy.setting import Setting
 
 Array = NDArray[np.float64]
@@ -69,10 +68,10 @@ def predicted_limit(
 def measured_limit(integrator: str, links: int, damping_time: float, body: str = "planar") -> float:
     """Largest time step at which a strip free of ground and weight stays finite [s], to 5 %."""
     # Coulomb's: no dry friction on the ends
-    scene = Scene(friction="coulomb", surface=SURFACES["gelatin"], body=body)
+    scene = Scene(friction="coulomb", ground=SURFACES["gelatin"], body=body)
 
     def stable(timestep: float) -> bool:
-        numerics = numerics_of(Setting(body, links, timestep, integrator))
+        numerics = Setting(body, links, timestep, integrator).numerics()
         model = _at_rest(scene, replace(numerics, damping_time=damping_time))
         model.opt.gravity[:] = 0
         off = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_AUTORESET

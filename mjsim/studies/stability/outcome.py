@@ -8,13 +8,12 @@ finished, where there is no reference to be near to.
 import math
 from dataclasses import replace
 
-from analytic import SURFACES, Robot, direction
+from analytic import SURFACES, direction
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 from mjsim.simulation.status import Status
-from mjsim.studies.accuracy.benchmark_cases import WALK, exact
-from mjsim.studies.accuracy.grid import numerics_of
+from mjsim.studies.accuracy.benchmark_cases import ROBOT, WALK, exact
 from mjsim.studies.accuracy.setting import Setting
 
 OUTCOMES = ("accurate", "drifting", "wrong direction", "toppled", "diverged", "finished")
@@ -56,7 +55,7 @@ def tried(
     Stiffness scales the modulus, the pressure and the weight, but not the mass: the shapes stay,
     and with them the reference, while the strip's frequencies rise with its square root.
     """
-    numerics = numerics_of(Setting(body, links, timestep, integrator))
+    numerics = Setting(body, links, timestep, integrator).numerics()
     scene = replace(stiffened(stiffness), body=body)
     first = outcome(scene, numerics, exact(WALK, GROUND))
     if first != "accurate" or cycles == 1:
@@ -65,12 +64,12 @@ def tried(
 
 
 def stiffened(stiffness: float) -> Scene:
-    """The default scene on GROUND with a strip so many times as stiff, of the same mass."""
-    base, scene = Robot(), Scene()
+    """The benchmark scene on GROUND with a strip so many times as stiff, of the same mass."""
+    base, scene = ROBOT, Scene()
     robot = replace(
         base,
         modulus=stiffness * base.modulus,
         peak_pressure=stiffness * base.peak_pressure,
         weight_per_length=stiffness * base.weight_per_length,
     )
-    return replace(scene, robot=robot, surface=SURFACES[GROUND], gravity=stiffness * scene.gravity)
+    return replace(scene, robot=robot, ground=SURFACES[GROUND], gravity=stiffness * scene.gravity)

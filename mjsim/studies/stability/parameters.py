@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from analytic import SURFACES
-from mjsim.scene import Scene, default_numerics
+from analytic import Surface, pneunet
+from analytic.friction import friction_number
+from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 from mjsim.studies.accuracy import benchmark_cases
@@ -22,11 +23,11 @@ PARAMETERS = {  # name: least value, greatest, what it is called
     "impratio": (1.0, 3000.0, "impratio (Coulomb's law, 16 s a ramp)"),
 }
 _PLACES = 13
-_WORK = {"constant": benchmark_cases.WALK, "coulomb": benchmark_cases.COULOMB}
+_CASE = {"constant": benchmark_cases.WALK, "coulomb": benchmark_cases.COULOMB}
 
 
 @dataclass(frozen=True)
-class Turned:
+class Varied:
     """The default walk with one parameter at a value.
 
     Attributes:
@@ -48,30 +49,31 @@ class Turned:
         """What tells this walk from others."""
         return self.parameter, self.value, self.ground
 
-    def done(self) -> "Turned":
+    def done(self) -> "Varied":
         """The same with what became of it."""
         law = law_of(self.parameter)
-        scene, numerics = scene_of(law, self.ground), default_numerics("planar", law)
-        turned: dict[str, Any] = {self.parameter: self.value}
+        scene, numerics = scene_of(law, self.ground), Numerics().resolved("planar", law)
+        varied: dict[str, Any] = {self.parameter: self.value}
         if self.parameter == "ramp_time":
             scene = replace(scene, gait=replace(scene.gait, ramp_time=self.value))
-        elif hasattr(scene, self.parameter):
-            scene = replace(scene, **turned)
+        elif self.parameter == "friction_number":
+            scene = replace(scene, ground=as_strong(scene, self.value))
+            numerics = replace(numerics, tie_bound=self.value)
         else:
-            numerics = replace(numerics, **turned)
+            numerics = replace(numerics, **varied)
         walk = simulate(scene, numerics)
-        found = measure(walk)
-        reference = benchmark_cases.exact(_WORK[law], self.ground)
-        error = found.displacement / reference - 1 if found else math.nan
+        numbers = measure(walk)
+        reference = benchmark_cases.exact(_CASE[law], self.ground)
+        error = numbers.displacement / reference - 1 if numbers else math.nan
         return replace(self, error=error, status=str(walk.status))
 
 
-def turns(quick: bool = False) -> Iterator[Turned]:
+def variations(quick: bool = False) -> Iterator[Varied]:
     """Every parameter on every ground; Coulomb's law leaves felt undecided."""
     for parameter, (low, high, _) in PARAMETERS.items():
         for value in np.geomspace(low, high, 3 if quick else _PLACES):
-            for ground in benchmark_cases.GROUNDS[_WORK[law_of(parameter)]]:
-                yield Turned(parameter, float(f"{value:.4g}"), ground)
+            for ground in benchmark_cases.GROUNDS[_CASE[law_of(parameter)]]:
+                yield Varied(parameter, float(f"{value:.4g}"), ground)
 
 
 def law_of(parameter: str) -> str:
@@ -80,10 +82,18 @@ def law_of(parameter: str) -> str:
 
 
 def scene_of(law: str, ground: str) -> Scene:
-    """The default scene under a law."""
-    slow = law == "coulomb"  # so that what an anchor creeps is not inertia
-    return (
-        benchmark_cases.scene_of(benchmark_cases.COULOMB, ground)
-        if slow
-        else Scene(surface=SURFACES[ground])
-    )
+    """The benchmark scene under a law: with slow ramps under Coulomb friction.
+
+    What an anchor creeps there is then not inertia.
+    """
+    scene = benchmark_cases.scene_of(_CASE[law], ground)
+    return scene if law == "coulomb" else replace(scene, gait=Scene.gait)
+
+
+def as_strong(scene: Scene, number: float) -> Surface:
+    """The scene's surface with bounds of a friction number Phi = V L^2 / D0."""
+    surface = scene.ground.at(0.0)
+    rigidity = pneunet.base_rigidity(scene.robot)
+    factor = number / friction_number(surface, scene.robot, rigidity)
+    return replace(surface, tip_force=factor * surface.tip_force,
+                   shear_strength=factor * surface.shear_strength)  # fmt: skip

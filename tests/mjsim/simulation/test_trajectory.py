@@ -1,6 +1,7 @@
 """The trajectory file: whole or absent, with units and provenance."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -35,19 +36,27 @@ def test_every_variable_has_a_unit_and_the_file_its_provenance(saved):
         assert data["height"].shape == (len(result.time), result.numerics.links + 2)
         left = data["x_left"].values
     assert origin["versions"]["mujoco"].startswith("3.")
-    assert origin["scene"]["surface"]["name"] == "gelatin"
+    assert origin["scene"]["ground"]["name"] == "gelatin"
     assert left[-1] < left[0]
 
 
-def test_a_write_that_fails_leaves_nothing(tmp_path, monkeypatch):
-    def broken(dataset, path, **kwargs):
-        path.write_text("half")
-        raise OSError("disk full")
+def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(saved, monkeypatch):
+    result, path = saved
+    before = path.read_bytes()
 
-    monkeypatch.setattr(xr.Dataset, "to_netcdf", broken)
-    with pytest.raises(OSError, match="disk full"):
-        walk("gelatin").save(tmp_path / "gelatin.nc", {})
-    assert list(tmp_path.iterdir()) == []
+    def full(part, content):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    with pytest.raises(OSError, match="No space left"):
+        result.save(path, {})
+    assert path.read_bytes() == before
+    assert [item.name for item in path.parent.iterdir()] == [path.name]
+
+
+def test_a_path_may_be_text(tmp_path):
+    walk("gelatin").save(str(tmp_path / "gelatin.nc"), {})
+    assert (tmp_path / "gelatin.nc").is_file()
 
 
 def test_a_file_that_is_no_trajectory_is_refused(tmp_path):

@@ -1,26 +1,27 @@
 """The bodies in space walk as the planar one does, and say so if they leave its plane."""
 
-from dataclasses import replace
-
 import mujoco
 import numpy as np
 import pytest
-from walks import measured, walk
+from walks import measured
 
 import mjsim.simulation.simulation as simulation
 from analytic import SURFACES, Robot, predict
 from analytic.chain import joint_springs
-from mjsim.bodies.rod import Drive
+from mjsim import registry
 from mjsim.mjcf.builder import compile_model
-from mjsim.scene import BODIES, Scene, default_numerics
+from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.status import Status
 
 IN_SPACE = ("cable", "rod")
 
 
-def small(body):
-    return replace(default_numerics(body), links=12)
+BODIES = registry.names()
+
+
+def small(body, friction="constant"):
+    return Numerics(links=12).resolved(body, friction)
 
 
 @pytest.mark.parametrize("surface", list(SURFACES))
@@ -89,25 +90,27 @@ def test_a_robot_that_is_turned_away_has_no_displacement(monkeypatch):
 def test_every_body_weighs_what_the_theory_says(body):
     scene = Scene(body=body)
     model = compile_model(scene, small(body))
-    weight = model.body("robot_").subtreemass[0] * scene.gravity
+    weight = model.body_subtreemass[0] * scene.gravity
     assert weight == pytest.approx(Robot().weight_per_length * Robot().length, rel=1e-8)
 
 
 @pytest.mark.parametrize("body", BODIES)
 def test_without_weight_and_ground_every_body_takes_the_natural_curvature(body):
     """Inflated evenly and free, each joint turns by its rest angle: no moment is left."""
-    scene = Scene(body=body, friction="coulomb")  # nothing holds the ends
-    numerics = small(body)
+    scene = Scene(
+        body=body, ground=SURFACES["gelatin"], friction="coulomb"
+    )  # no bound holds the ends
+    numerics = small(body, "coulomb")
     model = compile_model(scene, numerics)
     model.opt.gravity[:], model.opt.timestep = 0, 0.01
     model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
     data = mujoco.MjData(model)
     pressure = np.full((400, 3), 0.8 * Robot().peak_pressure)
-    actuation = simulation.BODY_MODULES[body].Drive(model, data, scene, numerics, pressure)
-    for step in range(400):
-        actuation.set(step)
+    joints = registry.find(body).bind(model, data, scene, numerics)
+    for load in joints.loads(pressure, pressure[0], pressure):
+        joints.apply(load)
         mujoco.mj_step(model, data)
-    position = simulation._positions(model, data, numerics, data.qpos[None].copy())[0]
+    position = simulation.positions(model, numerics, data.qpos[None].copy())[0]
     slope = np.arctan2(*np.diff(position[:, [2, 0]], axis=0).T)
     _, rest = joint_springs(Robot(), 12, pressure[:1])
     assert np.diff(slope) == pytest.approx(rest[0], rel=0.02 if body == "rod" else 1e-6)
@@ -122,25 +125,11 @@ def test_couples_on_a_rod_are_in_balance():
     vertices = data.qpos.reshape(-1, 3)
     vertices[:, [0, 2]] = 0.01 * rng.standard_normal((len(vertices), 2))
     mujoco.mj_forward(model, data)
-    Drive(model, data, scene, numerics, np.array([[4e4, 1e4, 3e4]])).set(0)
+    joints, pressure = registry.find("rod").bind(model, data, scene, numerics), [4e4, 1e4, 3e4]
+    joints.apply(joints.loads(*3 * (np.array([pressure]),))[0])
     force = data.qfrc_applied.reshape(-1, 3)
-    place = simulation._positions(model, data, numerics, data.qpos[None].copy())[0]
+    place = simulation.positions(model, numerics, data.qpos[None].copy())[0]
     turning = place[:, 2] * force[:, 0] - place[:, 0] * force[:, 2]
     assert np.abs(force).max() > 0.1
     assert np.abs(force.sum(axis=0)).max() < 1e-12
     assert abs(turning.sum()) < 1e-12
-
-
-@pytest.mark.parametrize("body", IN_SPACE)
-def test_contacts_of_bodies_in_space_are_those_of_the_low_pads_in_order(body):
-    result = walk("felt", links=12, body=body)
-    model = compile_model(result.scene, result.numerics)
-    data = mujoco.MjData(model)
-    pads = [i for i in range(model.ngeom) if model.geom(i).name.startswith("robot_pad_")]
-    assert pads == list(range(pads[0], pads[-1] + 1))
-    for step in range(0, len(result.time), 29):
-        data.qpos[:] = result.coordinates[step]
-        mujoco.mj_forward(model, data)
-        low = np.flatnonzero(data.geom_xpos[pads, 2] < result.numerics.pad_radius)
-        assert (data.contact.geom2 - pads[0]).tolist() == low.tolist()
-        assert len(data.efc_force) == data.ne + data.nf + data.ncon

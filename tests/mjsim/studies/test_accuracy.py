@@ -11,13 +11,14 @@ from walks import refusal
 
 from mjsim import run
 from mjsim.io import cli
+from mjsim.scene import Numerics
+from mjsim.scene.auto import cheapest, choices
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 from mjsim.studies.accuracy import __main__ as chart
 from mjsim.studies.accuracy import cantilever_bodies, figure, heavy_cantilever, walking
 from mjsim.studies.accuracy.benchmark_cases import COULOMB, GROUNDS, WALK, exact, scene_of
-from mjsim.studies.accuracy.choice import cheapest, choices
-from mjsim.studies.accuracy.grid import numerics_of
+from mjsim.studies.accuracy.choices import choices as measured_choices
 from mjsim.studies.accuracy.rows import Row, append, read
 from mjsim.studies.accuracy.setting import Setting
 
@@ -138,9 +139,9 @@ def test_engines_that_share_no_code_agree_with_the_elastica_on_the_distance():
 @pytest.mark.parametrize("tolerance", [0.1, 0.02])
 def test_auto_meets_its_tolerance_when_it_is_run_again(tolerance):
     choice = cheapest(tolerance)
-    numerics = numerics_of(choice.setting)
+    numerics = Numerics(choice.links, choice.timestep)
     for ground in GROUNDS[WALK]:
-        scene = scene_of(WALK, ground, choice.setting.method)
+        scene = scene_of(WALK, ground, choice.body)
         found = measure(simulate(scene, numerics)).displacement
         assert found == pytest.approx(exact(WALK, ground), rel=tolerance)
 
@@ -153,16 +154,21 @@ def test_a_looser_tolerance_never_costs_more():
 
 def test_a_setting_that_failed_anywhere_is_never_picked():
     rows = [some_row(error=0.001), some_row(scene="gelatin", status="toppled", error=math.nan)]
+    assert measured_choices(rows) == []
     with pytest.raises(ValueError, match="tolerance must be"):
-        cheapest(0.5, rows)
+        cheapest(0.5, [])
+
+
+def test_auto_s_table_is_what_was_measured():
+    assert choices() == measured_choices(read())
 
 
 def test_the_command_picks_a_body(tmp_path, capsys):
     words = ["--body", "auto", "--tolerance", "0.05", "--json", "--no-video"]
     assert run.main([*words, "--surface", "gelatin", "--out", str(tmp_path)]) == 0
-    row, setting = json.loads(capsys.readouterr().out), cheapest(0.05).setting
+    row, choice = json.loads(capsys.readouterr().out), cheapest(0.05)
     assert (row["body"], row["links"], row["timestep_s"]) == (
-        setting.method, setting.links, setting.timestep,
+        choice.body, choice.links, choice.timestep,
     )  # fmt: skip
     assert abs(row["error_over_L"]) < 0.05 * abs(row["predicted_displacement_over_L"])
 
@@ -185,5 +191,7 @@ def test_the_quick_chart_is_made_and_goes_on_where_it_was(tmp_path, capsys):
     first = (tmp_path / "rows.csv").read_text()
     assert chart.main(words) == 0
     assert (tmp_path / "rows.csv").read_text() == first
-    assert {"cantilever.png", "walk.png", "coulomb.png"} <= {path.name for path in tmp_path.iterdir()}
+    assert {"cantilever.png", "walk.png", "coulomb.png"} <= {
+        path.name for path in tmp_path.iterdir()
+    }
     assert "elastica" in capsys.readouterr().out

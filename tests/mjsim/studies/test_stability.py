@@ -5,18 +5,18 @@ from dataclasses import replace
 
 import pytest
 
-from analytic import SURFACES
+from mjsim import registry
 from mjsim.io import cli
-from mjsim.scene import BODIES, Numerics, Scene
+from mjsim.scene import Numerics, Scene
 from mjsim.simulation.simulation import simulate
 from mjsim.simulation.status import Status
-from mjsim.studies.accuracy.grid import numerics_of
+from mjsim.studies.accuracy.benchmark_cases import WALK, scene_of
 from mjsim.studies.accuracy.setting import Setting
 from mjsim.studies.stability import __main__ as stability
 from mjsim.studies.stability.limits import highest_frequency, measured_limit, predicted_limit
 from mjsim.studies.stability.maps import Standing
 from mjsim.studies.stability.outcome import outcome, stiffened, tried
-from mjsim.studies.stability.parameters import Turned
+from mjsim.studies.stability.parameters import Varied
 
 UNDAMPED = 1e-6  # s; as good as none
 
@@ -24,31 +24,34 @@ UNDAMPED = 1e-6  # s; as good as none
 @pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "implicit", "RK4"])
 @pytest.mark.parametrize("damping", [UNDAMPED, Numerics().damping_time])
 @pytest.mark.parametrize(("body", "links"), [("planar", 12), ("cable", 12), ("rod", 6)])
-def test_a_body_bursts_where_its_highest_mode_is_predicted_to(body, links, integrator, damping):
-    numerics = Numerics(links=links, damping_time=damping)
+def test_a_body_diverges_where_its_highest_mode_is_predicted_to(body, links, integrator, damping):
+    numerics = Numerics(links=links, damping_time=damping).resolved(body, "constant")
     omega = highest_frequency(Scene(body=body), numerics)
     predicted = predicted_limit(integrator, omega, damping, body)
     assert measured_limit(integrator, links, damping, body) == pytest.approx(predicted, rel=0.1)
 
 
 def test_without_damping_that_is_2_over_omega_max():
-    omega = highest_frequency(Scene(), Numerics(links=12))
+    omega = highest_frequency(Scene(), Numerics(links=12).resolved("planar", "constant"))
     assert predicted_limit("Euler", omega, 0.0) == pytest.approx(2 / omega)
     assert measured_limit("Euler", 12, UNDAMPED) == pytest.approx(2 / omega, rel=0.1)
 
 
-@pytest.mark.parametrize("body", BODIES)
+@pytest.mark.parametrize("body", registry.names())
 def test_the_discrete_integrator_has_no_limit(body):
     assert measured_limit("discrete", 12, UNDAMPED, body) == math.inf
 
 
 def test_twice_the_links_have_four_times_the_highest_frequency():
-    low, high = (highest_frequency(Scene(), Numerics(links=n)) for n in (12, 24))
+    low, high = (
+        highest_frequency(Scene(), Numerics(links=n).resolved("planar", "constant"))
+        for n in (12, 24)
+    )
     assert high == pytest.approx(4 * low, rel=0.01)
 
 
 def test_stiffness_raises_frequencies_by_its_root():
-    numerics = Numerics(links=12)
+    numerics = Numerics(links=12).resolved("planar", "constant")
     soft, stiff = (highest_frequency(stiffened(f), numerics) for f in (1.0, 100.0))
     assert stiff == pytest.approx(10 * soft, rel=1e-6)
 
@@ -77,9 +80,9 @@ def test_a_walk_that_is_accurate_stays_so_for_20_cycles():
 
 
 @pytest.mark.parametrize("body", ["planar", "cable"])
-def test_a_walk_bursts_where_the_strip_on_its_ends_is_predicted_to(body):
+def test_a_walk_diverges_where_the_strip_on_its_ends_is_predicted_to(body):
     """Within a factor of 1.5 either way; its light end links are what is fast, and they stand."""
-    numerics = Numerics(links=6)
+    numerics = Numerics(links=6).resolved(body, "constant")
     omega = highest_frequency(Scene(body=body), numerics, standing=True)
     limit = predicted_limit("RK4", omega, numerics.damping_time, body)
     free = highest_frequency(Scene(body=body), numerics)
@@ -88,13 +91,13 @@ def test_a_walk_bursts_where_the_strip_on_its_ends_is_predicted_to(body):
     assert tried(body, "RK4", 6, round(limit * 1.5, 6)) in ("diverged", "toppled")
 
 
-def test_a_rod_that_bursts_within_a_step_is_an_outcome_and_no_error():
+def test_a_rod_that_diverges_within_a_step_is_an_outcome_and_no_error():
     """Its vertices are kilometres apart before its ends are seen to leave the ground."""
     assert tried("rod", "implicit", 12, 0.1, 43.29) in ("diverged", "toppled")
 
 
 def test_what_is_accurate_is_so_by_the_written_bound():
-    scene, numerics = Scene(surface=SURFACES["gelatin"]), Numerics(links=12)
+    scene, numerics = scene_of(WALK, "gelatin"), Numerics(links=12)
     exact = -0.0418
     assert outcome(scene, numerics, exact) == "accurate"
     assert outcome(scene, numerics, 1.2 * exact) == "drifting"
@@ -104,9 +107,9 @@ def test_what_is_accurate_is_so_by_the_written_bound():
 
 
 @pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "RK4"])
-def test_a_walk_that_bursts_is_never_called_ok(integrator):
+def test_a_walk_that_diverges_is_never_called_ok(integrator):
     """Left alone, MuJoCo starts anew from its first state, which looks like a robot at rest."""
-    numerics = numerics_of(Setting("planar", 24, 0.05, integrator))
+    numerics = Setting("planar", 24, 0.05, integrator).numerics()
     assert simulate(Scene(), numerics).status in (Status.DIVERGED, Status.TOPPLED)
 
 
@@ -127,8 +130,8 @@ def test_the_paper_s_modes_sink_where_the_robot_is_heavy():
     ("parameter", "good", "bad"),
     [("ramp_time", 8.0, 0.5), ("side_angle", 1e-3, 0.1), ("friction_number", 1.5, 0.03)],
 )
-def test_a_knob_changes_the_answer_beyond_its_range_and_not_within(parameter, good, bad):
-    near, far = (abs(Turned(parameter, value, "felt").done().error) for value in (good, bad))
+def test_a_parameter_changes_the_answer_beyond_its_range_and_not_within(parameter, good, bad):
+    near, far = (abs(Varied(parameter, value, "felt").done().error) for value in (good, bad))
     assert near < 0.02
     assert not far < 0.05
 

@@ -1,6 +1,8 @@
 """Pictures show the strip, moving the right way; the file plays."""
 
+import re
 import subprocess
+from dataclasses import replace
 
 import imageio_ffmpeg
 import numpy as np
@@ -9,8 +11,8 @@ from conftest import BACKEND
 from walks import walk
 
 from analytic import SURFACES
-from mjsim.video import recording as video
-from mjsim.video.overlay import Overlay
+from mjsim.video import gl, recording
+from mjsim.video.overlay import Overlay, font
 from mjsim.video.render import Camera
 
 pytestmark = pytest.mark.skipif(BACKEND is None, reason="no OpenGL backend on this machine")
@@ -86,31 +88,65 @@ def test_the_overlay_writes_pressures_and_displacement(before_and_after):
     assert np.array_equal(drawn[0][HEIGHT // 3 :], frame[HEIGHT // 3 :])
 
 
-@pytest.mark.parametrize("count", [1, 3])
-def test_the_file_plays_with_the_right_number_of_frames(tmp_path, monkeypatch, count):
-    monkeypatch.setattr(video, "WIDTH", 320)
-    monkeypatch.setattr(video, "HEIGHT", 180)
+def test_a_green_mark_is_under_the_end_that_holds():
+    """On gelatin the inflated left tip holds on the first ramp, the right one on the last."""
+    result = walk("gelatin")
+    with Camera(result, WIDTH, HEIGHT) as camera:
+        for time, side in ((1.5, "left"), (8.5, "right")):
+            step = int(np.searchsorted(result.time, time))
+            frame = camera.frame(step).astype(int)
+            green = (frame[..., 1] > 120) & (frame[..., 0] < 60) & (frame[..., 2] < 100)
+            columns = np.flatnonzero(green.any(axis=0))
+            assert green.sum() > 50
+            assert (columns.mean() < WIDTH / 2) == (side == "left")
+
+
+def test_the_camera_follows_a_robot_that_goes_far():
+    """Slid by three lengths, it is still in the picture."""
+    result = walk("gelatin")
+    far = replace(result, position=np.add(result.position, [0.39, 0.0, 0.0]))
+    far.position[: result.start + 1] -= [0.39, 0.0, 0.0]
+    with Camera(far, WIDTH, HEIGHT) as camera:
+        frame = camera.frame(len(far.time) - 1).astype(int)
+    pale = (frame.min(axis=2) > 120) & (np.ptp(frame, axis=2) < 60)
+    columns = np.flatnonzero(pale[HEIGHT // 2 : HEIGHT * 7 // 10].sum(axis=0) > 15)
+    assert np.ptp(columns) > 0.4 * WIDTH
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_the_files_play_with_the_right_number_of_frames(tmp_path, monkeypatch, count):
     walks = [walk(surface, ramp_time=0.2) for surface in list(SURFACES)[:count]]
-    path = tmp_path / "walk.mp4"
-    written = video.write_video(walks, path)
-    # 0.5 s before, 1 s of walk, 1 s after
-    assert written == pytest.approx(2.5 * video.FPS, abs=1)
-    ffmpeg = imageio_ffmpeg.get_ffmpeg_exe()
-    played = subprocess.run([ffmpeg, "-i", path, "-f", "rawvideo", "-pix_fmt", "rgb24", "-"],
-                            capture_output=True, check=True)  # fmt: skip
-    assert len(played.stdout) == written * 320 * 180 * 3
-    assert b"h264" in played.stderr
-    assert b"320x180" in played.stderr
-    assert b"30 fps" in played.stderr
-    assert [item.name for item in tmp_path.iterdir()] == ["walk.mp4"]
+    paths = [tmp_path / f"{result.scene.ground.name}.mp4" for result in walks]
+    joint = tmp_path / "all.mp4" if count > 1 else None
+    monkeypatch.setenv(gl.VARIABLE, BACKEND)
+    recording.film(walks, paths, joint)
+    frames = round(2.5 * recording.FPS)  # 0.5 s before, 1 s of walk, 1 s after
+    for path in [*paths, *([joint] if joint else [])]:
+        played = subprocess.run(
+            [imageio_ffmpeg.get_ffmpeg_exe(), "-i", path, "-f", "null", "-"],
+            capture_output=True, text=True, check=True,
+        ).stderr  # fmt: skip
+        assert "h264" in played
+        assert "30 fps" in played
+        assert ("1280x720" in played) == (path != joint)
+        assert int(re.findall(r"frame= *(\d+)", played)[-1]) == pytest.approx(frames, abs=1)
+    names = {path.name for path in tmp_path.iterdir()}
+    assert names == {path.name for path in paths} | ({"all.mp4"} if joint else set())
 
 
 def test_a_video_that_fails_leaves_nothing(tmp_path, monkeypatch):
-    def broken(walks, times):
-        yield np.zeros((720, 1280, 3), np.uint8)
+    def broken(walk, times):
+        yield np.zeros((720, 1280, 3), np.uint8), 0
         raise RuntimeError("lost the context")
 
-    monkeypatch.setattr(video, "bands", broken)
+    monkeypatch.setattr(recording, "pictures", broken)
     with pytest.raises(RuntimeError, match="lost the context"):
-        video.write_video([walk("felt")], tmp_path / "walk.mp4")
+        recording.write_video(walk("felt"), tmp_path / "walk.mp4")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_letters_of_other_alphabets_are_drawn():
+    """Each differs from the box that stands for a letter that a font lacks."""
+    box = np.asarray(font(24).getmask("\U000f0000"))
+    for letter in "ЖψØ":
+        assert not np.array_equal(np.asarray(font(24).getmask(letter)), box)

@@ -1,8 +1,10 @@
 """A run that fails says so, and leaves what is needed to see why."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from walks import walk
+from walks import HEAVIER, walk
 
 import mjsim.simulation.simulation as simulation
 from mjsim.report import record
@@ -11,18 +13,18 @@ from mjsim.simulation.measures import measure
 from mjsim.simulation.status import Status
 from mjsim.simulation.trajectory import load
 
-TOO_MUCH = 72e3  # Pa; kappa L = 5.7
+TOO_MUCH = replace(HEAVIER, peak_pressure=72e3)  # kappa L = 5.7
 
 
 def test_past_kappa_l_of_5_the_robot_topples():
-    result = walk("felt", pressure=TOO_MUCH)
+    result = walk("felt", robot=TOO_MUCH)
     assert result.status is Status.TOPPLED
     assert 2.0 < result.time[-1] < 10.0
     assert np.isfinite(result.coordinates).all()
 
 
 def test_a_toppled_robot_has_no_displacement():
-    result = walk("felt", pressure=TOO_MUCH)
+    result = walk("felt", robot=TOO_MUCH)
     assert measure(result) is None
     row = record(result)
     assert row["displacement_over_L"] is None
@@ -46,7 +48,7 @@ def test_coordinates_that_run_away_are_called_diverged(monkeypatch, poison):
 
 
 def test_a_saved_failure_can_be_loaded_and_shows_the_same_states(tmp_path):
-    result = walk("felt", pressure=TOO_MUCH)
+    result = walk("felt", robot=TOO_MUCH)
     from mjsim.io.provenance import provenance
 
     path = tmp_path / "failed.nc"

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from analytic import GAITS, SURFACES, Robot
-from mjsim.compare import LADDER, Row, compare, main
+from mjsim.compare import MODELS, Row, compare, main
 from mjsim.io import cli
 
 STANDSTILL = 0.005  # of L; less is no travel, see analytic.locomotion
@@ -27,20 +27,20 @@ def test_mujoco_goes_the_way_the_elastica_predicts(surface, gait, reverse, part)
         assert planar.displacement_over_L * theory.displacement_over_L > 0
 
 
-def test_a_row_a_rung_with_its_difference_from_the_reference(capsys):
+def test_a_row_a_model_with_its_difference_from_the_reference(capsys):
     assert main(["--surface", "felt", "--gait", "wave", "--json"]) == 0
     said = json.loads(capsys.readouterr().out)
     assert said["reference"] == "elastica"
-    assert [row["solver"] for row in said["rows"]] == list(LADDER)
+    assert [row["model"] for row in said["rows"]] == list(MODELS)
     assert set(said["rows"][0]) == set(Row._fields)
-    by_model = {row["solver"]: row for row in said["rows"]}
+    by_model = {row["model"]: row for row in said["rows"]}
     assert by_model["elastica"]["difference_over_L"] == 0
     assert by_model["elastica"]["uncertainty_over_L"] < 1e-3
     assert all(abs(row["difference_over_L"]) < 0.002 for row in said["rows"])
 
 
-def test_a_rung_without_an_answer_says_why(capsys):
-    assert main(["--surface", "felt", "--gait", "wave", "--pressure", "72000"]) == 0
+def test_a_model_without_an_answer_says_why(capsys):
+    assert main(["--surface", "felt", "--gait", "wave", "--pressure", "90000"]) == 0
     said = capsys.readouterr().out
     assert "branch_end" in said
     assert "toppled" in said
@@ -49,7 +49,7 @@ def test_a_rung_without_an_answer_says_why(capsys):
 @pytest.mark.parametrize(
     ("words", "valid"),
     [(["--surface", "ice"], "felt"), (["--gait", "wave,trot"], "pulse"),
-     (["--solver", "string"], "planar"), (["--pressure", "1e9"], "78863"),
+     (["--model", "string"], "planar"), (["--pressure", "1e9"], "128881"),
      (["--pressure", "-1"], "positive")],
 )  # fmt: skip
 def test_bad_input_gets_one_line_and_exit_2(capsys, words, valid):

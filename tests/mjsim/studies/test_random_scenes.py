@@ -7,7 +7,7 @@ from mjsim.scene import Numerics
 
 
 @pytest.mark.slow
-def test_random_scenes_at_4_s_a_leg_are_the_elastica_s():
+def test_random_scenes_at_4_s_a_ramp_are_the_elastica_s():
     """At 2 s a ramp inertia adds to it; see docs/accuracy.md."""
     middle, high = report(cases(), 4.0, Numerics())
     assert middle < 0.02

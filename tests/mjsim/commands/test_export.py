@@ -1,0 +1,170 @@
+"""MJCF that walks by itself: in plain MuJoCo, in dm_control, in a rollout, from any folder."""
+
+import shutil
+
+import mujoco
+import numpy as np
+import pytest
+from dm_control import mjcf
+from dm_control import mujoco as dm_mujoco
+from mujoco import rollout
+
+from analytic import GAITS, SURFACES, Robot
+from mjsim import export, registry
+from mjsim.ground.textures import write_textures
+from mjsim.io import cli
+from mjsim.io.assets import MODELS
+from mjsim.mjcf.standalone import standalone_spec, walking_scene
+from mjsim.scene import Scene
+from mjsim.simulation.measures import measure
+from mjsim.simulation.simulation import simulate
+
+STANDING = 100  # steps before the gait begins
+GAIT = GAITS["wave"]
+
+
+def commands(timestep):
+    time = np.arange(1.0, round(GAIT.period / timestep) + 1) * timestep
+    walking = Robot().peak_pressure * GAIT.fractions(time)
+    return np.concatenate([np.zeros((STANDING, 3)), walking])
+
+
+def by_mjsim(name):
+    scene = walking_scene(Scene(ground=SURFACES[name]))
+    return measure(simulate(scene)).displacement
+
+
+@pytest.mark.parametrize("name", list(SURFACES))
+def test_a_loop_of_mj_step_alone_goes_as_far_as_mjsim(name):
+    model = mujoco.MjModel.from_xml_path(str(MODELS / f"{name}.xml"))
+    data = mujoco.MjData(model)
+    places = []
+    for control in commands(model.opt.timestep):
+        data.ctrl[:] = control
+        mujoco.mj_step(model, data)
+        places.append(data.sensor("left_position").data[0])
+    shift = (places[-1] - places[STANDING - 1]) / Robot().length
+    assert shift == pytest.approx(by_mjsim(name), rel=0.01)
+
+
+@pytest.mark.parametrize("name", ["polyethylene", "gelatin"])
+def test_so_do_dm_control_and_a_rollout(name):
+    path = str(MODELS / f"{name}.xml")
+    physics = dm_mujoco.Physics.from_xml_path(path)
+    sequence = commands(physics.timestep())
+    places = []
+    for control in sequence:
+        physics.set_control(control)
+        physics.step()
+        places.append(float(physics.named.data.site_xpos["robot_end_left", "x"]))
+    shift = (places[-1] - places[STANDING - 1]) / Robot().length
+    assert shift == pytest.approx(by_mjsim(name), rel=0.01)
+
+    model = mujoco.MjModel.from_xml_path(path)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    state = np.empty(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_FULLPHYSICS))
+    mujoco.mj_getState(model, data, state, mujoco.mjtState.mjSTATE_FULLPHYSICS)
+    states, _ = rollout.rollout(model, data, state[None], sequence[None])
+    x = states[0, :, 1]  # after the time; the first coordinate is x of the left end
+    rolled = (x[-1] - x[STANDING - 1]) / Robot().length
+    assert rolled == pytest.approx(by_mjsim(name), rel=0.01)
+
+
+def test_a_robot_that_is_pushed_is_stopped_by_the_ground():
+    """On felt, whose flat sides hold; two seconds after a push of 10 cm/s."""
+    model = mujoco.MjModel.from_xml_path(str(MODELS / "felt.xml"))
+    data = mujoco.MjData(model)
+    for _ in range(STANDING):
+        mujoco.mj_step(model, data)
+    data.qvel[0] = 0.1
+    before = data.qpos[0]
+    for _ in range(400):
+        mujoco.mj_step(model, data)
+    assert abs(data.qvel[0]) < 1e-4
+    # by mu g, less what the two tips do not hold
+    assert data.qpos[0] - before == pytest.approx(0.1**2 / (2 * 0.37 * 9.81), rel=0.2)
+
+
+@pytest.mark.parametrize("name", list(SURFACES))
+def test_it_has_sliders_in_pascal_named_sensors_a_keyframe_and_cameras(name):
+    model = mujoco.MjModel.from_xml_path(str(MODELS / f"{name}.xml"))
+    assert model.nu == 3
+    assert model.actuator_ctrllimited.all()
+    assert model.actuator_ctrlrange[:, 1] == pytest.approx(Robot().peak_pressure, rel=1e-5)
+    names = {model.sensor(i).name for i in range(model.nsensor)}
+    assert {"left_position", "right_position", "left_load", "right_load"} <= names
+    assert model.key("flat").qpos == pytest.approx(np.zeros(model.nq))
+    assert model.camera("side").id >= 0
+    assert (MODELS / f"{name}.xml").stat().st_size < 40_000
+
+
+def test_the_files_are_those_of_the_code(tmp_path):
+    assert export.main(["--models", "--out", str(tmp_path)]) == 0
+    for path in tmp_path.glob("*.xml"):
+        assert path.read_text() == (MODELS / path.name).read_text(), "run `make models`"
+    assert {path.stem for path in tmp_path.glob("*.xml")} == {*SURFACES, "cable", "rod"}
+
+
+def test_an_exported_scene_loads_from_another_folder_and_in_dm_control(tmp_path, monkeypatch):
+    scene = tmp_path / "my.toml"
+    scene.write_text('[robot]\nlength = 0.09\nmass = 0.012\n[ground]\nsurface = "gelatin"\n')
+    assert export.main(["--scene", str(scene), "--out", str(tmp_path / "out")]) == 0
+    shutil.move(tmp_path / "out", tmp_path / "moved")
+    monkeypatch.chdir("/")
+    path = tmp_path / "moved" / "gelatin.xml"
+    model = mujoco.MjModel.from_xml_path(str(path))
+    assert model.body_subtreemass[0] == pytest.approx(0.012, rel=1e-4)
+    physics = mjcf.Physics.from_mjcf_model(mjcf.from_path(str(path)))
+    assert physics.model.nu == 3
+    assert str(tmp_path) not in path.read_text()
+
+
+@pytest.mark.parametrize("body", registry.names())
+def test_every_body_can_be_exported_and_stepped(body):
+    model = standalone_spec(Scene(body=body)).compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, nstep=50)
+    assert np.isfinite(data.qpos).all()
+
+
+def test_the_exported_cable_bends_by_its_controls():
+    """Evenly inflated and free, each joint turns by its natural curvature."""
+    model = mujoco.MjModel.from_xml_path(str(MODELS / "cable.xml"))
+    model.opt.gravity[:] = 0
+    model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
+    data = mujoco.MjData(model)
+    data.ctrl[:] = 0.5 * Robot().peak_pressure
+    mujoco.mj_step(model, data, nstep=600)
+    balls = data.qpos[7:].reshape(-1, 4)
+    turn = 2 * np.arctan2(balls[:, 2], balls[:, 0])
+    expected = 3.529 / 2 / model.nu  # alpha p L of the default robot, by joint
+    assert np.abs(turn) == pytest.approx(np.full(model.nu, expected), rel=0.01)
+    assert (np.sign(turn) == np.sign(turn[0])).all()
+
+
+def test_help_does_nothing_else(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    for words in (["--help"], ["--models", "--help"]):
+        with pytest.raises(SystemExit) as stop:
+            export.main(words)
+        assert stop.value.code == 0
+    assert "--scene" in capsys.readouterr().out
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_bad_input_gets_one_line_and_exit_2(tmp_path, capsys):
+    with pytest.raises(SystemExit) as stop:
+        export.main(["--surface", "ice", "--out", str(tmp_path)])
+    assert stop.value.code == cli.BAD_INPUT
+    assert "felt, polyethylene, gelatin" in capsys.readouterr().err
+
+
+def test_the_textures_are_what_the_generator_draws(tmp_path):
+    from PIL import Image
+
+    write_textures(tmp_path)
+    for drawn in tmp_path.iterdir():
+        kept = np.asarray(Image.open(MODELS / "textures" / drawn.name), dtype=int)
+        # fonts and blurs may differ by a rounding between library versions
+        assert np.abs(np.asarray(Image.open(drawn), dtype=int) - kept).mean() < 1.0

@@ -1,0 +1,201 @@
+"""A body, a friction law, a ground and a controller of one's own, each registered from outside."""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+import pytest
+
+from analytic import GAITS, LAWS, SURFACES, Elastica, Robot, predict
+from analytic import friction as laws
+from mjsim import registry
+from mjsim.bodies.planar import Planar
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.measures import measure
+from mjsim.simulation.simulation import Simulation, simulate
+from mjsim.simulation.status import Status
+
+
+class Twin(Planar):
+    """The planar body with links of twice the inertia: alike, where inertia is none."""
+
+    name = "twin"
+
+    def spec(self, scene, numerics):
+        spec = super().spec(scene, numerics)
+        for body in spec.bodies:
+            if body.name.startswith("link_"):
+                body.inertia = 2 * np.array(body.inertia)
+        return spec
+
+
+class Sticky:
+    """Constant bounds with adhesion: a tip holds by as much more as a piece of 2 mm does."""
+
+    name, needs_load = "sticky", False
+
+    def bound(self, surface, width, contact, load):
+        usual = LAWS["constant"].bound(surface, width, contact, load)
+        return usual + surface.shear_strength * width * 0.002
+
+    def acts_on(self, surface):
+        return LAWS["constant"].acts_on(surface)
+
+
+class ByLoad:
+    """A bound that needs the load, carried by the ends' own friction and not by MuJoCo's."""
+
+    name, needs_load = "by-load", True
+
+    def bound(self, surface, width, contact, load):
+        return LAWS["coulomb"].bound(surface, width, contact, load)
+
+    def acts_on(self, surface):
+        return LAWS["coulomb"].acts_on(surface)
+
+
+@dataclass(frozen=True)
+class Halves:
+    """One surface left of a border, another right of it."""
+
+    name: str = "halves"
+    border: float = 0.0
+    left: str = "felt"
+    right: str = "gelatin"
+
+    def at(self, x):
+        return SURFACES[self.left if x < self.border else self.right]
+
+
+@pytest.fixture(autouse=True)
+def _forget(monkeypatch):
+    monkeypatch.setattr(registry, "_registered", dict(registry._registered))
+    monkeypatch.setattr(laws, "LAWS", laws.LAWS)
+    before = dict(laws.LAWS)
+    yield
+    laws.LAWS.clear()
+    laws.LAWS.update(before)
+
+
+def displacement(scene, numerics=None):
+    return measure(simulate(scene, numerics)).displacement
+
+
+def test_a_body_of_ones_own_walks_by_its_name():
+    registry.register(Twin())
+    twin, planar = (displacement(Scene(body=body)) for body in ("twin", "planar"))
+    assert twin == pytest.approx(planar, abs=2e-4)
+    with pytest.raises(ValueError, match="planar, cable, rod, twin; got 'triplet'"):
+        Scene(body="triplet")
+
+
+def test_a_law_of_ones_own_serves_theory_and_simulation():
+    laws.register(Sticky())
+    scene = Scene(ground=SURFACES["felt"], friction="sticky")
+    friction = laws.Friction("sticky")
+    exact = predict(scene.robot, scene.gait, scene.ground, friction=friction)
+    exact = exact.locomotion.per_cycle / scene.robot.length
+    assert displacement(scene) == pytest.approx(exact, abs=0.001)
+
+
+def test_a_law_by_load_can_be_carried_by_the_ends_bounds():
+    laws.register(ByLoad())
+    slow = GAITS["wave"].__class__("wave", GAITS["wave"].stages, 8.0)
+    scene = Scene(gait=slow, ground=SURFACES["gelatin"], friction="by-load")
+    friction = laws.Friction("coulomb", 1.0)
+    exact = predict(scene.robot, slow, scene.ground, friction=friction)
+    exact = exact.locomotion.per_cycle / scene.robot.length
+    assert displacement(scene) == pytest.approx(exact, rel=0.05)
+
+
+def test_a_ground_of_ones_own_turns_the_robot_round_at_its_border():
+    """All felt or all gelatin is as the surface itself; between, theory and MuJoCo agree."""
+    for border, alike in ((1.0, "felt"), (-1.0, "gelatin")):
+        scene = Scene(ground=Halves(border=border))
+        assert displacement(scene) == pytest.approx(displacement(Scene(ground=SURFACES[alike])))
+    scene = Scene(ground=Halves(border=0.065))
+    exact = predict(scene.robot, scene.gait, scene.ground).locomotion.per_cycle
+    assert displacement(scene) == pytest.approx(exact / scene.robot.length, abs=0.003)
+
+
+def test_a_controller_is_asked_at_each_step_and_the_gait_as_one_walks_alike():
+    scene = Scene(ground=SURFACES["gelatin"])
+    simulation = Simulation(scene)
+    gait = scene.gait
+    seen = []
+
+    def policy(observation):
+        seen.append(observation)
+        time = np.array([observation.time + simulation.numerics.timestep])
+        return scene.robot.peak_pressure * gait.fractions(time)[0]
+
+    closed, planned = simulation.run(policy), simulate(scene)
+    assert len(seen) == 2000
+    assert seen[0].time == pytest.approx(0.0, abs=1e-9)
+    assert closed.coordinates == pytest.approx(planned.coordinates, abs=1e-9)
+    assert seen[-1].left == pytest.approx(planned.position[-2, 0, 0], abs=1e-6)
+
+
+def test_steps_by_hand_are_those_of_a_run():
+    """After a reset too, but for the rounding of springs worked out one by one."""
+    scene = Scene(cycles=1)
+    simulation = Simulation(scene, Numerics(links=12))
+    planned = simulation.run()
+    for _ in range(2):
+        simulation.reset(seed=1)
+        for time in np.arange(1, 401) * 0.005:
+            simulation.step(scene.robot.peak_pressure * scene.gait.fractions(np.array([time]))[0])
+        walked = simulation.trajectory()
+        count = len(walked.time)
+        assert walked.coordinates == pytest.approx(planned.coordinates[:count], abs=1e-8)
+
+
+@pytest.mark.parametrize("valves", [[1.0, 2.0], [-1.0, 0.0, 0.0], [np.nan, 0.0, 0.0]])
+def test_commands_are_pressures_of_the_segments(valves):
+    with pytest.raises(ValueError, match="3 pressures of at least 0 Pa"):
+        Simulation(Scene(), Numerics(links=6)).step(valves)
+
+
+def test_after_a_failure_nothing_more_happens(monkeypatch):
+    simulation = Simulation(Scene(), Numerics(links=6))
+    step = mujoco.mj_step
+
+    def broken(model, data):
+        step(model, data)
+        data.qpos[1] = 1.0
+
+    monkeypatch.setattr(mujoco, "mj_step", broken)
+    first = simulation.step([0.0] * 3)
+    first = simulation.step([0.0] * 3)
+    assert first.status in (Status.TOPPLED, Status.DIVERGED)
+    assert simulation.step([0.0] * 3).time == first.time
+
+
+def test_one_robot_described_by_3_6_or_9_segments_goes_as_far_on_every_surface():
+    """The ground is in SI: it knows nothing of segments."""
+    for surface in SURFACES.values():
+        shifts = []
+        for parts in (1, 2, 3):
+            robot = Robot(segments=(1.0,) * 3 * parts)
+            stages = tuple(tuple(f for f in s for _ in range(parts)) for s in GAITS["wave"].stages)
+            gait = GAITS["wave"].__class__("wave", stages)
+            scene = Scene(robot, gait, surface)
+            exact = (
+                predict(robot, gait, surface, Elastica(links=36)).locomotion.per_cycle
+                / robot.length
+            )
+            shifts.append((exact, displacement(scene, Numerics(links=36))))
+        assert np.ptp(shifts, axis=0).max() < 1e-6
+
+
+def test_a_heavier_robot_keeps_its_coefficients_of_friction():
+    """The ground's; only the loads grow, and with the stiffness the shapes stay."""
+    double = Robot(
+        weight_per_length=2 * Robot.weight_per_length, modulus=2 * Robot.modulus,
+        peak_pressure=2 * Robot.peak_pressure,
+    )  # fmt: skip
+    light, heavy = (
+        displacement(Scene(robot, ground=SURFACES["gelatin"], friction="coulomb"))
+        for robot in (Robot(), double)
+    )
+    assert heavy == pytest.approx(light, rel=0.01)
