@@ -3,15 +3,15 @@
 import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from mjsim.io.files import whole
 from mjsim.scene import Numerics
 from mjsim.studies.accuracy import benchmark_cases, heavy_cantilever
 from mjsim.studies.accuracy.rows import Row, everywhere
-from mjsim.studies.paper.style import FONT
 
 GOALS = (0.10, 0.02, 0.005)  # relative errors that a table names the cheapest way to
 _LEAST = 1e-5  # errors below are drawn there: the reference is no better
@@ -20,76 +20,76 @@ _COLOUR = {
     "modes": "#8d99ae", "obstacle": "#3a7ca5", "elastica": "black",
     "Drake": "#5e548e", "PyElastica": "#00798c", "PyBullet": "#b56576",
 }  # fmt: skip
-_MARKER = {
-    "discrete": "o", "Euler": "s", "implicitfast": "^", "implicit": "v", "RK4": "D",
-    "SAP": "X", "Verlet": "X", "explicit": "X",
-}  # fmt: skip
-_CONE = {
-    ("elliptic", 1.0): "<", ("elliptic", 10.0): ">", ("elliptic", 1000.0): "*",
-    ("pyramidal", 1.0): "p", ("pyramidal", 100.0): "H",
-}  # fmt: skip
-_FAILED = {"diverged": "x", "toppled": "1", "drifting": "2"}
+_FAILED = {"diverged": "x", "toppled": "1", "drifting": "2", "turned": "3"}
 _TITLE = {
-    heavy_cantilever.CASE: (
-        "heavy clamped strip, settling",
-        "distance of the tip from its place / L",
-    ),
-    benchmark_cases.WALK: (
-        "one cycle of the default gait",
-        "relative error of displacement per cycle",
-    ),
+    heavy_cantilever.CASE: ("heavy cantilever", "distance of the tip from its exact place / L"),
+    benchmark_cases.WALK: ("one cycle", "relative error of displacement per cycle"),
     benchmark_cases.COULOMB: (
-        "one cycle, Coulomb's law",
-        "relative error of displacement per cycle",
+        "one cycle under Coulomb friction", "relative error of displacement per cycle",
     ),
-}
+}  # fmt: skip
 
 
 def draw(rows: Sequence[Row], case: str) -> Figure:
-    """Error over seconds of one core per simulated second, a panel a scene, with the front."""
+    """Error over CPU seconds per simulated second, a panel a scene.
+
+    A line a method, its own Pareto front, with what else was measured of it pale behind; failures
+    in a row of their own above.
+    """
     names = list(dict.fromkeys(row.scene for row in rows if row.case == case))
-    figure = Figure(figsize=(2 + 4.2 * len(names), 4.6), layout="constrained", dpi=110)
+    figure = Figure(figsize=(1 + 5.2 * max(1, len(names)), 4.6), layout="constrained", dpi=110)
     title, label = _TITLE[case]
     panels = figure.subplots(1, max(1, len(names)), sharey=True, squeeze=False)[0]
     for axes, scene in zip(panels, names, strict=False):
         here = [row for row in rows if (row.case, row.scene) == (case, scene)]
-        worst = max((row.error for row in here if row.status == "ok"), default=1.0)
-        for row in here:
-            colour = _COLOUR.get(row.method, "0.5")
-            if row.status == "ok":
-                usual = _MARKER.get(row.integrator, "P")
-                marker = _CONE.get((row.cone, row.impratio), usual)
-                axes.plot(row.cost, max(row.error, _LEAST), marker, color=colour, ms=4.5,
-                          alpha=0.75, mec="none", label=_name(row))  # fmt: skip
-            else:
-                marker = _FAILED.get(row.status, "+")
-                axes.plot(row.cost, 2 * worst, marker, color=colour, ms=5, mew=0.8)
-                axes.plot([], [], marker, color="0.4", ms=5, mew=0.8, label=row.status)
-        front = pareto(here)
-        axes.step([r.cost for r in front], [max(r.error, _LEAST) for r in front], color="0.3",
-                  lw=1, where="post", zorder=0)  # fmt: skip
+        _draw_methods(axes, here)
+        _draw_failures(axes, here)
         for row in here:
             if is_default(row) and row.status == "ok":
-                axes.plot(row.cost, max(row.error, _LEAST), "o", ms=13, mfc="none", mec="0.1")
-                axes.annotate("default", (row.cost, max(row.error, _LEAST)), xytext=(9, 6),
-                              textcoords="offset points", fontsize=8)  # fmt: skip
+                place = row.cost, max(row.error, _LEAST)
+                axes.plot(*place, "o", ms=13, mfc="none", mec="0.1")
+                axes.annotate("default", place, xytext=(9, 6), textcoords="offset points",
+                              fontsize=8)  # fmt: skip
         axes.set(xscale="log", yscale="log", xlabel="CPU seconds per simulated second")
         axes.set_title(title if scene == heavy_cantilever.TIP else f"{title}, {scene}", fontsize=9)
         axes.grid(which="major", color="0.92", lw=0.6)
     panels[0].set_ylabel(label)
-    handles: dict[str, Any] = {}
-    for axes in panels:
-        found, labels = axes.get_legend_handles_labels()
-        handles |= dict(zip(labels, found, strict=True))
-    failed = {row.status for row in rows} - {"ok"}
-    handles = {name: handles[name] for name in sorted(handles, key=lambda name: name in failed)}
-    figure.legend(list(handles.values()), list(handles), loc="outside right upper", frameon=False,
-                  fontsize=FONT["font.size"] - 2)  # fmt: skip
     return figure
 
 
+def _draw_methods(axes: Axes, rows: Sequence[Row]) -> None:
+    for method in dict.fromkeys(row.method for row in rows):
+        colour = _COLOUR.get(method, "0.5")
+        mine = [row for row in rows if row.method == method and row.status == "ok"]
+        if not mine:
+            continue
+        front = pareto(mine)
+        x, y = [row.cost for row in front], [max(row.error, _LEAST) for row in front]
+        axes.plot([row.cost for row in mine], [max(row.error, _LEAST) for row in mine], "o",
+                  color=colour, ms=3, alpha=0.25, mec="none")  # fmt: skip
+        axes.plot(x, y, "o-", color=colour, ms=4, lw=1.4)
+        axes.annotate(method, (x[0], y[0]), xytext=(-4, 5), textcoords="offset points",
+                      color=colour, fontsize=8, ha="right")  # fmt: skip
+
+
+def _draw_failures(axes: Axes, rows: Sequence[Row]) -> None:
+    """Above the rest, by their kind; the methods in their colours."""
+    failed = [row for row in rows if row.status != "ok"]
+    if not failed:
+        return
+    level = 3 * max((row.error for row in rows if row.status == "ok"), default=1.0)
+    for row in failed:
+        axes.plot(row.cost, level, _FAILED.get(row.status, "+"), color=_COLOUR.get(row.method),
+                  ms=5, mew=0.8)  # fmt: skip
+    kinds = dict.fromkeys(row.status for row in failed)
+    handles = [Line2D([], [], ls="none", marker=_FAILED.get(kind, "+"), color="0.4", label=kind)
+               for kind in kinds]  # fmt: skip
+    axes.legend(handles=handles, title="failed", fontsize=7, title_fontsize=7, frameon=False,
+                loc="lower left")  # fmt: skip
+
+
 def pareto(rows: Iterable[Row]) -> list[Row]:
-    """Rows that nothing else is both cheaper and more accurate than, cheapest first."""
+    """The Pareto front: rows that nothing is both cheaper and more accurate than."""
     front: list[Row] = []
     for row in sorted((r for r in rows if r.status == "ok"), key=lambda r: (r.cost, r.error)):
         if not front or row.error < front[-1].error:
@@ -144,8 +144,3 @@ def _cell(row: Row, least: float) -> str:
     how += f"/{1e3 * row.timestep:g} ms/{row.integrator}" if row.timestep else ""
     how += f"/{row.cone[:1]}{row.impratio:g}" if row.cone else ""
     return f"{how} {row.cost:.2g} s ×{row.cost / least:.3g}"
-
-
-def _name(row: Row) -> str:
-    name = f"{row.method}, {row.integrator}" if row.integrator else row.method
-    return f"{name}, {row.cone} {row.impratio:g}" if row.cone else name

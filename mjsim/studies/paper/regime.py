@@ -16,10 +16,12 @@ NAME = "regime"
 CAPTION = """\
 Regime map. Displacement per cycle by elastica over the surface's ratio V_t / (tau q L) and the peak
 pressure, for the default robot and one of a third and of three times its weight; the black line is
-the neutral curve. Felt is the left edge, gelatin the right one, polyethylene the dashed line; grey
-is beyond the stable branch. Agrees with the paper: one gait, and the friction ratio alone turns the
-robot round. Differs: standing still is a curve in this map, not a property of polyethylene; which
-side of it {0.5, 1} falls on depends on the pressure and on the weight.
+the neutral curve. Felt is the left edge, gelatin the right one, polyethylene the dashed line; the
+star is the paper's robot on polyethylene, on the neutral curve; grey is beyond the stable branch.
+Agrees with the paper: one gait, and the friction ratio alone turns the robot round. Differs:
+standing still is a curve in this map, not a property of polyethylene; which side of it {0.5, 1}
+falls on depends on the pressure and on the weight, and the default robot was identified as one that
+stands still.
 """
 
 _LOADS = (1 / 3, 1.0, 3.0)
@@ -69,6 +71,9 @@ def draw(data: xr.Dataset) -> Figure:
         ax.contour(ratio, pressure, np.ma.masked_invalid(shift), levels=[0.0], colors="black",
                    linewidths=1.4)  # fmt: skip
         ax.axvline(polyethylene, color="0.2", dashes=(4, 2), lw=1)
+        if load == 1:
+            ax.plot(polyethylene, 1e-3 * Robot().peak_pressure, "*", ms=13, color="#f2c14e",
+                    mec="black", mew=0.8)  # fmt: skip
         ax.set_xscale("log")
         ax.set_xlabel(r"$V_t / (\tau q L)$")
         ax.set_title(f"{load:.3g} × the default weight", fontsize=9, pad=16)

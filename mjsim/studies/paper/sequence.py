@@ -14,10 +14,11 @@ CAPTION = """\
 Figure 4. One cycle on felt, polyethylene and wet gelatin: elastica (thick; passive segments grey,
 inflated ones black) and MuJoCo (red dashes), at the stages of the gait. The tick marks where the
 left end began; numbers are its displacement over L by elastica and by MuJoCo.
-Agrees with the paper: forward on felt, where the flat end stays, and backward on gelatin, where the
-tip stays; the same shapes on all three. Differs: on polyethylene the paper reports no net
-displacement; here it is +0.019 L, since the flat end gives way to the tip only late in the cycle.
-(The paper's caption calls the inflated segments grey and the passive ones black.)
+Agrees with the paper: forward on felt, where the flat end stays, still on polyethylene, and
+backward on gelatin, where the tip stays; the same shapes on all three. Differs: nothing that can be
+seen, but that two numbers of this robot, its weight and its curvature, are identified from the
+paper's own statements, and its gait is assumed. (The paper's caption calls the inflated segments
+grey and the passive ones black.)
 """
 
 _POINTS = 91
