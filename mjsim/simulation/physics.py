@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 from dm_control import mujoco as dm_mujoco
+from dm_control.mujoco import wrapper
 from numpy.typing import NDArray
 
 from mjsim.friction.contact_length import ContactForces, pads_by_node
@@ -34,7 +35,7 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
         """
         scene = walking_scene(scene)
         numerics = (numerics or Numerics()).resolved(scene.body, scene.friction)
-        physics: Physics = cls.from_model(compile_model(scene, numerics))
+        physics: Physics = cls.from_model(wrapper.MjModel(compile_model(scene, numerics)))
         physics._scene, physics._numerics = scene, numerics
         physics._pads = pads_by_node(physics.model.ptr)
         physics._start = float(physics.ends()[0, 0])

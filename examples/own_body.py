@@ -1,0 +1,33 @@
+"""A body of one's own: the planar chain with a payload on its middle link."""
+
+import mujoco
+
+from mjsim import Numerics, Scene, measure, registry, simulate
+from mjsim.bodies.planar import Planar
+
+
+class Laden(Planar):
+    """One module against one small protocol, mjsim.bodies.body.Body; here most is inherited."""
+
+    name = "laden"
+    payload = 0.002  # kg
+
+    def spec(self, scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
+        spec = super().spec(scene, numerics)
+        spec.body(f"link_{numerics.links // 2}").mass += self.payload
+        return spec
+
+
+def main() -> dict[str, float]:
+    registry.register(Laden())
+    shifts = {}
+    for body in ("planar", "laden"):
+        numbers = measure(simulate(Scene(body=body)))
+        assert numbers is not None
+        shifts[body] = numbers.displacement
+        print(f"{body:<8}{numbers.displacement:+.4f} L, {numbers.amplitude:.3f} L high")
+    return shifts
+
+
+if __name__ == "__main__":
+    main()

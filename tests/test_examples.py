@@ -1,0 +1,85 @@
+"""Every example runs as it stands, and says what its text promises."""
+
+import importlib.util
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analytic.friction import LAWS
+from mjsim import registry
+
+FOLDER = Path(__file__).resolve().parent.parent / "examples"
+
+
+@pytest.fixture(autouse=True)
+def _forget(monkeypatch):
+    monkeypatch.setattr(registry, "_registered", dict(registry._registered))
+    before = dict(LAWS)
+    yield
+    LAWS.clear()
+    LAWS.update(before)
+
+
+def example(name):
+    spec = importlib.util.spec_from_file_location(name, FOLDER / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.main
+
+
+def test_a_robot_of_ones_own_walks_forward_on_felt():
+    assert example("own_robot")() > 0.005
+
+
+def test_a_ground_of_ones_own_lies_between_felt_and_gelatin():
+    shifts = example("own_ground")()
+    assert shifts["gelatin"] < shifts["table"] < shifts["felt"]
+
+
+def test_a_gait_of_ones_own_goes_the_other_way_reversed():
+    shifts = example("own_gait")()
+    for surface in ("felt", "gelatin"):
+        there, back = (shifts[f"{way} {surface}"] for way in ("middle-first",
+                                                             "middle-first-reversed"))  # fmt: skip
+        assert there == pytest.approx(-back, abs=0.004)
+
+
+def test_a_body_of_ones_own_bends_lower_under_its_load():
+    shifts = example("own_body")()
+    assert shifts["laden"] != pytest.approx(shifts["planar"], abs=1e-4)
+
+
+def test_a_law_of_ones_own_agrees_in_theory_and_mujoco():
+    assert max(map(abs, example("own_law")().values())) < 0.002
+
+
+def test_a_controller_brings_the_robot_back():
+    assert abs(example("controller")()) < 0.001
+
+
+def test_mujoco_alone_walks_backward_on_gelatin():
+    assert example("mujoco_loop")() == pytest.approx(-0.147, abs=0.003)
+
+
+def test_dm_control_walks_backward_on_gelatin():
+    assert example("dm_control_physics")() < -0.005
+
+
+def test_a_saved_walk_is_plotted(tmp_path):
+    assert example("plot_trajectory")(tmp_path).stat().st_size > 5000
+
+
+def test_theory_alone_finds_the_neutral_surface_at_polyethylene():
+    assert example("theory_alone")() == pytest.approx(0.5, abs=0.01)
+
+
+@pytest.mark.slow
+def test_many_walks_go_farther_with_more_pressure():
+    assert (np.diff(example("many_walks")()) > 0).all()
+
+
+def test_every_example_is_tested():
+    text = Path(__file__).read_text()
+    for path in FOLDER.glob("*.py"):
+        assert f'"{path.stem}"' in text
