@@ -1,6 +1,7 @@
 PY := .venv/bin/python
 
-.PHONY: run test check numbers scenes loop bench models gallery figures chart maps clean
+.PHONY: run test check numbers scenes loop startup bench regression identify models gallery figures \
+	chart maps reference architecture clean
 
 run: .venv/ready
 	$(PY) -m mjsim.run --surface all
@@ -24,28 +25,47 @@ scenes: .venv/ready
 loop: .venv/ready
 	$(PY) benchmarks/loop.py
 
+startup: .venv/ready
+	$(PY) benchmarks/startup.py
+
 bench: .venv/ready
 	$(PY) -m pytest benchmarks --benchmark-only -o addopts="" --benchmark-columns=min,median,rounds
 
+# the numbers that a redesign keeps
+regression: .venv/ready
+	$(PY) benchmarks/regression/check.py
+
+# the paper's robot, from two of its statements
+identify: .venv/ready
+	$(PY) -m analytic.identification
+
 # write models/ anew after a change of the generator or of the default robot
 models: .venv/ready
-	$(PY) -m mjsim.export
+	$(PY) -m mjsim.ground.textures models/textures
+	$(PY) -m mjsim.export --models --out models
 
-# the seed's figures, as docs/figures.md shows them
+# the paper's figures, as docs/figures.md shows them
 figures: .venv/ready
-	$(PY) -m mjsim.figures --out docs
+	$(PY) -m mjsim.studies.paper --out docs
 
-# speed against accuracy: what is not yet in mjsim/accuracy/rows.csv, and the figures
+# speed against accuracy: what is not yet in docs/accuracy.csv, and the figures
 chart: .venv/ready
-	$(PY) -m mjsim.chart
+	$(PY) -m mjsim.studies.accuracy --auto mjsim/scene/auto.csv
 
 # where methods fail
 maps: .venv/ready
-	$(PY) -m mjsim.stability
+	$(PY) -m mjsim.studies.stability
 
 # the videos and the picture of the README
 gallery: .venv/ready
 	$(PY) -m mjsim.gallery
+
+# the API reference, from the docstrings
+reference: .venv/ready
+	$(PY) scripts/reference.py build/reference
+
+architecture: .venv/ready
+	$(PY) scripts/architecture.py
 
 .venv/ready: pyproject.toml constraints.txt scripts/setup.sh
 	bash scripts/setup.sh

@@ -82,7 +82,8 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     if name not in _HOME_OF:
         raise AttributeError(f"module 'analytic' has no attribute {name!r}")
-    return getattr(import_module(f"analytic.{_HOME_OF[name]}"), name)
+    value = globals()[name] = getattr(import_module(f"analytic.{_HOME_OF[name]}"), name)
+    return value
 
 
 def __dir__() -> list[str]:

@@ -7,7 +7,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from mjsim import SURFACES, Scene, simulate
-from mjsim.io.provenance import provenance
+from mjsim.scene.provenance import provenance
 
 
 def main(folder: Path = Path()) -> Path:

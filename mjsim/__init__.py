@@ -72,7 +72,8 @@ def __getattr__(name: str) -> Any:
         return version("undulator")
     if name not in _HOME_OF:
         raise AttributeError(f"module 'mjsim' has no attribute {name!r}")
-    return getattr(import_module(_HOME_OF[name]), name)
+    value = globals()[name] = getattr(import_module(_HOME_OF[name]), name)
+    return value
 
 
 def __dir__() -> list[str]:

@@ -112,8 +112,8 @@ def _walk(
     from mjsim.video import gl
 
     gl.prepare()
-    from mjsim.io.provenance import provenance
     from mjsim.report import record
+    from mjsim.scene.provenance import provenance
 
     records, walks = [], []
     for scene, numerics in cases:

@@ -1,5 +1,7 @@
-"""Pictures for the grounds and the ruler, drawn from fixed seeds and written to models/textures."""
+"""Pictures for the grounds and the ruler, drawn from fixed seeds."""
 
+import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +10,7 @@ from PIL import Image, ImageDraw, ImageFont
 from scipy.ndimage import gaussian_filter
 
 SIZE = 320  # pixels a side of a tile
-RULER_LENGTH = 0.26  # m, as the ruler of models/stage.xml
+RULER_LENGTH = 0.26  # m, as the ruler of mjsim/ground/stage.xml
 RULER_START = -0.06  # m, x of its left edge there
 
 
@@ -97,3 +99,17 @@ def _ruler() -> Image.Image:
             at = x + 50 if label == "cm" else x
             draw.text((at, 110), label, font=font, fill=(30, 30, 30), anchor="mm")
     return picture
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Draw them into the folder that the command line names."""
+    words = sys.argv[1:] if argv is None else list(argv)
+    if len(words) != 1 or words[0].startswith("-"):
+        print("usage: python -m mjsim.ground.textures FOLDER", file=sys.stderr)
+        return 2
+    write_textures(Path(words[0]))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

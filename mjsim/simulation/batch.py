@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from mjsim.bodies.pneumatics import chamber_pressure, controls
 from mjsim.mjcf.builder import compile_model
 from mjsim.scene import Numerics, Scene
+from mjsim.simulation.judge import judge
 from mjsim.simulation.simulation import (
     before_start,
     check_steps,
@@ -28,7 +29,7 @@ from mjsim.simulation.simulation import (
     simulate,
     walking_steps,
 )
-from mjsim.simulation.status import Status, judge
+from mjsim.simulation.status import Status
 from mjsim.simulation.trajectory import Trajectory
 
 Array = NDArray[np.float64]

@@ -6,7 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic.locomotion import Direction, direction
-from mjsim.simulation.status import Status, slid
+from mjsim.simulation.judge import slid
+from mjsim.simulation.status import Status
 from mjsim.simulation.trajectory import Trajectory
 
 

@@ -2,11 +2,13 @@
 
 from typing import Any
 
+import mujoco
 import numpy as np
 from dm_control import mujoco as dm_mujoco
 from dm_control.mujoco import wrapper
 from numpy.typing import NDArray
 
+from analytic.contact import may_lie_flat
 from mjsim.friction.contact_length import ContactForces, pads_by_node
 from mjsim.mjcf.builder import compile_model
 from mjsim.mjcf.standalone import walking_scene
@@ -50,10 +52,12 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
         return float(self.ends()[0, 0]) - self._start
 
     def contact_lengths(self) -> tuple[float, float]:
-        """Lengths over which the ends lie on their side, as they stand [m]."""
+        """Lengths over which the ends lie on their side, 0 of an inflated one [m]."""
         model, data = self.model.ptr, self.data.ptr
+        mujoco.mj_forward(model, data)  # dm_control leaves the forces of the step before
         forces = ContactForces(self._scene, self._numerics, model, data)
-        return forces.lengths(True, True)
+        ends = may_lie_flat(self.pressures()[[0, -1]], self._scene.robot.peak_pressure)
+        return forces.lengths(*ends.tolist())
 
     def pressures(self) -> Array:
         """Pressures that the segments are commanded, left first, (S,) [Pa]."""

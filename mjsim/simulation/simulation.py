@@ -17,7 +17,8 @@ from mjsim.friction.contact_length import pads_by_node
 from mjsim.friction.traction import traction
 from mjsim.mjcf.builder import compile_model
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.status import AT_REST, FALLEN, Status, judge
+from mjsim.simulation.judge import judge
+from mjsim.simulation.status import AT_REST, FALLEN, Status
 from mjsim.simulation.trajectory import Trajectory
 
 Array = NDArray[np.float64]

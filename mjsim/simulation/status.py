@@ -1,18 +1,9 @@
-"""How a simulation ended, by written criteria."""
+"""How a simulation ended: the words for it, and what an end is still a foot by."""
 
-from dataclasses import replace
 from enum import StrEnum
-from typing import TYPE_CHECKING
-
-import numpy as np
-
-if TYPE_CHECKING:
-    from mjsim.simulation.trajectory import Trajectory
 
 FALLEN = 0.1  # an end this far off the ground, over L, is no foot any more; chosen
 AT_REST = 1e-3  # speed of the ends below which the strip is at rest before time 0 [L/s]; chosen
-_ASIDE = 0.02  # a vertex this far off the plane, over L, has left it; chosen
-_SLID = 0.02  # of the length that both ends went downhill at once: the whole slides; chosen
 
 
 class Status(StrEnum):
@@ -24,40 +15,3 @@ class Status(StrEnum):
     SLID = "slid"  # the whole strip slid down the slope: nothing anchored it
     TURNED = "turned"  # it left its plane: turned away or fell sideways
     UNSETTLED = "unsettled"  # it was not at rest when the first cycle began
-
-
-def judge(walk: "Trajectory", stopped: bool = False, unsettled: bool = False) -> "Trajectory":
-    """The walk up to its failure, if it failed, with its status.
-
-    Args:
-        walk: as recorded.
-        stopped: whether the stepping stopped early.
-        unsettled: whether it began before the strip had come to rest.
-    """
-    length = walk.scene.robot.length
-    ends = np.abs(walk.position[:, [0, -1], 2]).max(axis=1)
-    fallen = np.flatnonzero(~(ends < FALLEN * length))
-    if len(fallen) and not stopped:
-        walk = walk.up_to(int(fallen[0]) + 1)
-    return replace(walk, status=_status(walk, stopped or len(fallen) > 0, unsettled))
-
-
-def _status(walk: "Trajectory", stopped: bool, unsettled: bool) -> Status:
-    length = walk.scene.robot.length
-    if not np.abs(walk.position[-1, :, 2]).max() < length:
-        return Status.DIVERGED
-    if not np.abs(walk.position[..., 1]).max() < _ASIDE * length:
-        return Status.TURNED
-    if slid(walk) > _SLID * length:
-        return Status.SLID  # whatever became of it on the way down
-    if stopped:
-        return Status.TOPPLED
-    return Status.UNSETTLED if unsettled else Status.OK
-
-
-def slid(walk: "Trajectory") -> float:
-    """How far both ends went downhill together [m]."""
-    if not walk.scene.slope:
-        return 0.0
-    moves = -np.sign(walk.scene.slope) * np.diff(walk.position[:, [0, -1], 0], axis=0)
-    return float(np.maximum(moves.min(axis=1), 0.0).sum())

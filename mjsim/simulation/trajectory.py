@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from analytic.chain import node_positions
 from mjsim.io.files import whole
-from mjsim.io.provenance import configuration
 from mjsim.scene import Numerics, Scene
+from mjsim.scene.provenance import configuration
 from mjsim.simulation.status import Status
 
 Array = NDArray[np.float64]

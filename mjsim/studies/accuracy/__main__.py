@@ -9,7 +9,7 @@ from pathlib import Path
 
 from mjsim.io.cli import bar, choose, fail, parse
 from mjsim.io.files import check_folder
-from mjsim.io.provenance import machine, signature
+from mjsim.scene.provenance import machine, signature
 from mjsim.studies.accuracy import (
     benchmark_cases,
     cantilever_bodies,

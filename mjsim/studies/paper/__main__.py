@@ -11,7 +11,7 @@ import xarray as xr
 
 from mjsim.io.cli import bar, choose, fail, parse
 from mjsim.io.files import whole
-from mjsim.io.provenance import origin
+from mjsim.scene.provenance import origin
 from mjsim.studies.paper import amplitude, contact, regime, sequence
 from mjsim.studies.paper.style import FONT
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from mjsim import registry
 from mjsim.io.cli import bar, choose, fail, parse
-from mjsim.io.provenance import signature
+from mjsim.scene.provenance import signature
 from mjsim.studies.accuracy.figure import save
 from mjsim.studies.accuracy.rows import append, read
 from mjsim.studies.stability import figure, maps, parameters

@@ -15,8 +15,8 @@ from analytic import GAITS, SURFACES, Gait, Robot, predict
 from analytic.elastica.cantilever import solve_cantilever
 from mjsim import replay, run
 from mjsim.io import cli, files
-from mjsim.io.provenance import provenance
 from mjsim.scene import Numerics, Scene
+from mjsim.scene.provenance import provenance
 from mjsim.simulation.batch import Refused, rollout, simulate_all
 from mjsim.simulation.measures import measure, slid_over_length
 from mjsim.simulation.simulation import simulate

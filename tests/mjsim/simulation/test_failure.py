@@ -49,7 +49,7 @@ def test_coordinates_that_run_away_are_called_diverged(monkeypatch, poison):
 
 def test_a_saved_failure_can_be_loaded_and_shows_the_same_states(tmp_path):
     result = walk("felt", robot=TOO_MUCH)
-    from mjsim.io.provenance import provenance
+    from mjsim.scene.provenance import provenance
 
     path = tmp_path / "failed.nc"
     result.save(path, provenance(result.scene, result.numerics))

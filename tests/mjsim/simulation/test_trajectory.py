@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from walks import walk
 
-from mjsim.io.provenance import provenance
+from mjsim.scene.provenance import provenance
 from mjsim.simulation.trajectory import load
 
 

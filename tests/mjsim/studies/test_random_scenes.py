@@ -1,5 +1,8 @@
-"""Scenes that nobody chose: robots, gaits, grounds and pressures drawn at random."""
+"""Scenes that nobody chose: robots, gaits, grounds and pressures drawn anew each time."""
 
+import secrets
+
+import numpy as np
 import pytest
 from scenes import cases, report
 
@@ -8,7 +11,14 @@ from mjsim.scene import Numerics
 
 @pytest.mark.slow
 def test_random_scenes_at_4_s_a_ramp_are_the_elastica_s():
-    """At 2 s a ramp inertia adds to it; see docs/accuracy.md."""
-    middle, high = report(cases(), 4.0, Numerics())
-    assert middle < 0.02
-    assert high < 0.06
+    """At 2 s a ramp inertia adds to it; see docs/accuracy.md.
+
+    Distances near the neutral ratio are short and their relative errors large: there 0.002 L.
+    """
+    seed = secrets.randbits(32)
+    print(f"seed {seed}")  # shown where it fails
+    drawn = cases(seed)
+    error = report(drawn, 4.0, Numerics())
+    distance = np.abs([case.reference for case in drawn])
+    assert np.median(error / distance) < 0.02
+    assert np.mean(error > np.maximum(0.06 * distance, 0.002)) <= 0.05

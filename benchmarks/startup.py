@@ -1,0 +1,41 @@
+"""Print the CPU seconds of a start: `make startup`.
+
+--help and a run without video beside what importing MuJoCo and NumPy takes, in one go.
+"""
+
+import resource
+import subprocess
+import sys
+import tempfile
+
+REPEATS = 5
+
+
+def cpu(*words: str) -> float:
+    """Least CPU seconds of a child process."""
+    least = float("inf")
+    for _ in range(REPEATS):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run([sys.executable, *words], check=True, capture_output=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        least = min(least, spent)
+    return least
+
+
+def main() -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        base = cpu("-c", "import mujoco, numpy")
+        for label, words in (
+            ("import mujoco, numpy", ("-c", "import mujoco, numpy")),
+            ("mjsim.run --help", ("-m", "mjsim.run", "--help")),
+            ("mjsim.run --no-video", ("-m", "mjsim.run", "--no-video", "--out", folder)),
+            ("mjsim.run --surface all --no-video",
+             ("-m", "mjsim.run", "--surface", "all", "--no-video", "--out", folder)),
+        ):  # fmt: skip
+            seconds = cpu(*words)
+            print(f"{label:<36}{seconds:6.2f} s of CPU, {seconds / base:5.2f} x the imports")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,48 @@
+"""How a recorded walk ended, by written criteria."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mjsim.simulation.status import FALLEN, Status
+from mjsim.simulation.trajectory import Trajectory
+
+_ASIDE = 0.02  # a vertex this far off the plane, over L, has left it; chosen
+_SLID = 0.02  # of the length that both ends went downhill at once: the whole slides; chosen
+
+
+def judge(walk: Trajectory, stopped: bool = False, unsettled: bool = False) -> Trajectory:
+    """The walk up to its failure, if it failed, with its status.
+
+    Args:
+        walk: as recorded.
+        stopped: whether the stepping stopped early.
+        unsettled: whether it began before the strip had come to rest.
+    """
+    length = walk.scene.robot.length
+    ends = np.abs(walk.position[:, [0, -1], 2]).max(axis=1)
+    fallen = np.flatnonzero(~(ends < FALLEN * length))
+    if len(fallen) and not stopped:
+        walk = walk.up_to(int(fallen[0]) + 1)
+    return replace(walk, status=_status(walk, stopped or len(fallen) > 0, unsettled))
+
+
+def _status(walk: Trajectory, stopped: bool, unsettled: bool) -> Status:
+    length = walk.scene.robot.length
+    if not np.abs(walk.position[-1, :, 2]).max() < length:
+        return Status.DIVERGED
+    if not np.abs(walk.position[..., 1]).max() < _ASIDE * length:
+        return Status.TURNED
+    if slid(walk) > _SLID * length:
+        return Status.SLID  # whatever became of it on the way down
+    if stopped:
+        return Status.TOPPLED
+    return Status.UNSETTLED if unsettled else Status.OK
+
+
+def slid(walk: Trajectory) -> float:
+    """How far both ends went downhill together [m]."""
+    if not walk.scene.slope:
+        return 0.0
+    moves = -np.sign(walk.scene.slope) * np.diff(walk.position[:, [0, -1], 0], axis=0)
+    return float(np.maximum(moves.min(axis=1), 0.0).sum())

@@ -1,0 +1,39 @@
+"""Build the API reference from the docstrings, any warning an error: `make reference`."""
+
+import pkgutil
+import sys
+import warnings
+from pathlib import Path
+
+import pdoc
+
+import analytic
+import mjsim
+
+
+def modules() -> list[str]:
+    """Names of every module of the product."""
+    names = ["analytic", "mjsim"]
+    for package in (analytic, mjsim):
+        names += [
+            module.name
+            for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
+            if "studies" not in module.name and "__main__" not in module.name
+        ]
+    return names
+
+
+def main(folder: Path) -> None:
+    """Write HTML."""
+    for package in (analytic, mjsim):
+        for name in package.__all__:
+            getattr(package, name)  # names that are imported when they are first used
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        # a package without __all__ brings its modules by itself
+        warnings.filterwarnings("ignore", "The module specification")
+        pdoc.pdoc(*modules(), output_directory=folder)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path("build/reference"))

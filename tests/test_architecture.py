@@ -1,0 +1,68 @@
+"""Data flows one way: no cycle of imports, the theory alone, the product free of its studies."""
+
+import graphlib
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from architecture import arrows, imports
+
+TOP = Path(__file__).resolve().parent.parent
+
+
+def order(pairs):
+    graph = {}
+    for one, two in pairs:
+        graph.setdefault(one, set()).add(two)
+    return list(graphlib.TopologicalSorter(graph).static_order())
+
+
+def test_packages_and_modules_import_each_other_in_no_cycle():
+    order(imports())
+    # the solvers of the theory are folders within it, and use what is beside them
+    order({pair for pair in arrows() if pair[1].startswith("mjsim")})
+
+
+def test_the_theory_knows_nothing_of_mujoco_and_the_product_nothing_of_its_studies():
+    for one, two in imports():
+        assert not (one.startswith("analytic") and two.startswith("mjsim"))
+        assert one.startswith("mjsim.studies") or not two.startswith("mjsim.studies")
+
+
+def test_modules_are_short():
+    for path in (*(TOP / "analytic").rglob("*.py"), *(TOP / "mjsim").rglob("*.py")):
+        assert len(path.read_text().splitlines()) <= 350, path
+
+
+def test_plain_data_needs_neither_scipy_nor_mujoco():
+    code = "import sys, mjsim.scene, analytic; print(*{m.split('.')[0] for m in sys.modules})"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert not {"scipy", "mujoco", "dm_control", "xarray", "matplotlib"} & set(run.stdout.split())
+
+
+def test_importing_the_package_leaves_the_environment_alone():
+    code = ("import os; before = dict(os.environ); import mjsim; mjsim.Scene; mjsim.simulate; "
+            "print(before == dict(os.environ))")  # fmt: skip
+    plain = {key: value for key, value in os.environ.items() if "GL" not in key}
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True,
+                         env=plain)  # fmt: skip
+    assert run.stdout.strip() == "True"
+
+
+def test_links_of_the_pages_lead_somewhere():
+    for page in (*TOP.glob("*.md"), *(TOP / "docs").glob("*.md")):
+        for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
+            assert (page.parent / target).exists(), (page.name, target)
+
+
+@pytest.mark.slow
+def test_the_api_reference_is_built_without_a_warning(tmp_path):
+    done = subprocess.run(
+        [sys.executable, "scripts/reference.py", str(tmp_path)],
+        cwd=TOP, capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "mjsim" / "simulation" / "simulation.html").is_file()
