@@ -160,15 +160,15 @@ def _solve(
 
 def _minimum(band: Array, load: Array, active: Mask) -> Array:
     """Minimiser with the active nodes held at y = 0, shape (2 n + 2,)."""
-    held = np.zeros(len(load), dtype=bool)
-    held[0::2] = active
-    free = np.where(held, 0.0, 1.0)
+    clamped = np.zeros(len(load), dtype=bool)
+    clamped[0::2] = active
+    free = np.where(clamped, 0.0, 1.0)
     fixed = band * free
     for k in (1, 2, 3):
         fixed[3 - k, k:] *= free[:-k]
-    fixed[3] += held
+    fixed[3] += clamped
     u = solveh_banded(fixed, load * free, check_finite=False)
-    u[held] = 0.0
+    u[clamped] = 0.0
     return np.asarray(u)
 
 

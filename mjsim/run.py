@@ -72,13 +72,14 @@ def main(argv: Sequence[str] | None = None) -> int:
 
         say(table(records))
         sys.stdout.flush()  # the numbers come before any video is made
-    if not options.no_video:
-        _film(walks, records, options.out)
+    joint = None if options.no_video else _film(walks, records, options.out)
     if options.json:
         say(strict_json({"runs": records} if len(records) > 1 else records[0]))
     else:
         for row in records:
             print(*(row[key] for key in ("trajectory", "video") if row[key]))
+        if joint:
+            print(joint)
     fine = all(row["status"] in ("ok", "slid") for row in records)
     return 0 if fine else FAILED
 
@@ -150,13 +151,13 @@ def _simulate(scene: Scene, numerics: Numerics, auto: bool) -> "tuple[Trajectory
                       "were taken"]  # fmt: skip
 
 
-def _film(walks: "list[Trajectory]", records: list[dict[str, Any]], out: Path) -> None:
-    """Videos of the walks that came to an end, and one of several in step."""
+def _film(walks: "list[Trajectory]", records: list[dict[str, Any]], out: Path) -> Path | None:
+    """Videos of the walks that came to an end, and the path of one of several in step."""
     from mjsim.video import gl
 
     if gl.use_backend() is None:
         print(f"{PROGRAM}: {gl.HELP}", file=sys.stderr)
-        return
+        return None
     from mjsim.video.recording import film
 
     done = [i for i, walk in enumerate(walks) if walk.status in ("ok", "slid")]
@@ -171,6 +172,7 @@ def _film(walks: "list[Trajectory]", records: list[dict[str, Any]], out: Path) -
         fail(PROGRAM, f"a video cannot be written: {error}")
     for i, path in zip(done, paths, strict=True):
         records[i]["video"] = str(path)
+    return joint
 
 
 def file_name(scene: Scene, numerics: Numerics) -> str:

@@ -36,12 +36,12 @@ def solve_cantilever(
         step = min(step, 1.0 - done)
         chain.weight = (done + step) * weight
         chain.load_at((done + step) * pressure)
-        found = chain.equilibrium(state)
-        if found is None:
+        candidate = chain.equilibrium(state)
+        if candidate is None:
             step *= 0.5
             if step < _LEAST:
                 raise ArithmeticError(f"no stable equilibrium beyond {done:.2%} of the load")
         else:
-            state, done, step = found, done + step, 2 * step
+            state, done, step = candidate, done + step, 2 * step
     x = np.concatenate([[0.0], np.cumsum(link_lengths(robot, links) * np.cos(state.theta))])
     return x, robot.length * state.y

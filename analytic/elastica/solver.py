@@ -78,21 +78,21 @@ def solve_elastica(
         begun = chain.iterations
         chain.load_at(p[i])
         guess = state if last is None else _extrapolate(last, state, p, i)
-        found = _unless_it_leaps(state, chain.equilibrium(guess))
-        if found is None:
-            found = _in_smaller_steps(chain, state, here, p[i])
-        if found is not None and stick_slip is not None:
-            found = stick_slip.apply(state, found)
+        candidate = _unless_it_leaps(state, chain.equilibrium(guess))
+        if candidate is None:
+            candidate = _in_smaller_steps(chain, state, here, p[i])
+        if candidate is not None and stick_slip is not None:
+            candidate = stick_slip.apply(state, candidate)
         iterations[i] = chain.iterations - begun
-        if found is None:
+        if candidate is None:
             break
-        last, state, here = state, found, p[i]
-        if _rolled_up(found):
+        last, state, here = state, candidate, p[i]
+        if _rolled_up(candidate):
             status[i] = Status.ROLLED_UP
             continue
-        y[i], theta[i], status[i] = found.y, found.theta, Status.OK
-        force[i] = chain.ground_force(found)
-        residual[i] = chain.residual(found)
+        y[i], theta[i], status[i] = candidate.y, candidate.theta, Status.OK
+        force[i] = chain.ground_force(candidate)
+        residual[i] = chain.residual(candidate)
 
     nodes = node_positions(robot, links)
     newtons = force * chain.force_unit
@@ -137,11 +137,11 @@ def _rolled_up(state: ChainState) -> bool:
     return any(y > 1e-9 and abs(theta) > _CURLED for y, theta in ends)
 
 
-def _unless_it_leaps(before: ChainState, found: ChainState | None) -> ChainState | None:
+def _unless_it_leaps(before: ChainState, candidate: ChainState | None) -> ChainState | None:
     """An equilibrium near the last one, or None: one far away may lie on another branch."""
-    if found is None or np.abs(found.theta - before.theta).max() > _LEAP:
+    if candidate is None or np.abs(candidate.theta - before.theta).max() > _LEAP:
         return None
-    return found
+    return candidate
 
 
 def _in_smaller_steps(
@@ -152,13 +152,13 @@ def _in_smaller_steps(
     while done < 1.0:
         step = min(step, 1.0 - done)
         chain.load_at(from_p + (done + step) * (to_p - from_p))
-        found = _unless_it_leaps(state, chain.equilibrium(state))
-        if found is None:
+        candidate = _unless_it_leaps(state, chain.equilibrium(state))
+        if candidate is None:
             step *= 0.5
             if step < _LEAST_STEP:
                 return None
         else:
-            state, done, step = found, done + step, 2 * step
+            state, done, step = candidate, done + step, 2 * step
     return state
 
 

@@ -31,12 +31,12 @@ class StickSlip:
         self._nodes = node_positions(chain.robot, chain.links)
         self._downhill = friction.downhill(chain.robot)
 
-    def apply(self, before: ChainState, found: ChainState) -> ChainState | None:
+    def apply(self, before: ChainState, state: ChainState) -> ChainState | None:
         """The equilibrium under friction, from the last one and one at the last tension.
 
         None if the branch ends on the way, or the weight drags the strip down the slope.
         """
-        left, right = self._bounds(found)
+        left, right = self._bounds(state)
         push = min(left, right + self._downhill)  # beyond which an end slides outwards
         pull = min(right, left + self._downhill) - self._downhill  # and inwards
         if push + pull < 0:
@@ -44,24 +44,24 @@ class StickSlip:
         unit = self._friction.tension / self._chain.force_unit
         low_end, high_end = -push * unit, pull * unit
         if low_end == high_end:
-            return self._pulled(found, low_end)
-        held = self._chain.separation(before)
-        low, high = self._pulled(found, low_end), self._pulled(found, high_end)
+            return self._pulled(state, low_end)
+        separation = self._chain.separation(before)
+        low, high = self._pulled(state, low_end), self._pulled(state, high_end)
         if low is None or high is None:
             return None
-        if held >= self._chain.separation(high):
+        if separation >= self._chain.separation(high):
             return high
-        if held <= self._chain.separation(low):
+        if separation <= self._chain.separation(low):
             return self._pulled(low, low_end)
 
         def gap(tension: float) -> float:
-            state = self._pulled(found, tension)
-            return np.nan if state is None else self._chain.separation(state) - held
+            pulled = self._pulled(state, tension)
+            return np.nan if pulled is None else self._chain.separation(pulled) - separation
 
         from scipy.optimize import brentq  # slow to import, and seldom needed
 
         tension = brentq(gap, low_end, high_end, xtol=_STUCK * (high_end - low_end))
-        return self._pulled(found, float(tension))
+        return self._pulled(state, float(tension))
 
     def _pulled(self, guess: ChainState, tension: float) -> ChainState | None:
         self._chain.tension = tension

@@ -102,11 +102,11 @@ def extremes(lifted: Lifted) -> tuple[Array, Array]:
 
 def heights(lifted: Lifted, s: Array) -> Array:
     """Height at material points s of shape (S,), 0 off the lifted part, shape (B, S)."""
-    found = np.zeros((len(lifted.a), len(s)))
+    height = np.zeros((len(lifted.a), len(s)))
     for j in range(SEGMENTS):
         t = s - lifted.start[:, j, None]
         here = (t >= 0) & (t < lifted.size[:, j, None])
         _, turn = _integrals(lifted.quadratic[:, :, j, None], t)
         rise = lifted.height[:, j, None] + lifted.slope[:, j, None] * t + turn
-        found = np.where(here, rise, found)
-    return found
+        height = np.where(here, rise, height)
+    return height

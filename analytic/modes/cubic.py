@@ -31,5 +31,5 @@ def real_cubic_roots(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike) -> 
         below = 2 * sign * root * np.cosh(np.arccosh(np.maximum(argument, 1)) / 3)
         above = 2 * sign * root * np.sinh(np.arcsinh(argument) / 3)
         lone = np.where(p < 0, below, np.where(p > 0, above, np.cbrt(-q)))
-    one = np.stack([lone, np.full_like(lone, np.nan), np.full_like(lone, np.nan)], axis=-1)
-    return np.where((discriminant > 0)[..., None], three, one) - shift[..., None]
+    single = np.stack([lone, np.full_like(lone, np.nan), np.full_like(lone, np.nan)], axis=-1)
+    return np.where((discriminant > 0)[..., None], three, single) - shift[..., None]

@@ -51,9 +51,9 @@ def lift_off(k: Array, g: Array) -> LiftOff:
     values[:, 0] = values[:, 1]  # X = 0 is a root of no interest; start with the sign beside it
     crossing = (values[:, 1:] > 0) != (values[:, :-1] > 0)
     count = crossing.sum(axis=1)
-    found = count > 0
+    exists = count > 0
     last = crossing.shape[1] - 1 - np.argmax(crossing[:, ::-1], axis=1)
-    rows = np.flatnonzero(found)
+    rows = np.flatnonzero(exists)
     at = last[rows]
     piece = segment[at]
     roots = _bracketed_newton(

@@ -75,15 +75,15 @@ def solve_modes(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
 def _contact(k: Array, g: Array) -> tuple[Array, Array, NDArray[np.int_], NDArray[np.int_]]:
     """Lifted part [a, b], mode and the status of the search for it."""
     count = len(k)
-    zero, one = np.zeros(count), np.ones(count)
-    a, b = zero.copy(), one.copy()
+    zero, ones = np.zeros(count), np.ones(count)
+    a, b = zero.copy(), ones.copy()
     mode = np.full(count, Mode.TIP, dtype=int)
     status = np.full(count, Status.OK, dtype=int)
 
     flat = (k <= _FLAT).all(axis=1)
     mode[flat] = Mode.FLAT
 
-    tip = beam.lift(k, g, zero, one)
+    tip = beam.lift(k, g, zero, ones)
     into_left, into_right = -tip.slope[:, 0], tip.slope_b
     lies = (np.maximum(into_left, into_right) > 0) & ~flat
     left = lies & (into_left >= into_right - _TOLERANCE)
@@ -93,10 +93,10 @@ def _contact(k: Array, g: Array) -> tuple[Array, Array, NDArray[np.int_], NDArra
         if len(rows) == 0:
             continue
         mirror = slice(None) if first_mode == Mode.LEFT_1 else slice(None, None, -1)
-        found = lift_off(k[rows, mirror], g[rows, mirror])
-        status[rows] |= np.where(found.roots == 0, Status.NO_ROOT, 0)
-        status[rows] |= np.where(found.roots > 1, Status.SEVERAL_ROOTS, 0)
-        xi = np.nan_to_num(found.xi, nan=0.0)
+        lift = lift_off(k[rows, mirror], g[rows, mirror])
+        status[rows] |= np.where(lift.roots == 0, Status.NO_ROOT, 0)
+        status[rows] |= np.where(lift.roots > 1, Status.SEVERAL_ROOTS, 0)
+        xi = np.nan_to_num(lift.xi, nan=0.0)
         if first_mode == Mode.LEFT_1:
             a[rows] = xi
             at = xi

@@ -85,14 +85,14 @@ def parse(kind: type[Options], program: str, argv: Sequence[str] | None) -> Opti
 
     Exits with 0 after --help, and with 2 and one line for a word it cannot read.
     """
-    said = io.StringIO()
+    printed = io.StringIO()
     try:
-        with contextlib.redirect_stderr(said):
+        with contextlib.redirect_stderr(printed):
             return tyro.cli(kind, prog=program, args=argv, config=(tyro.conf.FlagCreatePairsOff,))
     except SystemExit as stop:
         if stop.code == 0:
             raise
-    fail(program, _first_message(said.getvalue()))
+    fail(program, _first_message(printed.getvalue()))
 
 
 def _first_message(text: str) -> str:

@@ -27,9 +27,9 @@ def origin() -> dict[str, Any]:
 @cache
 def signature() -> dict[str, Any]:
     """The same as words for a table's columns, `versions` and `commit`."""
-    made = origin()
-    versions = " ".join(f"{name}={version}" for name, version in made["versions"].items())
-    return {"versions": versions, "commit": made["commit"] or ""}
+    source = origin()
+    versions = " ".join(f"{name}={version}" for name, version in source["versions"].items())
+    return {"versions": versions, "commit": source["commit"] or ""}
 
 
 def machine() -> str:
@@ -72,13 +72,13 @@ def _frozen(value: Any) -> Any:
 
 
 def _versions() -> dict[str, str]:
-    found = {}
+    versions = {}
     for name in _PACKAGES:
         try:
-            found[name] = metadata.version(name)
+            versions[name] = metadata.version(name)
         except metadata.PackageNotFoundError:
-            found[name] = "not installed"
-    return found
+            versions[name] = "not installed"
+    return versions
 
 
 def _commit() -> str | None:

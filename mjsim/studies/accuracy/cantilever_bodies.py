@@ -102,9 +102,9 @@ def _clamped(setting: Setting) -> mujoco.MjModel:
     spec.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_REFSAFE)
     for tendon in list(spec.tendons):
         spec.delete(tendon)
-    held = ("rod_0", "rod_1") if setting.method == "rod" else ("link_0", "cable_B_first")
+    clamped = ("rod_0", "rod_1") if setting.method == "rod" else ("link_0", "cable_B_first")
     for body in spec.bodies:
-        if body.name in held:
+        if body.name in clamped:
             for joint in list(body.joints):
                 spec.delete(joint)
     model = spec.compile()

@@ -120,12 +120,12 @@ def cheapest(rows: Sequence[Row], case: str, goal: float) -> dict[str, Row]:
 def table(rows: Sequence[Row], case: str) -> str:
     """The cheapest way of each method to each goal, and its cost over the cheapest of all."""
     head = f"{case:<13}" + "".join(f"{f'{goal:.1%}':>40}" for goal in GOALS)
-    found = [cheapest(rows, case, goal) for goal in GOALS]
+    best_rows = [cheapest(rows, case, goal) for goal in GOALS]
     methods = dict.fromkeys(row.method for row in rows if row.case == case)
     lines = [head]
     for method in methods:
         cells = []
-        for best in found:
+        for best in best_rows:
             row = best.get(method)
             least = next(iter(best.values())).cost if best else math.nan
             cells.append(f"{'-' if row is None else _cell(row, least):>40}")

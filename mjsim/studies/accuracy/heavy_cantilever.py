@@ -36,17 +36,17 @@ def exact() -> tuple[float, float]:
     The elastica of a heavy strip, theta downwards: the weight w (L - s) of the rest bends it.
     """
     s = np.linspace(0, 1, 401)
-    found = None
+    solution = None
     state = np.zeros((2, len(s)))
     for load in np.linspace(0, LOAD, 12)[1:]:
-        found = solve_bvp(
+        solution = solve_bvp(
             lambda s, u, load=load: np.array([u[1], -load * (1 - s) * np.cos(u[0])]),
             lambda a, b: np.array([a[0], b[1]]),
             s, state, tol=1e-10, max_nodes=100_000,
         )  # fmt: skip
-        state = found.sol(s)
+        state = solution.sol(s)
     fine = np.linspace(0, 1, 20_001)
-    theta = found.sol(fine)[0]  # type: ignore[union-attr]  # downwards, so y is minus its sine
+    theta = solution.sol(fine)[0]  # type: ignore[union-attr]  # downwards, so y is minus its sine
     return float(simpson(np.cos(theta), x=fine)), -float(simpson(np.sin(theta), x=fine))
 
 

@@ -82,12 +82,12 @@ def row(
 
 def everywhere(rows: Sequence[Row], case: str) -> dict[Setting, list[Row]]:
     """Rows of each setting that was measured on every scene of a case."""
-    found: dict[Setting, list[Row]] = {}
-    for one in rows:
-        if one.case == case:
-            found.setdefault(one.setting, []).append(one)
-    scenes = {one.scene for one in rows if one.case == case}
-    return {key: group for key, group in found.items() if {one.scene for one in group} == scenes}
+    groups: dict[Setting, list[Row]] = {}
+    for row_ in rows:
+        if row_.case == case:
+            groups.setdefault(row_.setting, []).append(row_)
+    scenes = {row_.scene for row_ in rows if row_.case == case}
+    return {key: group for key, group in groups.items() if {row_.scene for row_ in group} == scenes}
 
 
 def read(path: Path = MEASURED, kind: type[Any] = Row) -> list[Any]:

@@ -46,9 +46,9 @@ def make(name: str, folder: Path, redraw: bool = False) -> Path:
     module = FIGURES[name]
     source, picture = folder / f"{name}.nc", folder / f"{name}.png"
     if not redraw:
-        made = module.make().assign_attrs(provenance=json.dumps(origin()))
+        data_set = module.make().assign_attrs(provenance=json.dumps(origin()))
         with whole(source) as part:
-            made.to_netcdf(part, engine="h5netcdf")
+            data_set.to_netcdf(part, engine="h5netcdf")
     with (
         xr.open_dataset(source, engine="h5netcdf", decode_times=False) as data,
         matplotlib.rc_context(FONT),

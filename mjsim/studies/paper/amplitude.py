@@ -70,9 +70,9 @@ def make() -> xr.Dataset:
     for i, gamma in enumerate(_GAMMAS):
         for k, pressure in enumerate(_SIMULATED):
             robot = replace(pneunet.with_load(Robot(), gamma), peak_pressure=float(pressure))
-            found = measure(simulate(Scene(robot, slow, felt)))
-            if found:
-                simulated[i, :, k] = found.displacement, found.amplitude
+            numbers = measure(simulate(Scene(robot, slow, felt)))
+            if numbers:
+                simulated[i, :, k] = numbers.displacement, numbers.amplitude
     coarse = np.full((len(_COARSE), 2, len(_PRESSURES)), np.nan)
     for i, count in enumerate(_COARSE):
         for k, pressure in enumerate(_PRESSURES):

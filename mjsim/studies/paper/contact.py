@@ -38,15 +38,15 @@ def make() -> xr.Dataset:
     robot = Robot()
     for mode, fraction in _STATES.items():
         pressure = np.array([fraction]) * robot.peak_pressure
-        found = solve_modes(robot, pressure)
-        if found.mode[0] != mode:
+        shapes = solve_modes(robot, pressure)
+        if shapes.mode[0] != mode:
             raise RuntimeError(f"no mode {mode.name} at pressures {fraction} of the peak")
         path = np.linspace(0, 1, 20)[1:, None] * pressure
         exact = solve_elastica(robot, path, links=120)
-        modes.append([c[0] / robot.length for c in found.curve(s * robot.length)])
+        modes.append([c[0] / robot.length for c in shapes.curve(s * robot.length)])
         elastica.append([c[-1] / robot.length for c in exact.curve(s * robot.length)])
-        right = 1 - found.contact_right[0] / robot.length
-        off.append(right if right < 1 else found.contact_left[0] / robot.length)
+        right = 1 - shapes.contact_right[0] / robot.length
+        off.append(right if right < 1 else shapes.contact_left[0] / robot.length)
     return xr.Dataset(
         {
             "modes": (("mode", "axis", "point"), np.array(modes)),

@@ -62,8 +62,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         seen = {row.key for row in rows}
         todo = [row for row in _grid(options, name) if row.key not in seen]
         with _pool() as pool, bar(name, len(todo)) as advance:
-            found = pool.map(KINDS[name].done, todo, chunksize=2)
-            signed = (replace(row, **signature()) for row in found)
+            outcomes = pool.map(KINDS[name].done, todo, chunksize=2)
+            signed = (replace(row, **signature()) for row in outcomes)
             for row in append(signed, _table(options, name)):
                 rows.append(row)
                 advance(1)

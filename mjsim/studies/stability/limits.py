@@ -111,7 +111,7 @@ def _rise(model: mujoco.MjModel, data: mujoco.MjData, end: str) -> Array:
 
 def _force(model: mujoco.MjModel, data: mujoco.MjData, coordinate: int) -> Array:
     """Minus the change of the springs' forces with one coordinate of the flat strip, (nv,)."""
-    found = []
+    forces = []
     for turn in (_TURN, -_TURN):
         mujoco.mj_resetData(model, data)
         along = np.zeros(model.nv)
@@ -119,5 +119,5 @@ def _force(model: mujoco.MjModel, data: mujoco.MjData, coordinate: int) -> Array
         mujoco.mj_integratePos(model, data.qpos, along, 1.0)
         mujoco.mj_fwdPosition(model, data)
         mujoco.mj_fwdVelocity(model, data)
-        found.append(data.qfrc_spring.copy())
-    return np.asarray((found[1] - found[0]) / (2 * _TURN))
+        forces.append(data.qfrc_spring.copy())
+    return np.asarray((forces[1] - forces[0]) / (2 * _TURN))

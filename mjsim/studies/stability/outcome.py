@@ -29,14 +29,16 @@ def outcome(scene: Scene, numerics: Numerics, reference: float) -> str:
         reference: the displacement per cycle over L that it should have, NaN if there is none.
     """
     walk = simulate(scene, numerics)
-    found = measure(walk)
-    if found is None:
+    numbers = measure(walk)
+    if walk.status is Status.UNSETTLED:
+        return "drifting"
+    if numbers is None:
         return "diverged" if walk.status is Status.DIVERGED else "toppled"
     if math.isnan(reference):
         return "finished"
-    if abs(found.displacement / reference - 1) <= NEAR:
+    if abs(numbers.displacement / reference - 1) <= NEAR:
         return "accurate"
-    opposite = {direction(found.displacement, 1.0), direction(reference, 1.0)}
+    opposite = {direction(numbers.displacement, 1.0), direction(reference, 1.0)}
     return "wrong direction" if opposite == {"forward", "backward"} else "drifting"
 
 

@@ -21,4 +21,5 @@ def test_random_scenes_at_4_s_a_ramp_are_the_elastica_s():
     error = report(drawn, 4.0, Numerics())
     distance = np.abs([case.reference for case in drawn])
     assert np.median(error / distance) < 0.02
-    assert np.mean(error > np.maximum(0.06 * distance, 0.002)) <= 0.05
+    # 3 of 200 were beyond it: of 40 drawn anew 4 are a chance of 1 in 3,000
+    assert np.sum(error > np.maximum(0.06 * distance, 0.002)) <= 4
