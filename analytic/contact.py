@@ -38,9 +38,7 @@ def side_contact(
         Two arrays of shape (B,) [m]; half the length each where no node is in the air, NaN where
         a force is.
     """
-    spacing = float(np.diff(nodes).max())
-    ripple = robot.weight_per_length * robot.length * spacing**3 / pneunet.base_rigidity(robot)
-    up = height > _RIPPLE * ripple
+    up = lifted_nodes(robot, nodes, height)
     left = _from_left(robot, nodes, force, up)
     right = _from_left(robot, nodes[-1] - nodes[::-1], force[:, ::-1], up[:, ::-1])
     flat = ~up.any(axis=1)
@@ -49,6 +47,13 @@ def side_contact(
     left = _if_flat(pressures[:, 0], robot, np.where(flat, half, left))
     right = _if_flat(pressures[:, -1], robot, np.where(flat, half, right))
     return blank * left, blank * right
+
+
+def lifted_nodes(robot: Robot, nodes: Array, height: Array) -> NDArray[np.bool_]:
+    """Nodes that are in the air: higher than a flat stretch ripples between those that push it."""
+    spacing = float(np.diff(nodes).max())
+    ripple = robot.weight_per_length * robot.length * spacing**3 / pneunet.base_rigidity(robot)
+    return np.asarray(height > _RIPPLE * ripple)
 
 
 def _if_flat(pressure: Array, robot: Robot, contact: Array) -> Array:

@@ -79,6 +79,7 @@ class ContactShapes(Shapes):
     Attributes:
         nodes: arclength of the nodes, shape (S,) [m].
         force: of the ground on each node, upwards, shape (B, S) [N].
+        pressures: of the segments, left first, shape (B, number of segments) [Pa].
         residual: largest violation of the conditions of contact and balance, with heights over L
             and forces over the strip's weight, shape (B,) [1].
         iterations: linear systems that were solved for each state, those of attempts that failed
@@ -87,5 +88,6 @@ class ContactShapes(Shapes):
 
     nodes: Array
     force: Array
+    pressures: Array
     residual: Array
     iterations: NDArray[np.int_]

@@ -5,8 +5,9 @@ Each rule serves floats and arrays alike, so that theory and simulation share it
 
 import math
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol
 
+from analytic.checks import one_of
 from analytic.robot import Robot
 from analytic.surface import Surface
 
@@ -89,15 +90,19 @@ class Friction:
             friction weak beside stiffness ([Majidi13], section 2.2), where it only decides who
             slides.
         slope: angle by which the ground rises towards +x [rad].
+        contacts: where friction acts: at the two "ends", as in [Majidi13], or at "all" places where
+            the strip touches the ground, which is more between the ends of a long robot.
 
     Raises:
         ValueError: there is no such law, tension is not in [0, 1], the slope is a right angle or
-            more, or there is a slope and no tension to stand on it by.
+            more, there is a slope and no tension to stand on it by, or friction at all contacts is
+            asked to bend the strip.
     """
 
     law: str = "constant"
     tension: float = 0.0
     slope: float = 0.0
+    contacts: Literal["ends", "all"] = "ends"
 
     def __post_init__(self) -> None:
         if self.law not in LAWS:
@@ -107,6 +112,9 @@ class Friction:
         if not abs(self.slope) < math.pi / 2:
             degrees = math.degrees(self.slope)
             raise ValueError(f"slope must be less steep than 90 degrees, got {degrees:g} degrees")
+        one_of("contacts", self.contacts, ("ends", "all"))
+        if self.contacts == "all" and self.tension:
+            raise ValueError("friction at all contacts bends nothing here: tension must be 0")
         if self.slope and not self.tension:
             raise ValueError("on a slope friction must bend the strip: tension must be above 0")
 

@@ -9,6 +9,7 @@ from analytic.contact import end_loads
 from analytic.equilibria import ContactShapes, Shapes
 from analytic.friction import LAWS, Friction, slip_fraction
 from analytic.surface import Ground, Surface
+from analytic.traction import motion
 
 Array = NDArray[np.float64]
 Direction = Literal["forward", "backward", "none"]
@@ -37,8 +38,9 @@ def displacements(
     """Apply the anchor rule of section 2.2 to a sequence of states.
 
     Each change of separation is taken up by the end whose bound is less, by both alike where they
-    are alike. An increment uses the mean of the rule at its two states, so that the reversed
-    sequence gives exactly the opposite displacement, on uniform level ground.
+    are alike; with friction at all contacts by least dissipation, see analytic.traction. An
+    increment uses the mean of the rule at its two states, so that the reversed sequence gives
+    exactly the opposite displacement, on uniform level ground.
 
     Args:
         shapes: states in order of time, evenly or unevenly spaced; finer is more accurate.
@@ -55,7 +57,9 @@ def displacements(
             f"need at least two states and one cycle, got {len(shapes)} states, {cycles} cycles"
         )
     change = np.diff(shapes.separation)
-    if isinstance(ground, Surface):
+    if friction.contacts == "all":
+        left = motion(shapes, ground, friction).left
+    elif isinstance(ground, Surface):
         left = np.concatenate([[0.0], np.cumsum(-mean_slip(shapes, ground, friction) * change)])
     else:
         left = _along(shapes, ground, friction)

@@ -80,6 +80,7 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
         curve=curve,
         nodes=nodes,
         force=newtons,
+        pressures=p,
         residual=_residual(values, force, load),
         iterations=iterations,
     )

@@ -12,6 +12,7 @@ from analytic.gait import Gait
 from analytic.locomotion import WEAK, Locomotion, displacements, mean_slip, state_slip
 from analytic.robot import Robot
 from analytic.surface import Ground, Surface
+from analytic.traction import motion
 
 Array = NDArray[np.float64]
 
@@ -155,6 +156,8 @@ def predict(
 
 def _anchor_changes(shapes: Shapes, ground: Ground, friction: Friction) -> NDArray[np.bool_]:
     """Increments in which the anchor changes, (B - 1,); on ground that changes, none."""
+    if friction.contacts == "all":
+        return motion(shapes, ground, friction).changes
     if not isinstance(ground, Surface):
         return np.zeros(len(shapes) - 1, dtype=bool)
     slip = mean_slip(shapes, ground, friction)

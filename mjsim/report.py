@@ -4,15 +4,17 @@ import math
 from typing import Any
 
 from analytic import pneunet
-from analytic.friction import friction_number
+from analytic.friction import Friction, friction_number
 from analytic.locomotion import direction, undecided
 from analytic.prediction import REFERENCE, Elastica, Prediction, predict
 from analytic.surface import Surface
+from analytic.traction import motion
 from mjsim.scene import Scene
 from mjsim.scene.scene import STRONG_FRICTION
 from mjsim.simulation.measures import measure, slid_over_length
 from mjsim.simulation.trajectory import Trajectory
 
+_FEW = 3  # segments of a robot that stands on its ends alone, as the paper's does
 _OPEN = 1e-4  # of the length: less is a rounding
 
 
@@ -44,7 +46,7 @@ def record(walk: Trajectory) -> dict[str, Any]:
         "predicted_direction": direction(predicted, 1.0) if known else None,
         "prediction_undecided_over_L": _undecided(scene, prediction) if known else None,
         "prediction_flags": [flag.name for flag in prediction.flags],
-        "prediction_notes": notes(scene),
+        "prediction_notes": notes(scene) + _between(scene, prediction),
         "error_over_L": None if shift is None or not known else shift - predicted,
         "unexplained_over_L": numbers and numbers.unexplained,
         "heading_deg": numbers and math.degrees(numbers.heading),
@@ -86,6 +88,18 @@ def notes(scene: Scene) -> list[str]:
     if number <= STRONG_FRICTION:
         return []
     return [f"strong friction (Phi {number:.3g}) bends the strip, the prediction leaves that out"]
+
+
+def _between(scene: Scene, prediction: Prediction) -> list[str]:
+    """What friction would do where a long robot touches the ground between its ends."""
+    if len(scene.robot.segments) <= _FEW or scene.friction != "constant":
+        return []
+    along = motion(prediction.shapes, scene.ground, Friction(scene.friction, contacts="all"))
+    if along.most <= 2:
+        return []
+    cycles = scene.cycles if scene.lag else 1
+    shift = float(along.left[-1]) / (scene.robot.length * cycles)
+    return [f"friction acts at the two ends alone; wherever it touches, {shift:+.4f} L"]
 
 
 def _undecided(scene: Scene, prediction: Prediction) -> float:

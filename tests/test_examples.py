@@ -74,6 +74,12 @@ def test_theory_alone_finds_the_neutral_surface_at_polyethylene():
     assert example("theory_alone")() == pytest.approx(0.5, abs=0.01)
 
 
+def test_a_long_robot_goes_less_far_with_friction_between_its_ends():
+    shifts = example("long_robot")()
+    for name in ("felt", "gelatin"):
+        assert abs(shifts[f"{name} all"]) < 0.7 * abs(shifts[f"{name} ends"])
+
+
 @pytest.mark.slow
 def test_many_walks_go_farther_with_more_pressure():
     assert (np.diff(example("many_walks")()) > 0).all()

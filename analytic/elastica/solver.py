@@ -109,6 +109,7 @@ def solve_elastica(
         curve=_Curve(nodes, lengths, theta, y * robot.length),
         nodes=nodes,
         force=newtons,
+        pressures=p,
         residual=residual,
         iterations=iterations,
     )

@@ -292,3 +292,13 @@ def test_part_files_of_two_writers_never_meet(tmp_path):
         one.write_text("1")
         two.write_text("2")
     assert [path.name for path in tmp_path.iterdir()] == ["a.txt"]
+
+
+def test_a_long_robot_is_told_of_the_ground_between_its_ends(tmp_path, capsys):
+    stages = ",".join("".join("1" if (j - k) % 4 in (0, 1) else "0" for j in range(8))
+                      for k in range(9))  # fmt: skip
+    words = ["--segments", ",".join("1" * 8), "--robot.length", "0.34667", "--pressure", "28958",
+             "--gait.stages", stages, "--links", "48"]  # fmt: skip
+    (note,) = [n for n in row_of(words, tmp_path, capsys)["prediction_notes"] if "touches" in n]
+    assert "friction acts at the two ends alone" in note
+    assert not row_of([], tmp_path, capsys)["prediction_notes"]

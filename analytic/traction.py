@@ -1,0 +1,84 @@
+"""How a robot moves by friction at every contact, along a sequence of shapes."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.dissipation import least_dissipation, minimisers
+from analytic.equilibria import ContactShapes, Shapes
+from analytic.friction import LAWS, Friction
+from analytic.patches import Patch, patches
+from analytic.surface import Ground
+
+Array = NDArray[np.float64]
+
+
+class Motion(NamedTuple):
+    """Motion along B states.
+
+    Attributes:
+        left: displacement of the left end since the first state, (B,) [m]; NaN from where a shape
+            is missing.
+        tied: how much of each increment is decided by the rule for ties alone, (B - 1,) [m].
+        changes: increments in which another contact begins to hold, (B - 1,).
+        most: most contacts that a state has.
+    """
+
+    left: Array
+    tied: Array
+    changes: NDArray[np.bool_]
+    most: int
+
+
+def motion(shapes: Shapes, ground: Ground, friction: Friction) -> Motion:
+    """Least dissipation over all contacts, the mean of it at the two states of each increment.
+
+    Raises:
+        ValueError: the shapes have no contact forces.
+    """
+    if not isinstance(shapes, ContactShapes):
+        raise ValueError(
+            "friction at all contacts needs contact forces, which the modes do not give"
+        )
+    x, height = shapes.curve(shapes.nodes)
+    count = len(shapes)
+    left, tied = np.zeros(count), np.zeros(count - 1)
+    changes, most = np.zeros(count - 1, dtype=bool), 0
+    contacts = [
+        patches(shapes, height, i) if np.isfinite(shapes.separation[i]) else []
+        for i in range(count)
+    ]
+    for i in range(count - 1):
+        here, there = contacts[i], contacts[i + 1]
+        if not (here and there):
+            left[i + 1 :] = np.nan
+            break
+        most = max(most, len(here), len(there))
+        step = x[i + 1] - x[i]
+        sides = [_slide(state, x[i] + left[i], step, ground, shapes.robot.width, friction)
+                 for state in (here, there)]  # fmt: skip
+        (before, width, still), (after, other_width, still_there) = sides
+        left[i + 1] = left[i] + 0.5 * (before + after)
+        tied[i] = 0.25 * (width + other_width)
+        moved = abs(still - still_there) > 1.5 * float(np.diff(shapes.nodes).max())
+        changes[i] = moved or (width > 0) != (other_width > 0)
+    return Motion(left, tied, changes, most)
+
+
+def _slide(
+    contacts: list[Patch], x: Array, step: Array, ground: Ground, width: float, friction: Friction
+) -> tuple[float, float, float]:
+    """The motion of an increment, the width of its minimisers, and where a contact stays [m]."""
+    law = LAWS[friction.law]
+    bounds = np.array([
+        law.bound(ground.at(float(patch.share @ x[patch.nodes])), width, patch.length, patch.load)
+        for patch in contacts
+    ])  # fmt: skip
+    moves = np.array([patch.share @ step[patch.nodes] for patch in contacts])
+    low, high = minimisers(bounds, moves)
+    reach = moves.max() - moves.min()
+    going = least_dissipation(bounds, moves)
+    stays = contacts[int(np.argmin(np.abs(going + moves)))]
+    place = float(stays.share @ x[stays.nodes])
+    return going, min(high - low, reach), place
