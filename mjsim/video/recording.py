@@ -58,14 +58,12 @@ def film(walks: Sequence[Trajectory], paths: Sequence[Path], joint: Path | None 
     with tempfile.TemporaryDirectory() as folder:
         bands = [Path(folder) / f"{i}.mp4" if joint else None for i in range(len(walks))]
         jobs = list(zip(walks, paths, bands, [times] * len(walks), strict=True))
-        if len(walks) == 1:
-            _draw(*jobs[0])
-        else:
-            context = multiprocessing.get_context("spawn")
-            workers = min(len(walks), os.cpu_count() or 1)
-            with ProcessPoolExecutor(workers, mp_context=context) as pool:
-                for future in [pool.submit(_draw, *job) for job in jobs]:
-                    future.result()
+        # never in this process, which may have imported mujoco without OpenGL
+        context = multiprocessing.get_context("spawn")
+        workers = min(len(walks), os.cpu_count() or 1)
+        with ProcessPoolExecutor(workers, mp_context=context) as pool:
+            for future in [pool.submit(_draw, *job) for job in jobs]:
+                future.result()
         if joint:
             _stack([band for band in bands if band], joint)
 

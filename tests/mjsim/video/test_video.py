@@ -2,6 +2,7 @@
 
 import re
 import subprocess
+import sys
 from dataclasses import replace
 
 import imageio_ffmpeg
@@ -150,3 +151,14 @@ def test_letters_of_other_alphabets_are_drawn():
     box = np.asarray(font(24).getmask("\U000f0000"))
     for letter in "ЖψØ":
         assert not np.array_equal(np.asarray(font(24).getmask(letter)), box)
+
+
+@pytest.mark.parametrize("surface", ["felt", "felt,gelatin"])
+def test_the_command_makes_its_videos(tmp_path, surface):
+    """From a process of its own, as a user starts it."""
+    words = [sys.executable, "-m", "mjsim.run", "--surface", surface, "--links", "6",
+             "--gait.ramp-time", "0.05", "--out", str(tmp_path)]  # fmt: skip
+    done = subprocess.run(words, capture_output=True, text=True, check=True)
+    assert done.stderr == ""
+    videos = sorted(path.name.partition("-")[0] for path in tmp_path.glob("*.mp4"))
+    assert videos == (["felt"] if surface == "felt" else ["all", "felt", "gelatin"])
