@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from analytic.equilibria import ContactShapes, Mode, Shapes, Status
     from analytic.friction import LAWS, Friction, TractionLaw
     from analytic.gait import GAITS, Gait
+    from analytic.ground import Patches
     from analytic.locomotion import Direction, Locomotion, direction, displacements
     from analytic.modes import solve_modes
     from analytic.obstacle import solve_obstacle
@@ -37,6 +38,7 @@ _HOMES = {
     "equilibria": ("ContactShapes", "Mode", "Shapes", "Status"),
     "friction": ("LAWS", "Friction", "TractionLaw"),
     "gait": ("GAITS", "Gait"),
+    "ground": ("Patches",),
     "locomotion": ("Direction", "Locomotion", "direction", "displacements"),
     "modes": ("solve_modes",),
     "obstacle": ("solve_obstacle",),
@@ -63,6 +65,7 @@ __all__ = [
     "Mode",
     "Modes",
     "Obstacle",
+    "Patches",
     "Prediction",
     "Robot",
     "Shapes",

@@ -62,26 +62,34 @@ def displacements(
     elif isinstance(ground, Surface):
         left = np.concatenate([[0.0], np.cumsum(-mean_slip(shapes, ground, friction) * change)])
     else:
-        left = _along(shapes, ground, friction)
+        left = along(shapes, ground, friction)[0]
     right = left + (shapes.separation - shapes.separation[0])
     return Locomotion(left, right, float(left[-1] / cycles))
 
 
-def _along(shapes: Shapes, ground: Ground, friction: Friction) -> Array:
-    """Displacement of the left end where the ground changes under the robot, (B,) [m]."""
+def along(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, NDArray[np.bool_]]:
+    """Displacement of the left end where the ground changes under the robot, (B,) [m].
+
+    Also the increments in which another end begins to hold, (B - 1,).
+    """
     law, width = LAWS[friction.law], shapes.robot.width
     contact, load = _ends(shapes, friction.law)
     downhill = friction.downhill(shapes.robot)
     left = np.zeros(len(shapes))
+    changes, last = np.zeros(len(shapes) - 1, dtype=bool), 0.5
     for i, separation in enumerate(shapes.separation[:-1]):
         change = shapes.separation[i + 1] - separation
-        here = ground.at(left[i]), ground.at(left[i] + separation)
-        slips = []
+        slips, surfaces, x = [], [], left[i]
         for j in (i, i + 1):
-            ends = (law.bound(here[k], width, contact[k][j], load[k][j]) for k in (0, 1))
+            under = ground.at(x), ground.at(x + shapes.separation[j])
+            ends = (law.bound(under[k], width, contact[k][j], load[k][j]) for k in (0, 1))
             slips.append(slip_fraction(next(ends), next(ends), downhill, change > 0))
+            surfaces.append(under)
+            x = left[i] - slips[0] * change  # where the second state would be by the first's rule
         left[i + 1] = left[i] - 0.5 * sum(slips) * change
-    return left
+        changes[i] = slips[0] != slips[1] or slips[0] != last or surfaces[0] != surfaces[1]
+        last = slips[1]
+    return left, changes
 
 
 def mean_slip(shapes: Shapes, surface: Surface, friction: Friction = WEAK) -> Array:

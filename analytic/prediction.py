@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from analytic.equilibria import Shapes, Status
 from analytic.friction import Friction
 from analytic.gait import Gait
-from analytic.locomotion import WEAK, Locomotion, displacements, mean_slip, state_slip
+from analytic.locomotion import WEAK, Locomotion, along, displacements, mean_slip, state_slip
 from analytic.robot import Robot
 from analytic.surface import Ground, Surface
 from analytic.traction import motion
@@ -155,11 +155,11 @@ def predict(
 
 
 def _anchor_changes(shapes: Shapes, ground: Ground, friction: Friction) -> NDArray[np.bool_]:
-    """Increments in which the anchor changes, (B - 1,); on ground that changes, none."""
+    """Increments in which the anchor changes, (B - 1,)."""
     if friction.contacts == "all":
         return motion(shapes, ground, friction).changes
     if not isinstance(ground, Surface):
-        return np.zeros(len(shapes) - 1, dtype=bool)
+        return along(shapes, ground, friction)[1]
     slip = mean_slip(shapes, ground, friction)
     change = np.diff(state_slip(shapes, ground, friction.law)) != 0
     return np.asarray(change | (np.abs(slip - np.round(2 * slip) / 2) > 0))

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from analytic.friction import Friction
     from analytic.gait import GAITS, Gait
+    from analytic.ground import Patches
     from analytic.prediction import predict
     from analytic.robot import Robot
     from analytic.surface import SURFACES, Ground, Surface
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "analytic.friction": ("Friction",),
     "analytic.gait": ("GAITS", "Gait"),
+    "analytic.ground": ("Patches",),
     "analytic.prediction": ("predict",),
     "analytic.robot": ("Robot",),
     "analytic.surface": ("SURFACES", "Ground", "Surface"),
@@ -49,6 +51,7 @@ __all__ = [
     "Measures",
     "Numerics",
     "Observation",
+    "Patches",
     "Policy",
     "Robot",
     "Scene",

@@ -75,8 +75,13 @@ def reference(walk: Trajectory) -> Prediction:
         Elastica(chamber=scene.chamber),
         friction=scene.reference_friction,
         path=path,
-        cycles=1 if path is None else scene.cycles,
+        cycles=scene.cycles if _all_cycles(scene, path is not None) else 1,
     )
+
+
+def _all_cycles(scene: Scene, own_path: bool) -> bool:
+    """Whether the prediction walks every cycle: where they differ from each other."""
+    return own_path or not isinstance(scene.ground, Surface)
 
 
 def notes(scene: Scene) -> list[str]:

@@ -74,6 +74,11 @@ def test_theory_alone_finds_the_neutral_surface_at_polyethylene():
     assert example("theory_alone")() == pytest.approx(0.5, abs=0.01)
 
 
+def test_a_crossing_stalls_where_theory_says():
+    walked, theory = example("crossing")()
+    assert walked == pytest.approx(theory, abs=0.02 * 0.13)
+
+
 def test_a_long_robot_goes_less_far_with_friction_between_its_ends():
     shifts = example("long_robot")()
     for name in ("felt", "gelatin"):

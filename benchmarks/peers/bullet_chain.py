@@ -24,7 +24,7 @@ from mjsim.scene import Numerics
 
 PACKAGE, INTEGRATOR = "pybullet", "explicit"
 HALF = 1e-3  # half the thickness of a box [m]
-LOOKS = 1000  # steps between looks at whether it burst
+LOOKS = 1000  # steps between looks at whether it diverged
 
 
 def _body(robot, lengths, springs, damping_time, box):

@@ -15,7 +15,7 @@ GRAVITY = Scene().gravity  # m/s^2
 
 
 class Walked(NamedTuple):
-    """Displacement per cycle and greatest height of an end, over L; NaN where it burst."""
+    """Displacement per cycle and greatest height of an end, over L; NaN where it diverged."""
 
     displacement: float
     height: float

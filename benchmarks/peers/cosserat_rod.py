@@ -16,7 +16,7 @@ from analytic.chain import segment_overlap
 PACKAGE, INTEGRATOR = "pyelastica", "Verlet"
 DRAG = 8.0  # 1/s
 STIFFNESS = 1e4  # of the ground, N/m a node
-LOOKS = 2000  # steps between looks at whether it burst
+LOOKS = 2000  # steps between looks at whether it diverged
 
 
 class System(ea.BaseSystemCollection, ea.Constraints, ea.Forcing, ea.Damping):

@@ -9,7 +9,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from analytic import SURFACES, Gait, Robot, Surface
+from analytic import SURFACES, Gait, Patches, Robot, Surface
 from mjsim.scene import Numerics, Scene
 
 DISTRIBUTION = "undulator"
@@ -55,7 +55,13 @@ def configuration(described: dict[str, Any]) -> tuple[Scene, Numerics]:
             this version does not know.
     """
     scene = dict(described["scene"])
+    if isinstance(scene["ground"], dict) and "borders" in scene["ground"]:
+        patches = scene["ground"]
+        surfaces = tuple(Surface(**surface) for surface in patches["surfaces"])
+        scene["ground"] = Patches(patches["name"], tuple(patches["borders"]), surfaces)
     for name, kind in (("robot", Robot), ("gait", Gait), ("ground", Surface)):
+        if isinstance(scene[name], Patches):
+            continue
         if not isinstance(scene[name], dict):
             raise ValueError(f"{name} {scene[name]!r} was not one of this program")
         known = {field.name for field in fields(kind)}

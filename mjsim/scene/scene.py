@@ -11,6 +11,7 @@ from analytic.chain import CHAMBER_LAWS
 from analytic.checks import is_number, not_negative, one_of, positive, whole
 from analytic.friction import LAWS, Friction
 from analytic.gait import GAITS, Gait
+from analytic.ground import Patches
 from analytic.robot import GRAVITY, Robot
 from analytic.surface import SURFACES, Ground
 from mjsim import registry
@@ -72,7 +73,10 @@ class Scene:
                 f"the robot has {len(self.robot.segments)}"
             )
         self._check_turn()
-        if not LAWS[self.friction].acts_on(self.ground.at(0.0)):
+        surfaces = (
+            self.ground.surfaces if isinstance(self.ground, Patches) else (self.ground.at(0),)
+        )
+        if not any(LAWS[self.friction].acts_on(surface) for surface in surfaces):
             raise ValueError(
                 f"surface {self.ground.name!r} resists by nothing under friction {self.friction}; "
                 "give tip_force or shear_strength (constant), friction or tip_friction (coulomb)"

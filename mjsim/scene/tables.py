@@ -2,7 +2,8 @@
 
     [robot]     fields of analytic.Robot, in SI units
     [gait]      name of a gait, or stages and ramp_time, or file of a TOML table of these
-    [ground]    surface, a name; or fields of analytic.Surface; slope_deg
+    [ground]    surface, a name; or fields of analytic.Surface; slope_deg; or patches beside each
+                other, [[ground.patches]] with `from` [m] and a surface
     [numerics]  body, friction, cycles, ... of mjsim.Scene, and fields of mjsim.Numerics
 
 Every table and every key is optional over the defaults.
@@ -19,8 +20,9 @@ from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_
 
 from analytic.checks import is_number, one_of
 from analytic.gait import GAITS, Gait
+from analytic.ground import Patches
 from analytic.robot import Robot
-from analytic.surface import SURFACES, Surface
+from analytic.surface import SURFACES, Ground, Surface
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene
 
@@ -35,7 +37,7 @@ _SURFACE_FIELDS = tuple(field.name for field in fields(Surface) if field.name !=
 _KEYS: dict[str, tuple[str, ...]] = {
     "robot": tuple(field.name for field in fields(Robot)),
     "gait": ("name", "stages", "ramp_time", "reverse", "file"),
-    "ground": ("surface", *_SURFACE_FIELDS, "slope_deg"),
+    "ground": ("surface", *_SURFACE_FIELDS, "slope_deg", "patches"),
     "numerics": (*SCENE_FIELDS, *(field.name for field in fields(Numerics))),
 }
 
@@ -72,7 +74,7 @@ def merged(*layers: Tables) -> Tables:
     result: Tables = {name: {} for name in NAMES}
     for layer in layers:
         for name, table in layer.items():
-            if name == "ground" and "surface" in table:
+            if name == "ground" and {"surface", "patches"} & table.keys():
                 kept = {k: v for k, v in result[name].items() if k == "slope_deg"}
                 result[name] = kept
             if name == "gait" and {"name", "stages", "file"} & table.keys():
@@ -98,10 +100,40 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
     scene_values = {key: value for key, value in values.items() if key in SCENE_FIELDS}
     scene = make(
         Scene, scene_values, f"{where}[numerics] ", robot=robot, gait=gait,
-        ground=build_surface(ground, f"{where}[ground] "), slope=math.radians(slope),
+        ground=build_ground(ground, f"{where}[ground] "), slope=math.radians(slope),
     )  # fmt: skip
     rest = {key: value for key, value in values.items() if key not in SCENE_FIELDS}
     return scene, make(Numerics, rest, f"{where}[numerics] ")
+
+
+def build_ground(table: Table, where: str = "") -> Ground:
+    """A surface, or several beside each other: [[ground.patches]] with `from` [m] and a surface.
+
+    The first patch begins at minus infinity and has no `from`.
+    """
+    if "patches" not in table:
+        return build_surface(table, where)
+    patches = table["patches"]
+    other = [key for key in table if key not in ("patches", "slope_deg")]
+    if other:
+        raise ValueError(f"{where}patches or {other[0]} must be given, not both")
+    if not (isinstance(patches, list) and all(isinstance(patch, dict) for patch in patches)):
+        raise ValueError(f"{where}patches must be tables, got {patches!r}")
+    borders, surfaces = [], []
+    for number, patch in enumerate(patches):
+        here = f"{where}patch {number + 1}: "
+        for key in patch:
+            one_of(f"{here}key", key, ("from", "surface", *_SURFACE_FIELDS))
+        if (number > 0) != ("from" in patch):
+            raise ValueError(f"{here}every patch but the first must say `from` where it begins [m]")
+        if number > 0:
+            borders.append(patch["from"])
+        surfaces.append(build_surface(patch, here))
+    try:
+        return Patches("-".join(surface.name for surface in surfaces), tuple(borders),
+                       tuple(surfaces))  # fmt: skip
+    except ValueError as error:
+        raise ValueError(f"{where}{error}") from error
 
 
 def build_surface(table: Table, where: str = "") -> Surface:

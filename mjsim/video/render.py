@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
+from analytic.ground import Patches
 from analytic.robot import Robot
-from analytic.surface import Surface
+from analytic.surface import Ground
 from mjsim.bodies.parts import DARK, PALE
 from mjsim.mjcf.builder import scene_spec
 from mjsim.scene import Numerics
@@ -94,13 +95,15 @@ class Camera:
         reach = float(np.abs(self._walk.position[..., 0]).max()) + 3 * self._walk.scene.robot.length
         model.stat.extent *= scale
         model.cam_pos[:] *= scale
-        for name in ("surface_floor", "surface_slab", "ruler", "start", "table"):
-            geom = model.geom(name).id
-            model.geom_pos[geom] *= scale
-            model.geom_size[geom] *= scale
-        for name in ("surface_floor", "surface_slab"):
-            geom = model.geom(name).id
-            model.geom_size[geom, 0] = max(model.geom_size[geom, 0], reach)
+        patched = isinstance(self._walk.scene.ground, Patches)  # lengths along x are as they are
+        grounds = [name for name in (model.geom(i).name for i in range(model.ngeom))
+                   if name.startswith("surface")]  # fmt: skip
+        for name in (*grounds, "ruler", "start", "table"):
+            geom, x = model.geom(name).id, slice(1 if patched and name in grounds else 0, None)
+            model.geom_pos[geom, x] *= scale
+            model.geom_size[geom, x] *= scale
+            if name in grounds and not patched:
+                model.geom_size[geom, 0] = max(model.geom_size[geom, 0], reach)
         if not _RULED[0] <= self._walk.scene.robot.length <= _RULED[1]:
             model.geom_rgba[model.geom("ruler").id, 3] = 0.0
         else:  # its ticks are centimetres, whatever the robot's length
@@ -166,8 +169,10 @@ def anchored(walk: Trajectory, step: int) -> int | None:
     return {0.0: 0, 1.0: -1}.get(float(walk.left_slip_fraction[step]))
 
 
-def _visible(walk: Trajectory) -> Surface:
-    """A surface that looks the same and that constant bounds can act on."""
+def _visible(walk: Trajectory) -> Ground:
+    """A ground that looks the same and that constant bounds can act on."""
+    if isinstance(walk.scene.ground, Patches):
+        return walk.scene.ground
     surface = walk.scene.ground.at(0.0)
     side = surface.shear_strength or surface.friction
     tip = surface.tip_force or surface.tip_friction or 0.0

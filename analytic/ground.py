@@ -1,0 +1,52 @@
+"""Ground that changes along x: one surface after the other."""
+
+import math
+from bisect import bisect_right
+from dataclasses import dataclass
+
+from analytic.checks import file_word, is_number
+from analytic.surface import Surface
+
+
+@dataclass(frozen=True)
+class Patches:
+    """Surfaces beside each other, the robot's left end beginning at x = 0.
+
+    Args:
+        name: how files and tables call it.
+        borders: where one ends and the next begins, ascending [m].
+        surfaces: one more than borders, left first.
+
+    Raises:
+        ValueError: there is no border, borders do not ascend, or the numbers do not match.
+    """
+
+    name: str
+    borders: tuple[float, ...]
+    surfaces: tuple[Surface, ...]
+
+    def __post_init__(self) -> None:
+        file_word("name of a ground", self.name)
+        object.__setattr__(self, "borders", tuple(self.borders))
+        object.__setattr__(self, "surfaces", tuple(self.surfaces))
+        if not self.borders:
+            raise ValueError("patches must have at least one border between them, got none")
+        for border in self.borders:
+            if not is_number(border):
+                raise ValueError(f"borders of patches must be finite numbers [m], got {border!r}")
+        if any(two <= one for one, two in zip(self.borders, self.borders[1:], strict=False)):
+            raise ValueError(f"borders of patches must ascend, got {self.borders!r}")
+        if len(self.surfaces) != len(self.borders) + 1:
+            raise ValueError(
+                f"{len(self.borders)} borders need {len(self.borders) + 1} surfaces, "
+                f"got {len(self.surfaces)}"
+            )
+
+    def at(self, x: float) -> Surface:
+        """The surface at a place [m]; at a border the right one."""
+        return self.surfaces[bisect_right(self.borders, x)]
+
+    def extents(self) -> list[tuple[float, float, Surface]]:
+        """Where each surface begins and ends, the outer ones at infinity [m]."""
+        places = (-math.inf, *self.borders, math.inf)
+        return list(zip(places[:-1], places[1:], self.surfaces, strict=True))
