@@ -22,13 +22,8 @@ from mjsim.bodies.pneumatics import chamber_pressure, controls
 from mjsim.mjcf.builder import compile_model
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.judge import judge
-from mjsim.simulation.simulation import (
-    before_start,
-    check_steps,
-    positions,
-    simulate,
-    walking_steps,
-)
+from mjsim.simulation.schedule import before_start, check_steps, walking_steps
+from mjsim.simulation.simulation import positions, simulate
 from mjsim.simulation.status import Status
 from mjsim.simulation.trajectory import Trajectory
 
