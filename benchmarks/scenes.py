@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic import GAITS, Gait, Robot, Surface, pneunet, predict
+from analytic import GAITS, Friction, Gait, Robot, Surface, pneunet, predict
 from analytic.friction import neutral_ratio
 from analytic.surface import from_ratios
 from mjsim.scene import Numerics, Scene
@@ -17,6 +17,7 @@ from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 
 COUNT, WORST, SEED = 40, 8, 11
+BENT = Friction(tension=1.0)
 PER_RAMP = 100  # states of the reference: 50 leave up to 5 % of the shortest distances
 
 
@@ -31,7 +32,7 @@ class Case(NamedTuple):
 
 
 def reference(robot: Robot, gait: Gait, surface: Surface) -> float:
-    walked = predict(robot, gait, surface, states_per_ramp=PER_RAMP)
+    walked = predict(robot, gait, surface, states_per_ramp=PER_RAMP, friction=BENT)
     return walked.locomotion.per_cycle / robot.length
 
 
@@ -45,7 +46,8 @@ def cases(seed: int = SEED, count: int = COUNT) -> list[Case]:
         robot = Robot(peak_pressure=float(rng.uniform(15e3, 70e3)), chamber_height=4.1e-3)
         robot = pneunet.with_load(robot, gamma)
         tip = float(3 * rng.uniform(0, 1))
-        walked = predict(robot, gait, from_ratios("any", tip, 1.0), states_per_ramp=PER_RAMP)
+        ground = from_ratios("any", tip, 1.0)
+        walked = predict(robot, gait, ground, states_per_ramp=PER_RAMP, friction=BENT)
         height = walked.shapes.amplitude.max() / robot.length
         if walked.flags or not 0.05 < height < 0.35:
             continue

@@ -22,8 +22,7 @@ class Options(SceneOptions):
 
     Actuators take the pressures of the segments in Pa; friction is MuJoCo's own, by load; chambers
     are at constant pressure. The files load from any folder on any machine with mujoco 3.17 or
-    later 3.x, and in dm_control by mjcf.from_path. MuJoCo 4 has no <composite>, but reads the
-    exported cable, which is written out as its bodies. Exit code 0: done; 2: bad input.
+    later, 4 included, and in dm_control by mjcf.from_path. Exit code 0: done; 2: bad input.
 
     Example: python -m mjsim.export --scene my.toml --out folder
     """

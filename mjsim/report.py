@@ -5,6 +5,7 @@ from typing import Any
 
 from analytic import pneunet
 from analytic.friction import Friction, friction_number
+from analytic.ground import Patches
 from analytic.locomotion import direction, undecided
 from analytic.prediction import REFERENCE, Elastica, Prediction, predict
 from analytic.surface import Surface
@@ -86,10 +87,11 @@ def _all_cycles(scene: Scene, own_path: bool) -> bool:
 
 def notes(scene: Scene) -> list[str]:
     """What the prediction leaves out that matters for the scene."""
-    surface = scene.ground
-    if not isinstance(surface, Surface) or scene.reference_friction.tension:
+    if scene.reference_friction.tension:
         return []
-    number = friction_number(surface, scene.robot, pneunet.base_rigidity(scene.robot))
+    rigidity = pneunet.base_rigidity(scene.robot)
+    surfaces = scene.ground.surfaces if isinstance(scene.ground, Patches) else ()
+    number = max((friction_number(s, scene.robot, rigidity) for s in surfaces), default=0.0)
     if number <= STRONG_FRICTION:
         return []
     return [f"strong friction (Phi {number:.3g}) bends the strip, the prediction leaves that out"]

@@ -14,6 +14,8 @@ from analytic.elastica.newton import Chain, ChainState
 from analytic.friction import LAWS, Friction
 from analytic.surface import Surface
 
+_LEAST_STEP = 1e-3  # of the way between two tensions, below which the branch is taken to end
+_FIRST_PULL, _LEAST_PULL = 0.5, 1e-3  # steps of tension [D0 / L^2]; chosen
 _STUCK = 1e-9  # separation over L that counts as unchanged
 
 
@@ -30,6 +32,7 @@ class StickSlip:
         self._chain, self._surface, self._friction = chain, surface, friction
         self._nodes = node_positions(chain.robot, chain.links)
         self._downhill = friction.downhill(chain.robot)
+        self._shares_ties = not (self._downhill or LAWS[friction.law].needs_load)
 
     def apply(self, before: ChainState, state: ChainState) -> ChainState | None:
         """The equilibrium under friction, from the last one and one at the last tension.
@@ -37,35 +40,71 @@ class StickSlip:
         None if the branch ends on the way, or the weight drags the strip down the slope.
         """
         left, right = self._bounds(state)
+        if left == right and self._shares_ties:
+            return self._pulled(state, 0.0)  # both slide alike, and neither pulls at the other
         push = min(left, right + self._downhill)  # beyond which an end slides outwards
         pull = min(right, left + self._downhill) - self._downhill  # and inwards
         if push + pull < 0:
             return None
         unit = self._friction.tension / self._chain.force_unit
-        low_end, high_end = -push * unit, pull * unit
-        if low_end == high_end:
-            return self._pulled(state, low_end)
+        low, high = -push * unit, pull * unit
         separation = self._chain.separation(before)
-        low, high = self._pulled(state, low_end), self._pulled(state, high_end)
-        if low is None or high is None:
-            return None
-        if separation >= self._chain.separation(high):
-            return high
-        if separation <= self._chain.separation(low):
-            return self._pulled(low, low_end)
+        here = min(max(self._chain.tension, low), high)
+        pulled = self._pulled(state, here)
+        if pulled is None or low == high:
+            return pulled
+        gap = self._chain.separation(pulled) - separation
+        if abs(gap) <= _STUCK:
+            return pulled
+        return self._stretched(pulled, here, separation, high if gap < 0 else low)
+
+    def _stretched(
+        self, state: ChainState, here: float, separation: float, goal: float
+    ) -> ChainState | None:
+        """Pull until the ends are as far apart as they were, or one slides at the goal."""
+        step = _FIRST_PULL
+        short = goal > here
+        while here != goal:
+            there = min(here + step, goal) if short else max(here - step, goal)
+            pulled = self._pulled(state, there)
+            if pulled is None:
+                step *= 0.25
+                if step < _LEAST_PULL:
+                    return None
+                continue
+            if (self._chain.separation(pulled) < separation) != short:
+                return self._between(state, here, there, separation)
+            state, here, step = pulled, there, 2 * step
+        return state
+
+    def _between(
+        self, state: ChainState, one: float, two: float, separation: float
+    ) -> ChainState | None:
+        """The state of a tension between two at which the ends are so far apart."""
+        from scipy.optimize import brentq  # slow to import, and seldom needed
 
         def gap(tension: float) -> float:
             pulled = self._pulled(state, tension)
             return np.nan if pulled is None else self._chain.separation(pulled) - separation
 
-        from scipy.optimize import brentq  # slow to import, and seldom needed
-
-        tension = brentq(gap, low_end, high_end, xtol=_STUCK * (high_end - low_end))
+        tension = brentq(gap, one, two, xtol=_STUCK * abs(two - one))
         return self._pulled(state, float(tension))
 
     def _pulled(self, guess: ChainState, tension: float) -> ChainState | None:
-        self._chain.tension = tension
-        return self._chain.equilibrium(guess)
+        """The equilibrium under a tension, by way of those between if it is far off."""
+        state, begin = guess, self._chain.tension
+        done, step = 0.0, 1.0
+        while done < 1.0:
+            step = min(step, 1.0 - done)
+            self._chain.tension = begin + (done + step) * (tension - begin)
+            pulled = self._chain.equilibrium(state)
+            if pulled is None:
+                step *= 0.25
+                if step < _LEAST_STEP:
+                    return None
+            else:
+                state, done, step = pulled, done + step, 2 * step
+        return state
 
     def _bounds(self, state: ChainState) -> tuple[float, float]:
         """Of the two ends [N]."""

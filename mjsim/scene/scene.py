@@ -13,7 +13,7 @@ from analytic.friction import LAWS, Friction
 from analytic.gait import GAITS, Gait
 from analytic.ground import Patches
 from analytic.robot import GRAVITY, Robot
-from analytic.surface import SURFACES, Ground
+from analytic.surface import SURFACES, Ground, Surface
 from mjsim import registry
 
 Chamber = Literal["linearized", "sealed", "constant-pressure"]
@@ -101,11 +101,11 @@ class Scene:
     def reference_friction(self) -> Friction:
         """The friction that the quasi-static prediction takes.
 
-        Constant bounds on level ground are taken as weak beside stiffness, as in section 2.2 of
-        [Majidi13]; others bend the strip.
+        It bends the strip as strongly as it does in the simulation; on ground that changes along x
+        it is taken as weak beside stiffness, as in section 2.2 of [Majidi13].
         """
-        weak = self.friction == "constant" and not self.slope
-        return Friction(self.friction, 0.0 if weak else 1.0, self.slope)
+        uniform = isinstance(self.ground, Surface)
+        return Friction(self.friction, 1.0 if uniform else 0.0, self.slope)
 
     @property
     def rise_time(self) -> float:

@@ -6,7 +6,7 @@ from analytic import SOLVERS, Elastica, predict
 from mjsim.scene import Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
-from mjsim.studies.accuracy.benchmark_cases import scene_of, walked
+from mjsim.studies.accuracy.benchmark_cases import friction_of, scene_of, walked
 from mjsim.studies.accuracy.rows import Row
 from mjsim.studies.accuracy.setting import Setting
 from mjsim.studies.accuracy.timing import Spent, Timing, repeated
@@ -35,7 +35,7 @@ def _solver(case: str, ground: str, setting: Setting) -> tuple[float, Timing, st
         solver = Elastica(setting.links, scene.chamber)
     walk, timing = repeated(
         lambda: predict(scene.robot, scene.gait, scene.ground, solver,
-                        friction=scene.reference_friction),
+                        friction=friction_of(case)),
         Scene().gait.period,  # however slow, a cycle of states costs the same
     )  # fmt: skip
     return walk.locomotion.per_cycle / scene.robot.length, timing, "ok"

@@ -15,6 +15,7 @@ from analytic import GAITS, SURFACES, Gait, Robot, predict
 from analytic.elastica.cantilever import solve_cantilever
 from mjsim import replay, run
 from mjsim.io import cli, files
+from mjsim.report import reference
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.provenance import provenance
 from mjsim.simulation.batch import Refused, rollout, simulate_all
@@ -186,11 +187,22 @@ def test_python_is_as_guarded_as_the_command_line():
     assert Robot(length=np.float64(0.09)).length == 0.09
 
 
-def test_strong_friction_is_said_beside_the_number(tmp_path, capsys):
-    tip = 43 * 3.84e-4 / 0.13**2 / 2
-    words = ["--surface.tip-force", tip, "--surface.shear-strength", 2 * tip / (0.04 * 0.13 / 3)]
-    said = call([*words, "--out", tmp_path], capsys).out
-    assert "strong friction (Phi 43) bends the strip" in said
+@pytest.mark.parametrize("number", [5, 15, 30, 43])
+def test_the_prediction_is_bent_by_the_scene_s_own_friction_however_strong(number):
+    """On polyethylene, where it turns the robot round: weak friction would say 0.000 L."""
+    slow = replace(GAITS["wave"], ramp_time=8.0)
+    ground = SURFACES["polyethylene"].scaled(number / 1.496)
+    walk = simulate(Scene(gait=slow, ground=ground))
+    exact = reference(walk).locomotion.per_cycle / Robot().length
+    assert measure(walk).displacement == pytest.approx(exact, rel=0.02, abs=0.0015)
+
+
+def test_where_friction_is_too_strong_for_a_prediction_there_is_none(tmp_path, capsys):
+    tip = 100 * 3.84e-4 / 0.13**2 / 2
+    row = row_of(["--surface.tip-force", tip, "--surface.shear-strength",
+                  2 * tip / (0.04 * 0.13 / 3)], tmp_path, capsys)  # fmt: skip
+    assert row["predicted_displacement_over_L"] is None
+    assert row["prediction_flags"] == ["BRANCH_END"]
 
 
 def test_a_strip_that_slides_down_says_how_far_and_why(tmp_path, capsys):

@@ -134,8 +134,8 @@ def test_a_slope_the_other_way_is_the_mirrored_scene():
     assert measure(up).displacement == pytest.approx(-measure(down).displacement, rel=0.02)
 
 
-def test_the_reference_of_level_ground_is_the_unbent_one():
-    assert Scene().reference_friction == Friction()
+def test_the_reference_is_bent_by_the_scene_s_own_friction():
+    assert Scene().reference_friction == Friction(tension=1.0)
     assert measured("felt").displacement == pytest.approx(
         reference(simulate(Scene())).locomotion.per_cycle / Robot().length, rel=0.02
     )
