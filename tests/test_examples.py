@@ -74,6 +74,14 @@ def test_theory_alone_finds_the_neutral_surface_at_polyethylene():
     assert example("theory_alone")() == pytest.approx(0.5, abs=0.01)
 
 
+def test_strong_friction_turns_the_robot_round_as_theory_says():
+    rows = example("strong_friction")(count=3)
+    gaps = [abs(theory - simulated) for _, theory, simulated in rows]
+    assert all(gap < 0.001 for gap in gaps[:-1])
+    assert np.isnan(gaps[-1])  # beyond the end of the stable branch, which theory says
+    assert rows[-1][2] < -0.01 < rows[0][2]
+
+
 def test_a_crossing_stalls_where_theory_says():
     walked, theory = example("crossing")()
     assert walked == pytest.approx(theory, abs=0.02 * 0.13)
