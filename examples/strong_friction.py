@@ -30,7 +30,7 @@ def main(folder: Path | None = None, count: int = 5) -> list[tuple[float, float,
         axes.axhline(0, color="0.8", lw=0.8)
         axes.plot(numbers_, theory_, color="black", label="elastica, bent by friction")
         axes.plot(numbers_, simulated, "o", color="#d1495b", ms=4, label="MuJoCo, 8 s a ramp")
-        axes.set(xscale="log", xlabel=r"friction number $\Phi = V_t L^2 / D_0$",
+        axes.set(xscale="log", xlabel=r"friction number $\Phi = V L^2 / D_0$",
                  ylabel="displacement per cycle / L", title="polyethylene")  # fmt: skip
         axes.legend(frameon=False)
         figure.savefig(folder / "strong_friction.png")
