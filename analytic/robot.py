@@ -63,11 +63,13 @@ class Robot:
             raise ValueError("segments must be at least one length, got none")
         for length in self.segments:
             positive("segments' lengths", length)
+        object.__setattr__(self, "segments", tuple(float(part) for part in self.segments))
         for field in fields(self):
             value = getattr(self, field.name)
             if field.name == "segments" or (value is None and field.name in _OPTIONAL):
                 continue
             positive(field.name, value)
+            object.__setattr__(self, field.name, float(value))
         if self.chamber_fraction > 1:
             raise ValueError(
                 f"chamber_fraction must lie in (0, 1], got {self.chamber_fraction!r}: "

@@ -40,6 +40,7 @@ class Surface:
         for field in fields(self):
             if field.name != "name":
                 not_negative(field.name, getattr(self, field.name))
+                object.__setattr__(self, field.name, float(getattr(self, field.name)))
 
     def at(self, x: float) -> "Surface":
         """What resists at a place: the same everywhere."""

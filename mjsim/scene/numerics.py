@@ -68,6 +68,7 @@ class Numerics:
             value = getattr(self, item.name)
             if item.name not in ("links", "integrator", "cone") and value is not None:
                 positive(item.name, value)
+                object.__setattr__(self, item.name, float(value))
         if self.timestep > LONGEST_STEP:
             raise ValueError(f"timestep must be at most {LONGEST_STEP} s, got {self.timestep!r}")
 

@@ -61,6 +61,7 @@ class Scene:
         one_of("chamber", self.chamber, CHAMBER_LAWS)
         one_of("actuation", self.actuation, ACTUATIONS)
         whole("cycles", self.cycles, 1)
+        object.__setattr__(self, "cycles", int(self.cycles))
         positive("gravity", self.gravity, "m/s^2")
         positive("settle_time", self.settle_time, "s")
         not_negative("lag", self.lag, "s")

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from walks import HEAVIER, refusal
 
-from analytic import GAITS, SURFACES, Gait, Robot, predict
+from analytic import GAITS, SURFACES, Gait, Robot, Surface, predict
 from analytic.elastica.cantilever import solve_cantilever
 from mjsim import replay, run
 from mjsim.io import cli, files
@@ -185,6 +185,9 @@ def test_python_is_as_guarded_as_the_command_line():
     assert Numerics(links=np.int64(12)).links == 12
     assert Scene(cycles=np.int64(2)).cycles == 2
     assert Robot(length=np.float64(0.09)).length == 0.09
+    small = Robot(length=np.float32(0.125), segments=np.ones(3, np.float32))
+    scene = Scene(small, cycles=np.int64(2), ground=Surface("any", np.float32(0.5)))
+    assert json.loads(json.dumps(provenance(scene, Numerics(timestep=np.float32(0.004)))))
 
 
 @pytest.mark.parametrize("number", [5, 15, 30, 43])
