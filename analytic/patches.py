@@ -12,7 +12,7 @@ from analytic.equilibria import ContactShapes
 Array = NDArray[np.float64]
 
 _FLAT = 1e-3  # rad; less steep than this is flat, as in the simulation; chosen
-_POINT = 2  # nodes that push in a contact in one point: it may fall between two
+_POINT = 2  # most nodes that push in a contact in one point, as it may fall between two
 
 
 class Patch(NamedTuple):

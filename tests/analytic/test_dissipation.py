@@ -22,6 +22,7 @@ from analytic import (
 )
 from analytic.dissipation import least_dissipation, minimisers
 from analytic.friction import slip_fraction
+from analytic.patches import patches
 
 ALL = Friction(contacts="all")
 contacts = st.lists(
@@ -103,6 +104,32 @@ def test_friction_between_the_ends_more_than_halves_the_way_of_a_long_robot(shap
     coarse, fine = (displacements(s, ground, friction=ALL).per_cycle for s in shapes.values())
     assert 0 < fine / ends < 0.5
     assert fine == pytest.approx(coarse, rel=0.06)
+
+
+def between(shapes):
+    """Nodes that push in each contact between the ends, of all states."""
+    height = shapes.curve(shapes.nodes)[1]
+    return [
+        len(patch.nodes)
+        for state in range(len(shapes))
+        for patch in patches(shapes, height, state)[1:-1]
+    ]
+
+
+def test_contacts_between_the_ends_are_points_at_full_pressure_however_fine_the_links(shapes):
+    """So a contact of two nodes is a tip, and one of more may be a side."""
+    for solved in shapes.values():
+        assert max(between(solved)) == 2
+
+
+def test_and_sides_of_a_length_of_their_own_at_lower_pressure():
+    path = 0.6 * WAVES.pressures(10) * LONG.peak_pressure
+    lengths = [
+        max(between(solve_elastica(LONG, path, links=links))) / links for links in (96, 192, 384)
+    ]
+    assert lengths[0] > 5 / 96
+    # to a link and a half at either end of the coarsest
+    assert lengths == pytest.approx([lengths[-1]] * 3, abs=3 / 96)
 
 
 @pytest.mark.parametrize("surface", list(SURFACES))
