@@ -96,12 +96,14 @@ class Prediction(NamedTuple):
         shapes: their equilibria.
         locomotion: displacements along them.
         flags: every flag that a state carries.
+        cycles: how many the states are of.
     """
 
     pressures: Array
     shapes: Shapes
     locomotion: Locomotion
     flags: Status
+    cycles: int
 
 
 def predict(
@@ -151,7 +153,8 @@ def predict(
         )
         shapes = solver.solve(robot, path, ground, friction)
     flags = Status(int(np.bitwise_or.reduce(shapes.status)))
-    return Prediction(path, shapes, displacements(shapes, ground, cycles, friction), flags)
+    locomotion = displacements(shapes, ground, cycles, friction)
+    return Prediction(path, shapes, locomotion, flags, cycles)
 
 
 def _anchor_changes(shapes: Shapes, ground: Ground, friction: Friction) -> NDArray[np.bool_]:

@@ -65,7 +65,8 @@ def reference(walk: Trajectory) -> Prediction:
     """What the quasi-static reference makes of the same scene.
 
     Chambers that lag behind their valves take the strip along another path than the gait's: then
-    it is theirs that the reference follows.
+    it is theirs that the reference follows. Every cycle is walked where they differ from each
+    other, else one.
     """
     scene = walk.scene
     path = walk.pressure[walk.start :] if scene.lag and walk.time[-1] > 0 else None
@@ -76,13 +77,8 @@ def reference(walk: Trajectory) -> Prediction:
         Elastica(chamber=scene.chamber),
         friction=scene.reference_friction,
         path=path,
-        cycles=scene.cycles if _all_cycles(scene, path is not None) else 1,
+        cycles=1 if path is None and isinstance(scene.ground, Surface) else scene.cycles,
     )
-
-
-def _all_cycles(scene: Scene, own_path: bool) -> bool:
-    """Whether the prediction walks every cycle: where they differ from each other."""
-    return own_path or not isinstance(scene.ground, Surface)
 
 
 def notes(scene: Scene) -> list[str]:
@@ -104,8 +100,7 @@ def _between(scene: Scene, prediction: Prediction) -> list[str]:
     along = motion(prediction.shapes, scene.ground, Friction(scene.friction, contacts="all"))
     if along.most <= 2:
         return []
-    cycles = scene.cycles if scene.lag else 1
-    shift = float(along.left[-1]) / (scene.robot.length * cycles)
+    shift = float(along.left[-1]) / (scene.robot.length * prediction.cycles)
     return [f"friction acts at the two ends alone; wherever it touches, {shift:+.4f} L"]
 
 
@@ -113,8 +108,8 @@ def _undecided(scene: Scene, prediction: Prediction) -> float:
     """Displacement per cycle over L that hangs on ties under Coulomb friction."""
     if scene.friction != "coulomb" or not isinstance(scene.ground, Surface):
         return 0.0
-    cycles = scene.cycles if scene.lag else 1
-    return undecided(prediction.shapes, scene.ground) / (scene.robot.length * cycles)
+    over = scene.robot.length * prediction.cycles
+    return undecided(prediction.shapes, scene.ground) / over
 
 
 def table(records: list[dict[str, Any]]) -> str:

@@ -309,11 +309,30 @@ def test_part_files_of_two_writers_never_meet(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["a.txt"]
 
 
+STAGES = ",".join("".join("1" if (j - k) % 4 in (0, 1) else "0" for j in range(8))
+                  for k in range(9))  # fmt: skip
+LONG = ["--segments", ",".join("1" * 8), "--robot.length", "0.34667", "--pressure", "28958",
+        "--gait.stages", STAGES, "--links", "48"]  # fmt: skip
+
+
+def told_of_the_ground_between(words, tmp_path, capsys):
+    row = row_of([*LONG, *words], tmp_path, capsys)
+    (note,) = [n for n in row["prediction_notes"] if "touches" in n]
+    return note
+
+
 def test_a_long_robot_is_told_of_the_ground_between_its_ends(tmp_path, capsys):
-    stages = ",".join("".join("1" if (j - k) % 4 in (0, 1) else "0" for j in range(8))
-                      for k in range(9))  # fmt: skip
-    words = ["--segments", ",".join("1" * 8), "--robot.length", "0.34667", "--pressure", "28958",
-             "--gait.stages", stages, "--links", "48"]  # fmt: skip
-    (note,) = [n for n in row_of(words, tmp_path, capsys)["prediction_notes"] if "touches" in n]
+    note = told_of_the_ground_between([], tmp_path, capsys)
     assert "friction acts at the two ends alone" in note
     assert not row_of([], tmp_path, capsys)["prediction_notes"]
+
+
+def test_and_per_cycle_on_patches_too_where_every_cycle_is_walked(tmp_path, capsys):
+    """Patches of one surface are that surface."""
+    path = tmp_path / "scene.toml"
+    path.write_text('[[ground.patches]]\nsurface = "felt"\n'
+                    '[[ground.patches]]\nfrom = 0.1\nsurface = "felt"')  # fmt: skip
+    one = told_of_the_ground_between([], tmp_path, capsys)
+    two = told_of_the_ground_between(["--scene", path, "--cycles", "2"], tmp_path, capsys)
+    far = [float(note.split("touches, ")[1].split()[0]) for note in (one, two)]
+    assert far[1] == pytest.approx(far[0], abs=0.002)
