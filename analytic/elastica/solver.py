@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from analytic.chain import link_lengths, node_positions
 from analytic.contact import contact_mode, side_contact
+from analytic.elastica.continuation import follow
 from analytic.elastica.newton import Chain, ChainState
 from analytic.elastica.stick_slip import StickSlip
 from analytic.equilibria import ContactShapes, Status
@@ -149,18 +150,12 @@ def _in_smaller_steps(
     chain: Chain, start: ChainState, from_p: Array, to_p: Array
 ) -> ChainState | None:
     """Go from one state to the next by continuation; None if the branch ends on the way."""
-    done, step, state = 0.0, 0.25, start
-    while done < 1.0:
-        step = min(step, 1.0 - done)
-        chain.load_at(from_p + (done + step) * (to_p - from_p))
-        candidate = _unless_it_leaps(state, chain.equilibrium(state))
-        if candidate is None:
-            step *= 0.5
-            if step < _LEAST_STEP:
-                return None
-        else:
-            state, done, step = candidate, done + step, 2 * step
-    return state
+
+    def solve(part: float, near: ChainState) -> ChainState | None:
+        chain.load_at(from_p + part * (to_p - from_p))
+        return _unless_it_leaps(near, chain.equilibrium(near))
+
+    return follow(start, solve, first=0.25, shrink=0.5, least=_LEAST_STEP)
 
 
 class _Curve:

@@ -10,6 +10,7 @@ import numpy as np
 
 from analytic.chain import node_positions
 from analytic.contact import end_loads, side_contact
+from analytic.elastica.continuation import follow
 from analytic.elastica.newton import Chain, ChainState
 from analytic.friction import LAWS, Friction
 from analytic.surface import Surface
@@ -92,19 +93,13 @@ class StickSlip:
 
     def _pulled(self, guess: ChainState, tension: float) -> ChainState | None:
         """The equilibrium under a tension, by way of those between if it is far off."""
-        state, begin = guess, self._chain.tension
-        done, step = 0.0, 1.0
-        while done < 1.0:
-            step = min(step, 1.0 - done)
-            self._chain.tension = begin + (done + step) * (tension - begin)
-            pulled = self._chain.equilibrium(state)
-            if pulled is None:
-                step *= 0.25
-                if step < _LEAST_STEP:
-                    return None
-            else:
-                state, done, step = pulled, done + step, 2 * step
-        return state
+        begin = self._chain.tension
+
+        def solve(part: float, near: ChainState) -> ChainState | None:
+            self._chain.tension = begin + part * (tension - begin)
+            return self._chain.equilibrium(near)
+
+        return follow(guess, solve, first=1.0, shrink=0.25, least=_LEAST_STEP)
 
     def _bounds(self, state: ChainState) -> tuple[float, float]:
         """Of the two ends [N]."""
