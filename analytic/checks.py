@@ -42,6 +42,13 @@ def one_of(name: str, value: Any, valid: Iterable[str]) -> None:
         raise ValueError(f"{name} must be one of {', '.join(known)}; got {value!r}")
 
 
+def slope(value: Any) -> None:
+    """Raise ValueError unless it is the angle of a slope, less steep than a right angle [rad]."""
+    if not (is_number(value) and abs(value) < math.pi / 2):
+        shown = f"{math.degrees(value):g} degrees" if isinstance(value, Real) else repr(value)
+        raise ValueError(f"slope must be less steep than 90 degrees, got {shown}")
+
+
 def file_word(name: str, value: Any) -> None:
     """Raise ValueError unless it can stand in a file name."""
     fine = isinstance(value, str) and value.isprintable() and "/" not in value

@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
-from analytic.checks import one_of
+from analytic.checks import one_of, slope
 from analytic.robot import Robot
 from analytic.surface import Surface
 
@@ -105,13 +105,10 @@ class Friction:
     contacts: Literal["ends", "all"] = "ends"
 
     def __post_init__(self) -> None:
-        if self.law not in LAWS:
-            raise ValueError(f"law must be one of {', '.join(LAWS)}; got {self.law!r}")
+        one_of("law", self.law, LAWS)
         if not 0 <= self.tension <= 1:
             raise ValueError(f"tension must lie in [0, 1], got {self.tension!r}")
-        if not abs(self.slope) < math.pi / 2:
-            degrees = math.degrees(self.slope)
-            raise ValueError(f"slope must be less steep than 90 degrees, got {degrees:g} degrees")
+        slope(self.slope)
         one_of("contacts", self.contacts, ("ends", "all"))
         if self.contacts == "all" and self.tension:
             raise ValueError("friction at all contacts bends nothing here: tension must be 0")

@@ -6,6 +6,7 @@ from typing import ClassVar, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from analytic.checks import one_of
 from analytic.equilibria import Shapes, Status
 from analytic.friction import Friction
 from analytic.gait import Gait
@@ -137,8 +138,7 @@ def predict(
             or the gait is divided into no states.
     """
     if isinstance(solver, str):
-        if solver not in SOLVERS:
-            raise ValueError(f"solver must be one of {', '.join(SOLVERS)}; got {solver!r}")
+        one_of("solver", solver, SOLVERS)
         solver = SOLVERS[solver]()
     if path is None:
         path = robot.peak_pressure * gait.pressures(states_per_ramp, cycles)

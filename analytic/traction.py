@@ -20,13 +20,11 @@ class Motion(NamedTuple):
     Attributes:
         left: displacement of the left end since the first state, (B,) [m]; NaN from where a shape
             is missing.
-        tied: how much of each increment is decided by the rule for ties alone, (B - 1,) [m].
         changes: increments in which another contact begins to hold, (B - 1,).
         most: most contacts that a state has.
     """
 
     left: Array
-    tied: Array
     changes: NDArray[np.bool_]
     most: int
 
@@ -43,7 +41,7 @@ def motion(shapes: Shapes, ground: Ground, friction: Friction) -> Motion:
         )
     x, height = shapes.curve(shapes.nodes)
     count = len(shapes)
-    left, tied = np.zeros(count), np.zeros(count - 1)
+    left = np.zeros(count)
     changes, most = np.zeros(count - 1, dtype=bool), 0
     contacts = [
         patches(shapes, height, i) if np.isfinite(shapes.separation[i]) else []
@@ -58,18 +56,17 @@ def motion(shapes: Shapes, ground: Ground, friction: Friction) -> Motion:
         step = x[i + 1] - x[i]
         sides = [_slide(state, x[i] + left[i], step, ground, shapes.robot.width, friction)
                  for state in (here, there)]  # fmt: skip
-        (before, width, still), (after, other_width, still_there) = sides
+        (before, tied, still), (after, tied_there, still_there) = sides
         left[i + 1] = left[i] + 0.5 * (before + after)
-        tied[i] = 0.25 * (width + other_width)
         moved = abs(still - still_there) > 1.5 * float(np.diff(shapes.nodes).max())
-        changes[i] = moved or (width > 0) != (other_width > 0)
-    return Motion(left, tied, changes, most)
+        changes[i] = moved or tied != tied_there
+    return Motion(left, changes, most)
 
 
 def _slide(
     contacts: list[Patch], x: Array, step: Array, ground: Ground, width: float, friction: Friction
-) -> tuple[float, float, float]:
-    """The motion of an increment, the width of its minimisers, and where a contact stays [m]."""
+) -> tuple[float, bool, float]:
+    """The motion of an increment [m], whether a tie decides it, and where a contact stays [m]."""
     law = LAWS[friction.law]
     bounds = np.array([
         law.bound(ground.at(float(patch.share @ x[patch.nodes])), width, patch.length, patch.load)
@@ -77,8 +74,7 @@ def _slide(
     ])  # fmt: skip
     moves = np.array([patch.share @ step[patch.nodes] for patch in contacts])
     low, high = minimisers(bounds, moves)
-    reach = moves.max() - moves.min()
     going = least_dissipation(bounds, moves)
     stays = contacts[int(np.argmin(np.abs(going + moves)))]
     place = float(stays.share @ x[stays.nodes])
-    return going, min(high - low, reach), place
+    return going, high > low and moves.max() > moves.min(), place

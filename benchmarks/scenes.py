@@ -54,8 +54,7 @@ def cases(seed: int = SEED, count: int = COUNT) -> list[Case]:
         exact = walked.locomotion.per_cycle / robot.length
         near = [reference(robot, gait, from_ratios("any", f * tip, 1.0)) for f in (0.95, 1.05)]
         sensitivity = max(abs(value - exact) for value in near)
-        surface = from_ratios("any", tip, 1.0)
-        found.append(Case(robot, gait, surface, gamma, height, exact, sensitivity))
+        found.append(Case(robot, gait, ground, gamma, height, exact, sensitivity))
     return found
 
 

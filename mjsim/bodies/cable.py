@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.chain import joint_springs, link_lengths, node_positions
+from analytic.chain import joint_springs, link_lengths
 from mjsim.bodies import parts
 from mjsim.bodies.body import Joints
 from mjsim.scene import Numerics, Scene
@@ -45,15 +45,12 @@ class Cable:
 
     def check(self, scene: Scene, numerics: Numerics) -> None:
         """Neither actuators nor sealed chambers."""
-        refuse_planar_only(self.name, scene)
+        parts.refuse_planar_only(self.name, scene)
 
     def spec(self, scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
         """The composite, its links given their joints, masses, pads and friction."""
         robot, links = scene.robot, numerics.links
-        vertex = np.column_stack([node_positions(robot, links), np.zeros((links + 2, 2))]).ravel()
-        spec = mujoco.MjSpec.from_string(
-            _COMPOSITE.format(vertex=" ".join(f"{v:.17g}" for v in vertex))
-        )
+        spec = mujoco.MjSpec.from_string(_COMPOSITE.format(vertex=parts.vertices(scene, numerics)))
         stiffness, _ = joint_springs(robot, links, np.zeros((1, len(robot.segments))))
         bodies = [spec.body(f"cable_B_{name}") for name in ("first", *range(1, links), "last")]
         edges = [(0.5 * side * robot.width, 0.0) for side in (-1, 1)]
@@ -113,15 +110,6 @@ class _Balls:
 
     def shift(self, distance: float) -> None:
         self._qpos[0] -= distance
-
-
-def refuse_planar_only(body: str, scene: Scene) -> None:
-    """Raise ValueError where a scene asks for what only the planar body does."""
-    if scene.actuation == "actuators" or scene.chamber == "sealed":
-        raise ValueError(
-            "actuation actuators and chamber sealed are for body planar; got "
-            f"body {body}, actuation {scene.actuation}, chamber {scene.chamber}"
-        )
 
 
 def _free(body: mujoco.MjsBody) -> None:

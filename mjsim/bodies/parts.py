@@ -10,8 +10,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import mujoco
+import numpy as np
 
 from analytic import pneunet
+from analytic.chain import node_positions
 from mjsim.scene import Numerics, Scene
 
 PALE, DARK = (0.86, 0.82, 0.72), (0.16, 0.17, 0.20)  # passive and inflated, as in Figure 4
@@ -28,6 +30,22 @@ Place = tuple[float, float, float]
 def template() -> mujoco.MjSpec:
     """Defaults of the strip."""
     return mujoco.MjSpec.from_file(str(TEMPLATE))
+
+
+def vertices(scene: Scene, numerics: Numerics) -> str:
+    """Places of the flat strip's vertices, as MJCF writes them."""
+    x = node_positions(scene.robot, numerics.links)
+    places = np.column_stack([x, np.zeros((len(x), 2))])
+    return " ".join(f"{place:.17g}" for place in places.ravel())
+
+
+def refuse_planar_only(body: str, scene: Scene) -> None:
+    """Raise ValueError where a scene asks for what only the planar body does."""
+    if scene.actuation == "actuators" or scene.chamber == "sealed":
+        raise ValueError(
+            "actuation actuators and chamber sealed are for body planar; got "
+            f"body {body}, actuation {scene.actuation}, chamber {scene.chamber}"
+        )
 
 
 def set_options(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:

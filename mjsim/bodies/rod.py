@@ -17,10 +17,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.chain import joint_springs, link_lengths, node_positions
+from analytic.chain import joint_springs, link_lengths
 from mjsim.bodies import parts
 from mjsim.bodies.body import Joints
-from mjsim.bodies.cable import refuse_planar_only
 from mjsim.scene import Numerics, Scene
 
 Array = NDArray[np.float64]
@@ -51,17 +50,16 @@ class Rod:
 
     def check(self, scene: Scene, numerics: Numerics) -> None:
         """Neither actuators nor sealed chambers."""
-        refuse_planar_only(self.name, scene)
+        parts.refuse_planar_only(self.name, scene)
 
     def spec(self, scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
         """The flexcomp, its vertices given their masses, pads and friction."""
         robot, links = scene.robot, numerics.links
-        point = np.column_stack([node_positions(robot, links), np.zeros((links + 2, 2))]).ravel()
         edges = np.column_stack([np.arange(links + 1), np.arange(1, links + 2)]).ravel()
         assert numerics.edge_time is not None
         spec = mujoco.MjSpec.from_string(
             _FLEXCOMP.format(
-                point=" ".join(f"{v:.17g}" for v in point),
+                point=parts.vertices(scene, numerics),
                 element=" ".join(map(str, edges.tolist())),
                 radius=_RADIUS,
                 edge_time=numerics.edge_time * numerics.timestep,

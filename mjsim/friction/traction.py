@@ -65,6 +65,13 @@ class _Ends:
         self._rate, self._place = data.ten_velocity, data.ten_length
         self._pads = pads_by_node(model)[[0, -1]]
 
+    def _look(
+        self, slopes: tuple[float, float], left: bool, right: bool
+    ) -> tuple[tuple[bool, bool], tuple[float, float]]:
+        """Whether each end lies on its side, and over what length."""
+        left, right = left and slopes[0] <= self._flat, right and slopes[1] <= self._flat
+        return (left, right), self._forces.lengths(left, right) if left or right else _TIPS
+
     def _see_who_moves(self) -> None:
         left, right = self._rate.item(self._left), self._rate.item(self._right)
         self.left_slip = 1.0 if abs(left) > abs(right) else 0.0
@@ -95,11 +102,8 @@ class BoundedEnds(_Ends):
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
         """See Traction.before_step."""
-        slope_left, slope_right = slopes
-        left, right = left and slope_left <= self._flat, right and slope_right <= self._flat
-        contacts = self._forces.lengths(left, right) if left or right else _TIPS
-        steep_angle = self._steep_angle
-        steep = slope_left > steep_angle, slope_right > steep_angle
+        _, contacts = self._look(slopes, left, right)
+        steep = slopes[0] > self._steep_angle, slopes[1] > self._steep_angle
         if steep != self._steep:
             self._soften(steep)
         if contacts != self._last or self._always:
@@ -150,18 +154,11 @@ class ContactFriction(_Ends):
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
         """See Traction.before_step."""
-        sides = self._look(slopes, left, right)
+        sides, (self.contact_left, self.contact_right) = self._look(slopes, left, right)
         if sides != self._sides or not self._uniform:
             self._sides = sides
             self._set_friction(sides)
         self._see_who_moves()
-
-    def _look(self, slopes: tuple[float, float], left: bool, right: bool) -> tuple[bool, bool]:
-        """Read the lengths; whether each end lies on its side."""
-        left, right = left and slopes[0] <= self._flat, right and slopes[1] <= self._flat
-        contacts = self._forces.lengths(left, right) if left or right else _TIPS
-        self.contact_left, self.contact_right = contacts
-        return left, right
 
     def _set_friction(self, sides: tuple[bool, bool]) -> None:
         for pads, on_side in zip(self._pads, sides, strict=True):

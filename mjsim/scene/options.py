@@ -8,13 +8,11 @@ import tyro
 
 from analytic.robot import Robot
 from analytic.surface import SURFACES, Surface
+from mjsim.io.cli import ALL
 from mjsim.io.options import field_docs, given, numbers, option, optional
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene
-from mjsim.scene.tables import SCENE_FIELDS, Tables, merged, read_tables
-
-ALL = "all"  # the three named surfaces
-
+from mjsim.scene.tables import SCENE_FIELDS, SURFACE_FIELDS, Tables, merged, read_tables
 
 _RobotOptions = optional(
     "RobotOptions",
@@ -22,9 +20,7 @@ _RobotOptions = optional(
     [item.name for item in fields(Robot)],
     {"peak_pressure": "--pressure", "segments": "--segments"},
 )
-_SurfaceOptions = optional(
-    "SurfaceOptions", Surface, [item.name for item in fields(Surface) if item.name != "name"]
-)
+_SurfaceOptions = optional("SurfaceOptions", Surface, SURFACE_FIELDS)
 _GaitOptions = optional(
     "GaitOptions",
     Scene,

@@ -3,13 +3,13 @@
 import os
 import platform
 import subprocess
-from dataclasses import asdict, fields, is_dataclass, replace
+from dataclasses import asdict, fields, is_dataclass
 from functools import cache
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from analytic import SURFACES, Gait, Patches, Robot, Surface
+from analytic import Gait, Patches, Robot, Surface
 from mjsim.scene import Numerics, Scene
 
 DISTRIBUTION = "undulator"
@@ -40,10 +40,9 @@ def machine() -> str:
 def provenance(scene: Scene, numerics: Numerics) -> dict[str, Any]:
     """Plain data that says how to make a result again."""
     ground = scene.ground
-    described = asdict(replace(scene, ground=SURFACES["felt"]))
-    described["ground"] = (
-        asdict(ground) if is_dataclass(ground) and not isinstance(ground, type) else ground.name
-    )
+    plain = asdict(ground) if is_dataclass(ground) and not isinstance(ground, type) else ground.name
+    described = {field.name: getattr(scene, field.name) for field in fields(scene)}
+    described |= {"robot": asdict(scene.robot), "gait": asdict(scene.gait), "ground": plain}
     return {**origin(), "scene": described, "numerics": asdict(numerics)}
 
 

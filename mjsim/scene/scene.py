@@ -8,7 +8,7 @@ import numpy as np
 
 from analytic import pneunet
 from analytic.chain import CHAMBER_LAWS
-from analytic.checks import is_number, not_negative, one_of, positive, whole
+from analytic.checks import not_negative, one_of, positive, slope, whole
 from analytic.friction import LAWS, Friction
 from analytic.gait import GAITS, Gait
 from analytic.ground import Patches
@@ -65,9 +65,7 @@ class Scene:
         positive("gravity", self.gravity, "m/s^2")
         positive("settle_time", self.settle_time, "s")
         not_negative("lag", self.lag, "s")
-        if not (is_number(self.slope) and abs(self.slope) < math.pi / 2):
-            degrees = math.degrees(self.slope) if is_number(self.slope) else self.slope
-            raise ValueError(f"slope must be less steep than 90 degrees, got {degrees:g} degrees")
+        slope(self.slope)
         if self.gait.segments != len(self.robot.segments):
             raise ValueError(
                 f"gait {self.gait.name} is for {self.gait.segments} segments, "

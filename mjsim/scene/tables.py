@@ -33,11 +33,11 @@ Kind = TypeVar("Kind")
 NAMES = ("robot", "gait", "ground", "numerics")
 SCENE_FIELDS = ("cycles", "body", "friction", "chamber", "actuation", "lag", "gravity",
                 "settle_time")  # fmt: skip
-_SURFACE_FIELDS = tuple(field.name for field in fields(Surface) if field.name != "name")
+SURFACE_FIELDS = tuple(field.name for field in fields(Surface) if field.name != "name")
 _KEYS: dict[str, tuple[str, ...]] = {
     "robot": tuple(field.name for field in fields(Robot)),
     "gait": ("name", "stages", "ramp_time", "reverse", "file"),
-    "ground": ("surface", *_SURFACE_FIELDS, "slope_deg", "patches"),
+    "ground": ("surface", *SURFACE_FIELDS, "slope_deg", "patches"),
     "numerics": (*SCENE_FIELDS, *(field.name for field in fields(Numerics))),
 }
 
@@ -123,7 +123,7 @@ def build_ground(table: Table, where: str = "") -> Ground:
     for number, patch in enumerate(patches):
         here = f"{where}patch {number + 1}: "
         for key in patch:
-            one_of(f"{here}key", key, ("from", "surface", *_SURFACE_FIELDS))
+            one_of(f"{here}key", key, ("from", "surface", *SURFACE_FIELDS))
         if (number > 0) != ("from" in patch):
             raise ValueError(f"{here}every patch but the first must say `from` where it begins [m]")
         if number > 0:
@@ -138,7 +138,7 @@ def build_ground(table: Table, where: str = "") -> Ground:
 
 def build_surface(table: Table, where: str = "") -> Surface:
     """A named surface, or one of given properties, which may start from a named one."""
-    given = {key: value for key, value in table.items() if key in _SURFACE_FIELDS}
+    given = {key: value for key, value in table.items() if key in SURFACE_FIELDS}
     name = table.get("surface")
     if name is None:
         return make(Surface, given, where) if given else SURFACES["felt"]
@@ -150,7 +150,7 @@ def build_surface(table: Table, where: str = "") -> Surface:
             f"not both; got {name!r}"
         )
     if not given:
-        raise ValueError(f"{where}surface must be one of {', '.join(SURFACES)}; got {name!r}")
+        one_of(f"{where}surface", name, SURFACES)
     return make(Surface, given, where, name=name)
 
 

@@ -22,7 +22,7 @@ from mjsim.bodies.pneumatics import chamber_pressure, controls
 from mjsim.mjcf.builder import compile_model
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.judge import judge
-from mjsim.simulation.schedule import before_start, check_steps, walking_steps
+from mjsim.simulation.schedule import before_start, check_steps, walking, walking_steps
 from mjsim.simulation.simulation import positions, simulate
 from mjsim.simulation.status import Status
 from mjsim.simulation.trajectory import Trajectory
@@ -157,9 +157,7 @@ def rollout(
 def _commands(scene: Scene, numerics: Numerics) -> Array:
     """Commands of the valves at each step, what comes before the first cycle included (T, S)."""
     check_steps(scene, numerics)
-    time = np.arange(1.0, walking_steps(scene, numerics) + 1.0) * numerics.timestep
-    gait = scene.robot.peak_pressure * scene.gait.fractions(time)
-    return np.concatenate([before_start(scene, numerics), gait])
+    return np.concatenate([before_start(scene, numerics), walking(scene, numerics, scene.gait)])
 
 
 def _first_state(model: mujoco.MjModel) -> Array:

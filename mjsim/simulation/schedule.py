@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.gait import Gait
 from mjsim.scene import Numerics, Scene
 
 Array = NDArray[np.float64]
@@ -18,6 +19,12 @@ def before_start(scene: Scene, numerics: Numerics) -> Array:
     rise = round(scene.rise_time / dt)
     part = np.concatenate([np.arange(1, rise + 1) / max(rise, 1), np.ones(settle)])
     return np.asarray(part[:, None] * first)
+
+
+def walking(scene: Scene, numerics: Numerics, gait: Gait) -> Array:
+    """Commands of the valves in the scene's cycles, by a gait (T, S)."""
+    time = np.arange(1.0, walking_steps(scene, numerics) + 1.0) * numerics.timestep
+    return scene.robot.peak_pressure * gait.fractions(time)
 
 
 def walking_steps(scene: Scene, numerics: Numerics) -> int:

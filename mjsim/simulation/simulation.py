@@ -18,7 +18,7 @@ from mjsim.friction.traction import traction
 from mjsim.mjcf.builder import compile_model
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.judge import judge
-from mjsim.simulation.schedule import before_start, check_steps, walking_steps
+from mjsim.simulation.schedule import before_start, check_steps, walking, walking_steps
 from mjsim.simulation.status import AT_REST, FALLEN, Status
 from mjsim.simulation.trajectory import Trajectory
 
@@ -153,18 +153,17 @@ class Simulation:
         observation = self.reset()
         if progress:
             progress(len(self._ends))
-        count = walking_steps(self.scene, self.numerics)
         if isinstance(policy, Gait):
-            time = np.arange(1.0, count + 1.0) * self.numerics.timestep
-            valves = self.scene.robot.peak_pressure * policy.fractions(time)
-            for begin in range(0, count, _BLOCK):
+            valves = walking(self.scene, self.numerics, policy)
+            for begin in range(0, len(valves), _BLOCK):
                 if self._stopped:
                     break
-                self._play(valves[begin : begin + _BLOCK])
+                block = valves[begin : begin + _BLOCK]
+                self._play(block)
                 if progress:
-                    progress(len(valves[begin : begin + _BLOCK]))
+                    progress(len(block))
         else:
-            for _ in range(count):
+            for _ in range(walking_steps(self.scene, self.numerics)):
                 if self._stopped:
                     break
                 observation = self.step(policy(observation))

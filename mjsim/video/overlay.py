@@ -10,7 +10,7 @@ from mjsim.bodies.parts import DARK, PALE
 from mjsim.simulation.trajectory import Trajectory
 from mjsim.video.render import Frame, anchored
 
-_INK, _FAINT, _BLUE, _GREEN = (25, 28, 32), (160, 165, 170), (26, 77, 191), (10, 130, 50)
+INK, _FAINT, BLUE, _GREEN = (25, 28, 32), (160, 165, 170), (26, 77, 191), (10, 130, 50)
 _PALE = tuple(round(255 * c) for c in PALE)
 _DARK = tuple(round(255 * c) for c in DARK)
 _POINTS = 200  # of the track; chosen
@@ -44,10 +44,10 @@ class Overlay:
         picture = Image.fromarray(frame)
         pen = ImageDraw.Draw(picture)
         edge, top = 28 * u, 18 * u
-        pen.text((edge, top), walk.scene.ground.name, font=self._big, fill=_INK)
+        pen.text((edge, top), walk.scene.ground.name, font=self._big, fill=INK)
         time = max(0.0, float(walk.time[step]))
-        pen.text((edge, top + 36 * u), f"gait {walk.scene.gait.name}", font=self._small, fill=_INK)
-        pen.text((edge, top + 60 * u), f"t = {time:4.1f} s", font=self._small, fill=_INK)
+        pen.text((edge, top + 36 * u), f"gait {walk.scene.gait.name}", font=self._small, fill=INK)
+        pen.text((edge, top + 60 * u), f"t = {time:4.1f} s", font=self._small, fill=INK)
         self._anchor(pen, edge + 110 * u, top + 60 * u, step)
         self._pressures(pen, edge + 320 * u, top, step)
         self._displacement(pen, picture.width - edge, top, step)
@@ -65,10 +65,10 @@ class Overlay:
         part = moved / self._walk.scene.robot.length
         moved = 0.0 if abs(moved) < 5e-5 else moved  # no minus before a zero
         part = 0.0 if abs(part) < 5e-4 else part
-        pen.text((right, top), f"{1e3 * moved:+.1f} mm", font=self._big, fill=_INK, anchor="ra")
+        pen.text((right, top), f"{1e3 * moved:+.1f} mm", font=self._big, fill=INK, anchor="ra")
         u = self._scale
-        pen.text((right, top + 36 * u), f"{part:+.3f} L", font=self._small, fill=_INK, anchor="ra")
-        pen.text((right, top + 60 * u), "left end", font=self._small, fill=_BLUE, anchor="ra")
+        pen.text((right, top + 36 * u), f"{part:+.3f} L", font=self._small, fill=INK, anchor="ra")
+        pen.text((right, top + 60 * u), "left end", font=self._small, fill=BLUE, anchor="ra")
 
     def _track(self, pen: ImageDraw.ImageDraw, left: float, top: float, step: int) -> None:
         """Displacement of the left end over time, up to now."""
@@ -84,9 +84,9 @@ class Overlay:
         pen.line([place(0.0, 0.0), place(last, 0.0)], fill=_FAINT, width=max(1, round(u)))
         chosen = np.linspace(walk.start, max(step, walk.start), _POINTS).astype(int)
         line = [place(float(walk.time[i]), float(self._gone[i])) for i in chosen]
-        pen.line(line, fill=_BLUE, width=max(1, round(2 * u)))
+        pen.line(line, fill=BLUE, width=max(1, round(2 * u)))
         x, y = line[-1]
-        pen.ellipse((x - 3 * u, y - 3 * u, x + 3 * u, y + 3 * u), fill=_BLUE)
+        pen.ellipse((x - 3 * u, y - 3 * u, x + 3 * u, y + 3 * u), fill=BLUE)
 
     def _pressures(self, pen: ImageDraw.ImageDraw, left: float, top: float, step: int) -> None:
         """A bar a segment, filled as far as it is inflated, in the colour it has there."""
@@ -102,7 +102,7 @@ class Overlay:
             if fraction > 0:
                 pen.rectangle((x, top + 6 * u, x + fraction * width, top + 6 * u + height),
                               fill=shade)  # fmt: skip
-            pen.rectangle((x, top + 6 * u, x + width, top + 6 * u + height), outline=_INK)
+            pen.rectangle((x, top + 6 * u, x + width, top + 6 * u + height), outline=INK)
             if count <= 4:
                 pen.text((x + width / 2, top + 38 * u), f"{1e-3 * pressure:.0f} kPa",
-                         font=self._small, fill=_INK, anchor="ma")  # fmt: skip
+                         font=self._small, fill=INK, anchor="ma")  # fmt: skip

@@ -5,13 +5,14 @@ from collections.abc import Sequence
 import numpy as np
 from PIL import Image, ImageDraw
 
+from analytic.locomotion import direction
 from mjsim.simulation.trajectory import Trajectory
-from mjsim.video.overlay import font
+from mjsim.video.overlay import BLUE, INK, font
 from mjsim.video.recording import pictures
 
 _ROWS = (400, 600)  # lines of a frame that hold a strip lying flat, and the ruler
-_INK, _BLUE = (25, 28, 32), (26, 77, 191)
 _HEAD = 46  # lines above each walk for its words
+_WORDS = {"none": "stands still", "forward": "walks forward", "backward": "walks back"}
 _FAINT = 0.45  # how far the start fades into the end
 
 
@@ -27,9 +28,9 @@ def poster(walks: Sequence[Trajectory]) -> Image.Image:
         pen = ImageDraw.Draw(picture)
         gone = float(walk.position[-1, 0, 0] - walk.position[walk.start, 0, 0])
         part = gone / walk.scene.robot.length
-        way = "stands still" if abs(part) < 0.005 else "walks forward" if part > 0 else "walks back"
-        pen.text((24, 8), f"{walk.scene.ground.name}: {way}", font=font(26), fill=_INK)
+        way = _WORDS[direction(part, 1.0)]
+        pen.text((24, 8), f"{walk.scene.ground.name}: {way}", font=font(26), fill=INK)
         pen.text((picture.width - 24, 8), f"{1e3 * gone:+.1f} mm = {part:+.3f} L a cycle",
-                 font=font(26), fill=_BLUE, anchor="ra")  # fmt: skip
+                 font=font(26), fill=BLUE, anchor="ra")  # fmt: skip
         bands.append(np.asarray(picture))
     return Image.fromarray(np.concatenate(bands))

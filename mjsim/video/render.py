@@ -114,8 +114,8 @@ class Camera:
 
     def _followed(self, step: int) -> float:
         """How far the camera has gone with a robot that went far [m]."""
-        middle = self._walk.position[:, [0, -1], 0].mean(axis=1)
-        gone = float(middle[step] - middle[0])
+        first, now = self._walk.position[[0, step]][:, [0, -1], 0].mean(axis=1)
+        gone = float(now - first)
         margin = _MARGIN * self._walk.scene.robot.length
         return float(np.sign(gone) * max(abs(gone) - margin, 0.0))
 
