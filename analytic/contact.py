@@ -51,9 +51,14 @@ def side_contact(
 
 def lifted_nodes(robot: Robot, nodes: Array, height: Array) -> NDArray[np.bool_]:
     """Nodes that are in the air: higher than a flat stretch ripples between those that push it."""
+    return np.asarray(height > ripple(robot, nodes))
+
+
+def ripple(robot: Robot, nodes: Array) -> float:
+    """How high a flat stretch ripples between nodes that push it, a bound [m]."""
     spacing = float(np.diff(nodes).max())
-    ripple = robot.weight_per_length * robot.length * spacing**3 / pneunet.base_rigidity(robot)
-    return np.asarray(height > _RIPPLE * ripple)
+    unit = robot.weight_per_length * robot.length * spacing**3 / pneunet.base_rigidity(robot)
+    return _RIPPLE * unit
 
 
 def _if_flat(pressure: Array, robot: Robot, contact: Array) -> Array:

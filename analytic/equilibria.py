@@ -41,6 +41,7 @@ class Status(IntFlag):
     NOT_CONVERGED = 32  # the iteration gave up
     BRANCH_END = 64  # the stable equilibrium that the sequence followed ended before this state
     ROLLED_UP = 128  # an end curls up off the ground: neither tip nor side, so no law of friction
+    JUMPED = 256  # friction let go at once; this is where slow motion with damping comes to rest
 
 
 @dataclass(frozen=True)
@@ -91,3 +92,8 @@ class ContactShapes(Shapes):
     pressures: Array
     residual: Array
     iterations: NDArray[np.int_]
+    left: Array | None = None
+    """displacement of the left end since the first state where friction bends the strip and so
+    decides place and shape together, shape (B,) [m]"""
+    switches: NDArray[np.bool_] | None = None
+    """increments in which contacts come or go, or begin to stick or to slide, shape (B - 1,)"""

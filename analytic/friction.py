@@ -95,8 +95,7 @@ class Friction:
 
     Raises:
         ValueError: there is no such law, tension is not in [0, 1], the slope is a right angle or
-            more, there is a slope and no tension to stand on it by, or friction at all contacts is
-            asked to bend the strip.
+            more, or there is a slope and no tension to stand on it by.
     """
 
     law: str = "constant"
@@ -110,8 +109,6 @@ class Friction:
             raise ValueError(f"tension must lie in [0, 1], got {self.tension!r}")
         slope(self.slope)
         one_of("contacts", self.contacts, ("ends", "all"))
-        if self.contacts == "all" and self.tension:
-            raise ValueError("friction at all contacts bends nothing here: tension must be 0")
         if self.slope and not self.tension:
             raise ValueError("on a slope friction must bend the strip: tension must be above 0")
 

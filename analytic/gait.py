@@ -80,6 +80,16 @@ class Gait:
         backward = times[::-1] if isinstance(times, tuple) else times
         return Gait(f"{self.name}-reversed", self.stages[::-1], backward)
 
+    def dips(self) -> bool:
+        """Whether a segment is ever inflated less than one on either side of it.
+
+        Then the strip may come down to the ground between its ends.
+        """
+        fractions = self.pressures(4)
+        before = np.maximum.accumulate(fractions, axis=1)[:, :-2]
+        after = np.maximum.accumulate(fractions[:, ::-1], axis=1)[:, ::-1][:, 2:]
+        return bool((fractions[:, 1:-1] < np.minimum(before, after)).any())
+
     def pressures(self, states_per_ramp: int, cycles: int = 1) -> Array:
         """Fractions of the peak pressure along the gait.
 

@@ -57,7 +57,9 @@ def displacements(
             f"need at least two states and one cycle, got {len(shapes)} states, {cycles} cycles"
         )
     change = np.diff(shapes.separation)
-    if friction.contacts == "all":
+    if friction.tension and isinstance(shapes, ContactShapes) and shapes.left is not None:
+        left = shapes.left
+    elif friction.contacts == "all":
         left = motion(shapes, ground, friction).left
     elif isinstance(ground, Surface):
         left = np.concatenate([[0.0], np.cumsum(-mean_slip(shapes, ground, friction) * change)])

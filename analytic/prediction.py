@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from analytic.checks import one_of
-from analytic.equilibria import Shapes, Status
+from analytic.equilibria import ContactShapes, Shapes, Status
 from analytic.friction import Friction
 from analytic.gait import Gait
 from analytic.locomotion import WEAK, Locomotion, along, displacements, mean_slip, state_slip
@@ -159,6 +159,8 @@ def predict(
 
 def _anchor_changes(shapes: Shapes, ground: Ground, friction: Friction) -> NDArray[np.bool_]:
     """Increments in which the anchor changes, (B - 1,)."""
+    if isinstance(shapes, ContactShapes) and shapes.switches is not None:
+        return shapes.switches
     if friction.contacts == "all":
         return motion(shapes, ground, friction).changes
     if not isinstance(ground, Surface):

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from analytic.dissipation import least_dissipation, minimisers
 from analytic.equilibria import ContactShapes, Shapes
 from analytic.friction import LAWS, Friction
-from analytic.patches import Patch, patches
+from analytic.patches import Patch, patches_of
 from analytic.surface import Ground
 
 Array = NDArray[np.float64]
@@ -44,7 +44,7 @@ def motion(shapes: Shapes, ground: Ground, friction: Friction) -> Motion:
     left = np.zeros(count)
     changes, most = np.zeros(count - 1, dtype=bool), 0
     contacts = [
-        patches(shapes, height, i) if np.isfinite(shapes.separation[i]) else []
+        patches_of(shapes, height, i) if np.isfinite(shapes.separation[i]) else []
         for i in range(count)
     ]
     for i in range(count - 1):

@@ -1,22 +1,19 @@
 """A walk beside its prediction, as one flat record and as text."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
-from analytic import pneunet
-from analytic.friction import Friction, friction_number
-from analytic.ground import Patches
 from analytic.locomotion import direction, undecided
 from analytic.prediction import REFERENCE, Elastica, Prediction, predict
 from analytic.surface import Surface
-from analytic.traction import motion
 from mjsim.scene import Scene
-from mjsim.scene.scene import STRONG_FRICTION
 from mjsim.simulation.measures import measure, slid_over_length
 from mjsim.simulation.trajectory import Trajectory
 
-_FEW = 3  # segments of a robot that stands on its ends alone, as the paper's does
 _OPEN = 1e-4  # of the length: less is a rounding
+_LINKS, _LINKS_A_SEGMENT = 60, 24  # of the reference: contacts between the ends need finer links
+_PARTS, _PARTS_BETWEEN = 32, 8  # of increments in which contacts change, see analytic.prediction
 
 
 def record(walk: Trajectory) -> dict[str, Any]:
@@ -47,9 +44,9 @@ def record(walk: Trajectory) -> dict[str, Any]:
         "predicted_direction": direction(predicted, 1.0) if known else None,
         "prediction_undecided_over_L": _undecided(scene, prediction) if known else None,
         "prediction_flags": [flag.name for flag in prediction.flags],
-        "prediction_notes": notes(scene) + _between(scene, prediction),
+        "prediction_notes": _elsewhere(scene, known),
         "error_over_L": None if shift is None or not known else shift - predicted,
-        "unexplained_over_L": numbers and numbers.unexplained,
+        "unexplained_over_L": _number(numbers and numbers.unexplained),
         "heading_deg": numbers and math.degrees(numbers.heading),
         "sideways_over_L": numbers and numbers.sideways,
         "amplitude_over_L": numbers and numbers.amplitude,
@@ -74,39 +71,44 @@ def reference(walk: Trajectory) -> Prediction:
         scene.robot,
         scene.gait,
         scene.ground,
-        Elastica(chamber=scene.chamber),
+        Elastica(_links(scene), scene.chamber),
+        refinement=_PARTS_BETWEEN if scene.between else _PARTS,
         friction=scene.reference_friction,
         path=path,
         cycles=1 if path is None and isinstance(scene.ground, Surface) else scene.cycles,
     )
 
 
-def notes(scene: Scene) -> list[str]:
-    """What the prediction leaves out that matters for the scene."""
-    if scene.reference_friction.tension:
-        return []
-    rigidity = pneunet.base_rigidity(scene.robot)
-    surfaces = scene.ground.surfaces if isinstance(scene.ground, Patches) else ()
-    number = max((friction_number(s, scene.robot, rigidity) for s in surfaces), default=0.0)
-    if number <= STRONG_FRICTION:
-        return []
-    return [f"strong friction (Phi {number:.3g}) bends the strip, the prediction leaves that out"]
+def _number(value: float | None) -> float | None:
+    """None for a number that does not exist."""
+    return value if value is not None and math.isfinite(value) else None
 
 
-def _between(scene: Scene, prediction: Prediction) -> list[str]:
+def _links(scene: Scene) -> int:
+    return max(_LINKS, _LINKS_A_SEGMENT * len(scene.robot.segments) * scene.gait.dips())
+
+
+def _elsewhere(scene: Scene, known: bool) -> list[str]:
     """What friction would do where a long robot touches the ground between its ends."""
-    if len(scene.robot.segments) <= _FEW or scene.friction != "constant":
+    if scene.contacts != "ends" or not scene.gait.dips() or not known:
         return []
-    along = motion(prediction.shapes, scene.ground, Friction(scene.friction, contacts="all"))
-    if along.most <= 2:
+    found = predict(
+        scene.robot,
+        scene.gait,
+        scene.ground,
+        Elastica(_links(scene), scene.chamber),
+        refinement=_PARTS_BETWEEN,
+        friction=replace(scene.reference_friction, contacts="all"),
+    ).locomotion.per_cycle
+    if not math.isfinite(found):
         return []
-    shift = float(along.left[-1]) / (scene.robot.length * prediction.cycles)
-    return [f"friction acts at the two ends alone; wherever it touches, {shift:+.4f} L"]
+    return [f"friction acts at the two ends alone; wherever it touches, "
+            f"{found / scene.robot.length:+.4f} L"]  # fmt: skip
 
 
 def _undecided(scene: Scene, prediction: Prediction) -> float:
     """Displacement per cycle over L that hangs on ties under Coulomb friction."""
-    if scene.friction != "coulomb" or not isinstance(scene.ground, Surface):
+    if scene.friction != "coulomb" or scene.between or not isinstance(scene.ground, Surface):
         return 0.0
     over = scene.robot.length * prediction.cycles
     return undecided(prediction.shapes, scene.ground) / over

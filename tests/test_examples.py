@@ -78,7 +78,7 @@ def test_strong_friction_turns_the_robot_round_as_theory_says():
     rows = example("strong_friction")(count=3)
     gaps = [abs(theory - simulated) for _, theory, simulated in rows]
     assert all(gap < 0.001 for gap in gaps[:-1])
-    assert np.isnan(gaps[-1])  # beyond the end of the stable branch, which theory says
+    assert gaps[-1] < 0.003  # friction lets go at once there, and momentum counts
     assert rows[-1][2] < -0.01 < rows[0][2]
 
 

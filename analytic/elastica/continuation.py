@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from analytic.elastica.newton import ChainState
+from analytic.elastica.state import ChainState
 
 
 def follow(

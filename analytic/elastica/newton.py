@@ -15,34 +15,24 @@ Dimensionless: lengths over L, moments over D0 / L, forces over D0 / L^2.
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cholesky_banded
 from scipy.linalg.lapack import dgbsv
 
 from analytic import pneunet
 from analytic.chain import check_chamber, joint_springs, link_lengths, sealed_springs
+from analytic.elastica.stability import stable
+from analytic.elastica.state import ChainState, Grip, Mask
 from analytic.robot import Robot
 
 Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 _CONVERGED = 1e-10  # change of an angle in the last Newton step [rad]
 _SETTLED = 0.05  # change below which the contact set may be revised [rad]
 _ITERATIONS = 40
+_LOOKS = 50  # most times that contacts are read anew for one equilibrium
 _ROUNDING = 1e-11  # of heights over L
-_PENALTY = 1e7  # stands for a rigid constraint in the test of stability
-
-
-class ChainState(NamedTuple):
-    """A shape: heights (N+2,), directions and internal forces (N+1,), nodes in contact."""
-
-    y: Array
-    theta: Array
-    shear: Array
-    active: Mask
 
 
 class Chain:
@@ -78,19 +68,21 @@ class Chain:
         self.weight = np.zeros(links + 2)
         self.weight[:-1] += half
         self.weight[1:] += half
-        # tension is that of the left end; along the strip the weight's part downhill adds to it
-        self._hanging = math.sin(slope) * np.cumsum(self.weight)[:-1]
+        # the weight's part downhill adds to the tension of the tractions
+        self.hanging = math.sin(slope) * np.cumsum(self.weight)[:-1]
         self.weight *= math.cos(slope)
         self.stiffness, self.rest = np.zeros(links), np.zeros(links)
-        self.pressure, self.tension = np.zeros(len(robot.segments)), 0.0
+        self.pressure = np.zeros(len(robot.segments))
         self.iterations = 0
+        self._damping: tuple[float, Array] | None = None
 
     def flat(self) -> ChainState:
         """The strip without pressure on the ground, or sticking out from the wall."""
         n = self.links
         held = np.ones(n + 2, bool)
         held[1:] = not self.clamped
-        return ChainState(np.zeros(n + 2), np.zeros(n + 1), np.zeros(n + 1), held)
+        zero = np.zeros(n + 1)
+        return ChainState(np.zeros(n + 2), zero, zero, held, zero, 0.0)
 
     def load_at(self, pressure: Array) -> None:
         """Set the hinges from segment pressures, shape (S,) [Pa]."""
@@ -98,18 +90,31 @@ class Chain:
         self.stiffness, self.rest = stiffness[0] * (self.robot.length / self._d0), rest[0]
         self.pressure = pressure
 
-    def _hinges(self, theta: Array) -> tuple[Array, Array]:
+    def hinges(self, theta: Array) -> tuple[Array, Array]:
         """Stiffness and rest angle of the hinges' springs, or of the tangents to a chamber law."""
-        if self.chamber != "sealed":
-            return self.stiffness, self.rest
-        tangent, rest = sealed_springs(self.robot, self.links, self.pressure, np.diff(theta))
-        return tangent * (self.robot.length / self._d0), rest
+        stiffness, rest = self.stiffness, self.rest
+        if self.chamber == "sealed":
+            tangent, rest = sealed_springs(self.robot, self.links, self.pressure, np.diff(theta))
+            stiffness = tangent * (self.robot.length / self._d0)
+        if self._damping is None:
+            return stiffness, rest
+        drag, turn = self._damping
+        return (1 + drag) * stiffness, (rest + drag * turn) / (1 + drag)
 
-    def equilibrium(self, guess: ChainState) -> ChainState | None:
-        """The stable equilibrium that Newton's method finds from a guess, or None."""
-        state, revisions = guess, 0
-        for _ in range(_ITERATIONS):
-            new = self._newton(state)
+    def damp(self, drag: float, state: ChainState | None = None) -> None:
+        """Let the hinges resist turning from a state, at drag times their stiffness; 0 ends it."""
+        self._damping = (drag, np.diff(state.theta)) if drag and state else None
+
+    def equilibrium(self, guess: ChainState, grip: Grip | None = None) -> ChainState | None:
+        """The stable equilibrium that Newton's method finds from a guess, or None.
+
+        Args:
+            guess: near it; without a grip its tension stays as it is.
+            grip: the ground's traction, which then decides tension and place.
+        """
+        state, revisions, looks = guess, 0, 0
+        for _ in range(_ITERATIONS + _LOOKS * (grip is not None)):
+            new = self._newton(state, grip)
             if new is None:
                 return None
             change = float(np.abs(new.theta - state.theta).max())
@@ -122,49 +127,60 @@ class Chain:
             if active is not None:
                 revisions += 1
                 state = state._replace(active=active)
+                continue
+            if grip is not None and looks < _LOOKS and not grip.look(state):
+                looks += 1
             elif change < _CONVERGED:
-                return state if self._stable(state) else None
+                return state if stable(self, state, grip) else None
         return None
 
-    def _newton(self, state: ChainState) -> ChainState | None:
+    def _newton(self, state: ChainState, grip: Grip | None) -> ChainState | None:
         """One step for the nodes held, all unknowns at once."""
         self.iterations += 1
         n, l = self.links + 1, self.length  # noqa: E741
         size = 3 * n + 1
         cosine, sine = l * np.cos(state.theta), l * np.sin(state.theta)
-        stiffness, rest = self._hinges(state.theta)
+        stiffness, rest = self.hinges(state.theta)
         bend = np.zeros(n + 1)
         bend[1:-1] = stiffness
         turn = np.zeros(n + 1)
         turn[1:-1] = stiffness * rest
-        tension = self.tension + self._hanging
+        columns = None if grip is None else grip.columns()
+        tension = state.tension + self.hanging
         geometric = state.shear * sine + tension * cosine
         # general band storage: entry (i, j) at [kl + ku + i - j, j], kl = ku = 3
         band = np.zeros((10, size))
-        right = np.zeros(size)
+        right = np.zeros((size, 1 if columns is None else 1 + columns.shape[1]), order="F")
         free = ~state.active
         # nodes, row 3 k: y_k = 0, or V_k - V_{k-1} = W_k
         band[6, 0::3] = state.active
         band[4, 2::3] = free[:-1]  # V_k in the row of node k
         band[7, 2::3] = -1.0 * free[1:]  # V_k in the row of node k + 1
-        right[0::3] = self.weight * free
+        right[0::3, 0] = self.weight * free
         # moments, row 3 i + 1
         band[6, 1::3] = bend[:-1] + bend[1:] + geometric
         band[9, 1:-3:3] = -bend[1:-1]
         band[3, 4::3] = -bend[1:-1]
         band[5, 2::3] = -cosine
-        right[1::3] = turn[:-1] - turn[1:] + geometric * state.theta - tension * sine
+        pulling = tension if columns is None else self.hanging
+        right[1::3, 0] = turn[:-1] - turn[1:] + geometric * state.theta - pulling * sine
         # kinematics, row 3 i + 2
         band[5, 3::3] = 1.0
         band[8, 0:-1:3] = -1.0
         band[7, 1::3] = -cosine
-        right[2::3] = sine - cosine * state.theta
+        right[2::3, 0] = sine - cosine * state.theta
+        if columns is not None:
+            right[1::3, 1:] = -columns * sine[:, None]
         if self.clamped:
             band[[6, 3, 5], [1, 4, 2]], right[1] = (1.0, 0.0, 0.0), 0.0
         _, _, x, info = dgbsv(3, 3, band, right, overwrite_ab=True, overwrite_b=True)
         if info != 0:
             return None
-        return state._replace(y=x[0::3], theta=x[1::3], shear=x[2::3])
+        new = state._replace(y=x[0::3, 0], theta=x[1::3, 0], shear=x[2::3, 0])
+        if grip is None or columns is None:
+            return new
+        more = state._replace(y=x[0::3, 1:], theta=x[1::3, 1:], shear=x[2::3, 1:], tension=columns)
+        return grip.settle(state, new, more)
 
     def separation(self, state: ChainState) -> float:
         """Horizontal distance of the two ends over L."""
@@ -194,39 +210,16 @@ class Chain:
             active[int(np.argmin(force))] = False
         return active
 
-    def _stable(self, state: ChainState) -> bool:
-        """Whether the energy has a minimum here, on the nodes held: a penalised Hessian's test."""
-        n = self.links + 1
-        cosine = self.length * np.cos(state.theta)
-        bend = np.zeros(n + 1)
-        bend[1:-1] = self._hinges(state.theta)[0]
-        band = np.zeros((3, 2 * n + 1))  # upper, unknowns y_0, theta_0, y_1, ...
-        band[2, 0::2] = _PENALTY * state.active
-        band[2, 0:-1:2] += _PENALTY
-        band[2, 2::2] += _PENALTY
-        band[2, 1::2] = bend[:-1] + bend[1:] + state.shear * self.length * np.sin(state.theta)
-        band[2, 1::2] += (self.tension + self._hanging) * cosine + _PENALTY * cosine**2
-        band[2, 1] += _PENALTY * self.clamped
-        band[1, 1::2] = _PENALTY * cosine  # y_i, theta_i
-        band[1, 2::2] = -_PENALTY * cosine  # theta_i, y_{i+1}
-        band[0, 2::2] = -_PENALTY  # y_i, y_{i+1}
-        band[0, 3::2] = -bend[1:-1]  # theta_i, theta_{i+1}
-        try:
-            cholesky_banded(band, overwrite_ab=True, check_finite=False)
-        except np.linalg.LinAlgError:
-            return False
-        return True
-
     def residual(self, state: ChainState) -> float:
         """Largest violation of contact and balance, heights over L, forces over the weight."""
         total = self.weight.sum()
         force = self.ground_force(state) / total
         moment = np.zeros(self.links + 2)
-        stiffness, rest = self._hinges(state.theta)
+        stiffness, rest = self.hinges(state.theta)
         moment[1:-1] = stiffness * (np.diff(state.theta) - rest)
         cosine, sine = self.length * np.cos(state.theta), self.length * np.sin(state.theta)
         torque = (
-            moment[:-1] - moment[1:] - state.shear * cosine + (self.tension + self._hanging) * sine
+            moment[:-1] - moment[1:] - state.shear * cosine + (state.tension + self.hanging) * sine
         )
         kinematic = np.diff(state.y) - sine
         parts = (-state.y, -force, np.abs(force * state.y), np.abs(torque) / total,

@@ -5,25 +5,33 @@ every one is tested for stability. So the branch of equilibria that begins with 
 is followed as far as it is stable, and no other is ever returned.
 """
 
+from collections.abc import Sequence
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from analytic.chain import link_lengths, node_positions
 from analytic.contact import contact_mode, side_contact
 from analytic.elastica.continuation import follow
-from analytic.elastica.newton import Chain, ChainState
+from analytic.elastica.newton import Chain
+from analytic.elastica.state import ChainState
 from analytic.elastica.stick_slip import StickSlip
 from analytic.equilibria import ContactShapes, Status
 from analytic.friction import Friction
 from analytic.pressures import check_pressures
 from analytic.robot import Robot
-from analytic.surface import Ground, Surface
+from analytic.surface import Ground
 
 Array = NDArray[np.float64]
 
 _LEAST_STEP = 1e-4  # of the way between two states, below which the branch is taken to end
+_LEAST_GRIPPED = 1e-2  # the same under friction, where damped motion goes on
 _CURLED = 0.02  # slope that an end in flat contact does not have, even where it lifts off [rad]
 _LEAP = 0.3  # change of a direction in one step that may be a leap to another branch [rad]
+
+_FIRST_DRAG, _LEAST_DRAG, _MOST_DRAG = 10.0, 1e-3, 1e6  # over the hinges' stiffness; chosen
+_FLOW_STEPS = 200
 
 LINKS = 60  # of the chain, unless told otherwise; chosen
 
@@ -49,11 +57,13 @@ def solve_elastica(
     Returns:
         Shapes of B states. From where the stable branch ends (the strip rolls up, topples, snaps,
         or slides down a slope as a whole) the states are NaN with BRANCH_END, and where an end
-        curls up off the ground, with ROLLED_UP; the last one before tells the pressure.
+        curls up off the ground, with ROLLED_UP; the last one before tells the pressure. Where
+        friction held the strip until it let go at once, the first state after, which is where
+        damped hinges lead, has JUMPED.
 
     Raises:
-        ValueError: the pressures are bad, there is no such chamber law, links is below 6, sealed
-            chambers do not fit them, or friction bends the strip on ground that changes along x.
+        ValueError: the pressures are bad, there is no such chamber law, links is below 6, or
+            sealed chambers do not fit them.
     """
     p = check_pressures(robot, pressures_pa)
     if links < 6:
@@ -62,10 +72,6 @@ def solve_elastica(
     chain = Chain(robot, links, chamber, slope=friction.slope)
     stick_slip = None
     if ground and friction.tension:
-        if not isinstance(ground, Surface):
-            raise ValueError(
-                f"friction bends the strip on uniform ground only, got {ground.name!r}"
-            )
         stick_slip = StickSlip(chain, ground, friction)
     count = len(p)
     y, theta = np.full((count, links + 2), np.nan), np.full((count, links + 1), np.nan)
@@ -73,17 +79,22 @@ def solve_elastica(
     residual = np.full(count, np.nan)
     status = np.full(count, int(Status.BRANCH_END))
     iterations = np.zeros(count, dtype=int)
+    place, signs = np.full(count, np.nan), []
 
     state, last, here = chain.flat(), None, np.zeros(len(robot.segments))
     for i in range(count):
         begun = chain.iterations
         chain.load_at(p[i])
         guess = state if last is None else _extrapolate(last, state, p, i)
-        candidate = _unless_it_leaps(state, chain.equilibrium(guess))
+        if stick_slip:
+            stick_slip.begin(state)
+        candidate = _unless_it_leaps(state, chain.equilibrium(guess, stick_slip))
         if candidate is None:
-            candidate = _in_smaller_steps(chain, state, here, p[i])
-        if candidate is not None and stick_slip is not None:
-            candidate = stick_slip.apply(state, candidate)
+            candidate = _in_smaller_steps(chain, state, here, p[i], stick_slip)
+        jumped = False
+        if candidate is None and stick_slip:
+            chain.load_at(p[i])
+            candidate, jumped = _damped(chain, state, stick_slip), True
         iterations[i] = chain.iterations - begun
         if candidate is None:
             break
@@ -91,9 +102,12 @@ def solve_elastica(
         if _rolled_up(candidate):
             status[i] = Status.ROLLED_UP
             continue
-        y[i], theta[i], status[i] = candidate.y, candidate.theta, Status.OK
+        y[i], theta[i] = candidate.y, candidate.theta
+        status[i] = Status.JUMPED if jumped else Status.OK
         force[i] = chain.ground_force(candidate)
         residual[i] = chain.residual(candidate)
+        place[i] = candidate.left * robot.length
+        signs.append(stick_slip.signature() if stick_slip else ())
 
     nodes = node_positions(robot, links)
     newtons = force * chain.force_unit
@@ -113,7 +127,15 @@ def solve_elastica(
         pressures=p,
         residual=residual,
         iterations=iterations,
+        left=place - place[0] if stick_slip else None,
+        switches=_switches(signs, count) if stick_slip else None,
     )
+
+
+def _switches(signs: Sequence[tuple[object, ...]], count: int) -> NDArray[np.bool_]:
+    """Increments between unlike signs; none from where states are missing."""
+    unlike = [one != two for one, two in pairwise(signs)]
+    return np.array(unlike + [False] * (count - 1 - len(unlike)), dtype=bool)
 
 
 def _extrapolate(before: ChainState, now: ChainState, p: Array, i: int) -> ChainState:
@@ -147,15 +169,40 @@ def _unless_it_leaps(before: ChainState, candidate: ChainState | None) -> ChainS
 
 
 def _in_smaller_steps(
-    chain: Chain, start: ChainState, from_p: Array, to_p: Array
+    chain: Chain, start: ChainState, from_p: Array, to_p: Array, grip: StickSlip | None
 ) -> ChainState | None:
     """Go from one state to the next by continuation; None if the branch ends on the way."""
 
     def solve(part: float, near: ChainState) -> ChainState | None:
         chain.load_at(from_p + part * (to_p - from_p))
-        return _unless_it_leaps(near, chain.equilibrium(near))
+        if grip:
+            grip.begin(near)
+        return _unless_it_leaps(near, chain.equilibrium(near, grip))
 
-    return follow(start, solve, first=0.25, shrink=0.5, least=_LEAST_STEP)
+    least = _LEAST_STEP if grip is None else _LEAST_GRIPPED
+    return follow(start, solve, first=0.25, shrink=0.5, least=least)
+
+
+def _damped(chain: Chain, state: ChainState, grip: StickSlip) -> ChainState | None:
+    """Where hinges that resist turning, ever less, lead to at one pressure; None if nowhere."""
+    drag, steps = _FIRST_DRAG, 0
+    while drag < _MOST_DRAG and steps < _FLOW_STEPS:
+        steps += 1
+        chain.damp(drag, state)
+        grip.begin(state)
+        candidate = _unless_it_leaps(state, chain.equilibrium(state, grip))
+        chain.damp(0.0)
+        if candidate is None:
+            drag *= 4.0
+            continue
+        moved = float(np.abs(candidate.theta - state.theta).max())
+        state = candidate
+        if moved < _LEAP / 3:
+            drag *= 0.5
+        if drag < _LEAST_DRAG:
+            grip.begin(state)
+            return _unless_it_leaps(state, chain.equilibrium(state, grip))
+    return None
 
 
 class _Curve:

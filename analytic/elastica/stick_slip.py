@@ -1,114 +1,195 @@
-"""Friction that bends the strip: stick-slip of the two ends at finite strength.
+"""Friction that bends the strip: stick-slip of its contacts at finite strength.
 
-Only the ends carry shear, and it balances, so the strip is under one tension H. An increment of
-pressure first leaves both ends where they are, which takes some H; the end whose bound is less
-slides as soon as |H| reaches that bound, and then H stays there. So the separation follows the free
-one with a play, and as the friction goes to 0 the play closes: section 2.2 of [Majidi13].
+In an increment of pressure each contact sticks or slides, and the tractions that the ground then
+exerts bend the strip and so move the contacts. Newton's method finds shape, tractions and place
+together, see analytic.elastica.tractions. As the friction goes to 0 the tractions bend nothing
+any more and only decide who slides: section 2.2 of [Majidi13].
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from analytic.chain import node_positions
 from analytic.contact import end_loads, side_contact
-from analytic.elastica.continuation import follow
-from analytic.elastica.newton import Chain, ChainState
+from analytic.elastica.newton import Chain
+from analytic.elastica.state import ChainState
+from analytic.elastica.tractions import tractions
 from analytic.friction import LAWS, Friction
-from analytic.surface import Surface
+from analytic.patches import Finder, Patch
+from analytic.surface import Ground
 
-_LEAST_STEP = 1e-3  # of the way between two tensions, below which the branch is taken to end
-_FIRST_PULL, _LEAST_PULL = 0.5, 1e-3  # steps of tension [D0 / L^2]; chosen
-_STUCK = 1e-9  # separation over L that counts as unchanged
+Array = NDArray[np.float64]
+
+_FREE_LOOKS = 6  # before the change of bounds is extrapolated
+_MOST_CHANGES = 8  # of which contacts there are, in one increment
+_ALIKE = 1e-7  # part of the greatest bound by which bounds may change and count as the same
 
 
 class StickSlip:
-    """The law on one chain.
+    """The law on one chain, as a Grip of analytic.elastica.newton.
 
     Args:
-        chain: it; its tension is set here.
-        surface: the ground.
-        friction: law, tension and slope.
+        chain: it.
+        ground: under it, the left end beginning at x = 0.
+        friction: law, tension, slope and contacts.
+
+    Attributes:
+        slips: of each contact in the last increment, see analytic.elastica.tractions.
+        contacts: in it.
+        bounds: of them [D0 / L^2].
     """
 
-    def __init__(self, chain: Chain, surface: Surface, friction: Friction) -> None:
-        self._chain, self._surface, self._friction = chain, surface, friction
+    def __init__(self, chain: Chain, ground: Ground, friction: Friction) -> None:
+        self._chain, self._ground, self._friction = chain, ground, friction
         self._nodes = node_positions(chain.robot, chain.links)
-        self._downhill = friction.downhill(chain.robot)
-        self._shares_ties = not (self._downhill or LAWS[friction.law].needs_load)
+        self._finder = Finder(chain.robot, self._nodes)
+        self._pull = friction.downhill(chain.robot) / chain.force_unit
+        self._unit = friction.tension / chain.force_unit
+        self.contacts: list[Patch] = []
+        self.slips = np.zeros(0, dtype=int)
+        self._before = self._nodes / chain.robot.length
+        self._take([], np.zeros(0))
+        self._search: _FixedPoint | None = None
+        self._changes = 0
 
-    def apply(self, before: ChainState, state: ChainState) -> ChainState | None:
-        """The equilibrium under friction, from the last one and one at the last tension.
+    def begin(self, state: ChainState) -> None:
+        """An increment begins at a state, the chain being loaded for its end."""
+        self._before, self._search, self._changes = self._places(state), None, 0
+        self.look(state)
 
-        None if the branch ends on the way, or the weight drags the strip down the slope.
-        """
-        left, right = self._bounds(state)
-        if left == right and self._shares_ties:
-            return self._pulled(state, 0.0)  # both slide alike, and neither pulls at the other
-        push = min(left, right + self._downhill)  # beyond which an end slides outwards
-        pull = min(right, left + self._downhill) - self._downhill  # and inwards
-        if push + pull < 0:
+    def columns(self) -> Array:
+        """See Grip.columns."""
+        return self._columns
+
+    def settle(
+        self, state: ChainState, free: ChainState, response: ChainState
+    ) -> ChainState | None:
+        """See Grip.settle."""
+        across = -self._chain.length * np.sin(state.theta)
+        along = self._chain.length * np.cos(state.theta)
+        x = _nodes_of(along + across * (free.theta - state.theta))
+        moved = _nodes_of(across[:, None] * response.theta)
+        found = tractions(
+            self._share @ (x - self._before),
+            self._share @ moved,
+            self.bounds,
+            np.zeros(len(self.bounds)),
+            self._pull,
+            self.slips,
+        )
+        if found is None:
             return None
-        unit = self._friction.tension / self._chain.force_unit
-        low, high = -push * unit, pull * unit
-        separation = self._chain.separation(before)
-        here = min(max(self._chain.tension, low), high)
-        pulled = self._pulled(state, here)
-        if pulled is None or low == high:
-            return pulled
-        gap = self._chain.separation(pulled) - separation
-        if abs(gap) <= _STUCK:
-            return pulled
-        return self._stretched(pulled, here, separation, high if gap < 0 else low)
+        self.slips = found.slips
+        return state._replace(
+            y=free.y + response.y @ found.traction,
+            theta=free.theta + response.theta @ found.traction,
+            shear=free.shear + response.shear @ found.traction,
+            tension=self._columns @ found.traction,
+            left=found.whole,
+        )
 
-    def _stretched(
-        self, state: ChainState, here: float, separation: float, goal: float
-    ) -> ChainState | None:
-        """Pull until the ends are as far apart as they were, or one slides at the goal."""
-        step = _FIRST_PULL
-        short = goal > here
-        while here != goal:
-            there = min(here + step, goal) if short else max(here - step, goal)
-            pulled = self._pulled(state, there)
-            if pulled is None:
-                step *= 0.25
-                if step < _LEAST_PULL:
-                    return None
-                continue
-            if (self._chain.separation(pulled) < separation) != short:
-                return self._between(state, here, there, separation)
-            state, here, step = pulled, there, 2 * step
-        return state
+    def look(self, state: ChainState) -> bool:
+        """See Grip.look."""
+        contacts = self._touching(state)
+        robot, law = self._chain.robot, LAWS[self._friction.law]
+        x = self._places(state) * robot.length
+        bounds = self._unit * np.array([
+            law.bound(self._ground.at(float(patch.share @ x[patch.nodes])), robot.width,
+                      patch.length, patch.load)
+            for patch in contacts
+        ])  # fmt: skip
+        near = _ALIKE * float(bounds.max(initial=0.0))
+        alike = self._touch_alike(contacts)
+        if not alike:
+            self._search, self._changes = None, self._changes + 1
+            if self._changes > _MOST_CHANGES:
+                return True  # contacts that come and go by a rounding: those of before will do
+        else:
+            self._search = self._search or _FixedPoint(len(bounds))
+            alike, bounds = self._search.next(self.bounds, bounds, near)
+        self._take(contacts, bounds)
+        return alike
 
-    def _between(
-        self, state: ChainState, one: float, two: float, separation: float
-    ) -> ChainState | None:
-        """The state of a tension between two at which the ends are so far apart."""
-        from scipy.optimize import brentq  # slow to import, and seldom needed
+    def _touch_alike(self, contacts: list[Patch]) -> bool:
+        """Whether the contacts are where they were."""
+        if [one.nodes for one in contacts] != [one.nodes for one in self.contacts]:
+            return False
+        pairs = zip(contacts, self.contacts, strict=True)
+        return all(np.allclose(one.share, two.share, rtol=0, atol=_ALIKE) for one, two in pairs)
 
-        def gap(tension: float) -> float:
-            pulled = self._pulled(state, tension)
-            return np.nan if pulled is None else self._chain.separation(pulled) - separation
+    def holds(self, state: ChainState) -> Array:
+        """See Grip.holds."""
+        beyond = np.cumsum(self._share[:, :0:-1], axis=1)[:, ::-1]  # share of the nodes after
+        rows = -self._chain.length * np.sin(state.theta) * beyond
+        rows = rows[(self.slips == 0) & (self.bounds > 0)]
+        return rows[1:] - rows[:1]
 
-        tension = brentq(gap, one, two, xtol=_STUCK * abs(two - one))
-        return self._pulled(state, float(tension))
+    def signature(self) -> tuple[tuple[bool, int], ...]:
+        """Which contacts there are, tips or sides, and which of them stick or slide."""
+        sides = (patch.length > 0 for patch in self.contacts)
+        return tuple(zip(sides, self.slips.tolist(), strict=True))
 
-    def _pulled(self, guess: ChainState, tension: float) -> ChainState | None:
-        """The equilibrium under a tension, by way of those between if it is far off."""
-        begin = self._chain.tension
+    def _take(self, contacts: list[Patch], bounds: Array) -> None:
+        if len(contacts) != len(self.contacts):
+            self.slips = np.zeros(len(contacts), dtype=int)
+        self.contacts, self.bounds = contacts, bounds
+        self._share = np.zeros((len(contacts), len(self._nodes)))
+        for row, patch in zip(self._share, contacts, strict=True):
+            row[patch.nodes] = patch.share
+        self._columns = -np.cumsum(self._share.T, axis=0)[:-1]
 
-        def solve(part: float, near: ChainState) -> ChainState | None:
-            self._chain.tension = begin + part * (tension - begin)
-            return self._chain.equilibrium(near)
+    def _places(self, state: ChainState) -> Array:
+        """x of the nodes over L."""
+        return state.left + _nodes_of(self._chain.length * np.cos(state.theta))
 
-        return follow(guess, solve, first=1.0, shrink=0.25, least=_LEAST_STEP)
-
-    def _bounds(self, state: ChainState) -> tuple[float, float]:
-        """Of the two ends [N]."""
-        chain, robot, law = self._chain, self._chain.robot, LAWS[self._friction.law]
+    def _touching(self, state: ChainState) -> list[Patch]:
+        chain, robot = self._chain, self._chain.robot
         force = chain.ground_force(state)[None, :] * chain.force_unit
         height = state.y[None, :] * robot.length
-        contact = side_contact(robot, self._nodes, force, height, chain.pressure[None, :])
-        load = end_loads(force, height)
-        left, right = (
-            law.bound(self._surface, robot.width, contact[end], load[end]) for end in (0, 1)
-        )
-        return float(left[0]), float(right[0])
+        left, right = side_contact(robot, self._nodes, force, height, chain.pressure[None, :])
+        lengths = float(left[0]), float(right[0])
+        if self._friction.contacts == "all":
+            return self._finder.find(force[0].tolist(), height[0].tolist(), lengths)
+        loads = end_loads(force, height)
+        ends = 0, len(self._nodes) - 1
+        return [Patch([ends[i]], [1.0], lengths[i], float(loads[i][0])) for i in (0, 1)]
+
+
+class _FixedPoint:
+    """Bounds that are those of the contacts that they lead to, by secants and bisection.
+
+    A contact may be a side as long as it is held like a tip, and a tip as long as it is held like a
+    side. Then it is both in turn: bisection ends where the bound would jump, and the contact is
+    held by something between.
+    """
+
+    def __init__(self, count: int) -> None:
+        self._low, self._high = np.full(count, -np.inf), np.full(count, np.inf)
+        self._last: tuple[Array, Array] | None = None
+        self._tries = 0
+
+    def next(self, bounds: Array, found: Array, near: float) -> tuple[bool, Array]:
+        """Whether bounds are those found with them, nearly, and which to try next."""
+        gap = found - bounds
+        self._low = np.where(gap > near, np.maximum(self._low, bounds), self._low)
+        self._high = np.where(gap < -near, np.minimum(self._high, bounds), self._high)
+        between = self._low < self._high
+        wide = between & (self._high - self._low > 10 * near)
+        done = bool(((np.abs(gap) <= near) | (between & ~wide)).all())
+        after, self._tries = found, self._tries + 1
+        if self._last is not None and self._tries > _FREE_LOOKS:
+            step, change = bounds - self._last[0], gap - self._last[1]
+            falls = change * np.sign(step) < -0.05 * np.abs(step)
+            after = bounds - np.where(falls, gap * step / np.where(falls, change, 1.0), -gap)
+            after = np.where(np.abs(gap) <= near, bounds, np.maximum(after, 0.0))
+            known = np.isfinite(self._low) & np.isfinite(self._high) & between
+            low, high = np.where(known, self._low, 0.0), np.where(known, self._high, 0.0)
+            outside = known & ((after <= low) | (after >= high) | (self._tries % 2 == 0))
+            after = np.where(outside, 0.5 * (low + high), after)
+        self._last = bounds, gap
+        return done, bounds if done else after
+
+
+def _nodes_of(steps: Array) -> Array:
+    """Sums over the links before each node, (N + 1, ...) -> (N + 2, ...)."""
+    return np.concatenate([np.zeros_like(steps[:1]), np.cumsum(steps, axis=0)])

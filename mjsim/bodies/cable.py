@@ -72,7 +72,9 @@ class Cable:
                 joint = body.joints[0]
                 joint.stiffness[0] = stiffness[0, i - 1]
                 joint.damping[0] = numerics.damping_time * stiffness[0, i - 1]
-        parts.add_ends(spec, scene, bodies[0], bodies[-1], (lengths[-1], 0.0, 0.0))
+        origin = (0.0, 0.0, 0.0)
+        nodes = [(body, origin) for body in bodies]
+        parts.add_ends(spec, scene, [*nodes, (bodies[-1], (lengths[-1], 0.0, 0.0))])
         parts.hold_sideways(spec, scene, numerics)
         return spec
 

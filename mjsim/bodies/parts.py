@@ -1,8 +1,9 @@
 """What every body's MJCF shares: options, contact pads, sites of the ends, friction tendons.
 
 Under bounds of their own, the friction of the two ends is carried by spatial tendons to a far fixed
-site: `left` and `right` along each end, and `both` along their mean; see mjsim.friction. Under
-Coulomb friction it is MuJoCo's own contact friction, and the tendons only measure.
+site: `left` and `right` along each end, and `both` along their mean; see mjsim.friction. Where it
+acts between the ends too there is one for each node, and `both` is the mean of those in contact.
+Under Coulomb friction it is MuJoCo's own contact friction, and the tendons only measure.
 """
 
 import math
@@ -97,22 +98,31 @@ def pad_friction(scene: Scene, at_end: bool) -> float:
 
 
 def add_ends(
-    spec: mujoco.MjSpec, scene: Scene, left: mujoco.MjsBody, right: mujoco.MjsBody, tip: Place
+    spec: mujoco.MjSpec, scene: Scene, nodes: Sequence[tuple[mujoco.MjsBody, Place]]
 ) -> None:
-    """Sites at the two ends, and the tendons to a far one.
+    """Sites at the two ends and the tendons to a far one; at every node if friction acts there.
 
     Args:
         spec: the strip.
         scene: tells the law.
-        left, right: the bodies of the two ends; the left end is its body's origin.
-        tip: the right end in its body's frame [m].
+        nodes: the body of each node, left first, and where it is in that body's frame [m].
     """
-    for name, body, place in (("left", left, (0.0, 0.0, 0.0)), ("right", right, tip)):
-        body.add_site(name=f"end_{name}", pos=place, size=[6e-4] * 3, group=4)
+    ends = {0: "end_left", len(nodes) - 1: "end_right"}
+    constant = scene.friction != "coulomb"
+    everywhere = constant and scene.between
+    names = [ends.get(node, f"node_{node}") for node in range(len(nodes))]
+    for node, (name, (body, place)) in enumerate(zip(names, nodes, strict=True)):
+        if everywhere or node in ends:
+            body.add_site(name=name, pos=place, size=[6e-4] * 3, group=4)
     spec.worldbody.add_site(name="far", pos=(-FAR, 0.0, 0.0), group=4)
-    bound = 0.0 if scene.friction == "coulomb" else _NO_BOUND
-    for name, ends in zip(TENDONS, (("left",), ("right",), ("left", "right")), strict=True):
-        _tie(spec, name, "far", ends, bound)
+    bound = _NO_BOUND if constant else 0.0
+    left, right, both = TENDONS
+    _tie(spec, left, "far", names[:1], bound)
+    _tie(spec, right, "far", names[-1:], bound)
+    _tie(spec, both, "far", names if everywhere else [names[0], names[-1]], bound)
+    if everywhere:
+        for node in range(1, len(nodes) - 1):
+            _tie(spec, f"grip_{node}", "far", [names[node]], bound)
 
 
 def hold_sideways(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
@@ -124,7 +134,7 @@ def hold_sideways(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None
         return
     spec.worldbody.add_site(name="aside", pos=(0.0, -_FARTHER, 0.0), group=4)
     for end in ("left", "right"):
-        _tie(spec, f"aside_{end}", "aside", (end,), tie_force(scene, numerics))
+        _tie(spec, f"aside_{end}", "aside", (f"end_{end}",), tie_force(scene, numerics))
 
 
 def tie_force(scene: Scene, numerics: Numerics) -> float:
@@ -132,13 +142,12 @@ def tie_force(scene: Scene, numerics: Numerics) -> float:
     return numerics.tie_bound * pneunet.base_rigidity(scene.robot) / scene.robot.length**2
 
 
-def _tie(spec: mujoco.MjSpec, name: str, to: str, ends: Sequence[str], bound: float) -> None:
+def _tie(spec: mujoco.MjSpec, name: str, to: str, sites: Sequence[str], bound: float) -> None:
     tendon = spec.add_tendon(name=name, frictionloss=bound, group=4)
     tendon.width = 2e-4
     tendon.solref_friction[:] = 0.001, 1.0  # nearly without creep
     tendon.solimp_friction[:3] = 0.9999, 0.9999, 0.001
-    for i, end in enumerate(ends):
-        if i > 0:
-            tendon.wrap_pulley(1.0)
+    for site in sites:
+        tendon.wrap_pulley(1.0)
         tendon.wrap_site(to)
-        tendon.wrap_site(f"end_{end}")
+        tendon.wrap_site(site)

@@ -73,7 +73,9 @@ class Planar:
                 parts.add_pads(body, scene, numerics, i + 1, [(length, 0.0, 0.0)])
             bodies.append(body)
             parent, offset = body, length
-        parts.add_ends(spec, scene, bodies[0], bodies[-1], (offset, 0.0, 0.0))
+        origin = (0.0, 0.0, 0.0)
+        nodes = [(body, origin) for body in bodies]
+        parts.add_ends(spec, scene, [*nodes, (bodies[-1], (offset, 0.0, 0.0))])
         if scene.actuation == "actuators":
             add_actuators(spec, scene, numerics)
         return spec

@@ -73,7 +73,7 @@ class Rod:
             body.explicitinertial, body.mass = True, mass[i]
             body.inertia = [mass[i] * _RADIUS**2] * 3  # a point does not turn
             parts.add_pads(body, scene, numerics, i, [(0.0, 0.0, 0.0)])
-        parts.add_ends(spec, scene, bodies[0], bodies[-1], (0.0, 0.0, 0.0))
+        parts.add_ends(spec, scene, [(body, (0.0, 0.0, 0.0)) for body in bodies])
         parts.hold_sideways(spec, scene, numerics)
         return spec
 

@@ -55,6 +55,9 @@ class ContactForces:
         place = np.full(model.ngeom, np.nan)
         place[pads] = arclength[:, None]
         self._place: list[float] = place.tolist()  # arclength of a pad, by its geom
+        node = np.zeros(model.ngeom, dtype=int)
+        node[pads] = np.arange(len(pads))[:, None]
+        self._node: list[int] = node.tolist()
         pyramidal = model.opt.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
         self._pyramidal = bool(pyramidal) and model.geom_condim[pads[0, 0]] > 1
         self._six = np.zeros(6)
@@ -78,6 +81,19 @@ class ContactForces:
             half = 0.5 * self._weight * self._length
             return half, half
         return ends[0][0], ends[1][0]
+
+    def by_node(self) -> tuple[list[float], list[float]]:
+        """Normal force on each node and its height, (N + 2,) each [N, m]."""
+        contact, rowwise = self._data.contact, self._data.efc_force.tolist()
+        force = [0.0] * len(self._rows)
+        rows = contact.efc_address.tolist()
+        for i, geom in enumerate(contact.geom2.tolist()):
+            push = self._normal(i) if self._pyramidal else rowwise[rows[i]]
+            force[self._node[geom]] += push
+        heights = self._heights.tolist()
+        if not self._every:
+            heights = [heights[row] for row in self._rows]
+        return force, [height - self._radius for height in heights]
 
     def _length_of(self, force: float, moment: float) -> float:
         return max(flat_length(self._weight, force, moment), self._least)

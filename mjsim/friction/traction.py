@@ -3,8 +3,9 @@
 Two ways in MuJoCo for the laws of analytic.friction. `BoundedEnds`: each end is held along x by a
 dry friction of its own bound, on the neutral line, so that it has no lever arm and does not creep;
 the physics lets the weaker end slide. Where both bounds are equal that would leave it to momentum
-who slides: the rule of [Majidi13], both alike, is a dry friction on the mean position of the ends,
-in place of both. `ContactFriction`: Coulomb friction at every pad, by MuJoCo's own contacts.
+who slides: the rule of [Majidi13], both alike, is one more dry friction, on the mean position of
+the ends. `mjsim.friction.everywhere` does so at every contact. `ContactFriction`: Coulomb friction
+at every pad, by MuJoCo's own contacts.
 """
 
 from typing import Protocol
@@ -42,16 +43,17 @@ class Traction(Protocol):
         """
         ...
 
+    def after_step(self, dt: float) -> float:
+        """How far towards +x the step moved what friction holds, by its order alone [m].
 
-def traction(
-    scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
-) -> Traction:
-    """The law of a scene at work."""
-    kind = ContactFriction if scene.friction == "coulomb" else BoundedEnds
-    return kind(scene, numerics, model, data)
+        A place is a function of angles that turn at a constant rate in a step, and the step's
+        friction made that place's velocity vanish at its end. What it moved beyond dt times its
+        velocity is the integrator's, and taking it off keeps an anchor where it is.
+        """
+        ...
 
 
-class _Ends:
+class Ends:
     """What both ways share: the ends' contact lengths, and who moves."""
 
     def __init__(
@@ -64,6 +66,15 @@ class _Ends:
         self._left, self._right, self._both = (model.tendon(PREFIX + n).id for n in TENDONS)
         self._rate, self._place = data.ten_velocity, data.ten_length
         self._pads = pads_by_node(model)[[0, -1]]
+        self._at, self._slip = self._place.item(self._right), 0.0
+
+    def after_step(self, dt: float) -> float:
+        """See Traction.after_step; the left end's place is a coordinate, exact in every step."""
+        excess, before, at = 0.0, self._at, self._place.item(self._right)
+        if self._slip:
+            excess = self._slip * (dt * self._rate.item(self._right) - (at - before))
+        self._at, self._slip = at - excess, self.left_slip
+        return excess
 
     def _look(
         self, slopes: tuple[float, float], left: bool, right: bool
@@ -77,7 +88,36 @@ class _Ends:
         self.left_slip = 1.0 if abs(left) > abs(right) else 0.0
 
 
-class BoundedEnds(_Ends):
+class Bounded(Ends):
+    """What bounds at the ends and everywhere share: the law, and softer ground under steep ends."""
+
+    def __init__(
+        self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
+    ) -> None:
+        super().__init__(scene, numerics, model, data)
+        self._law, self._ground, self._width = LAWS[scene.friction], scene.ground, scene.robot.width
+        self._surface = scene.ground if isinstance(scene.ground, Surface) else None
+        self._level, self._tie = scene.slope == 0, tie_force(scene, numerics)
+        self._softness, self._bounds = model.geom_solref, model.tendon_frictionloss
+        assert numerics.steep_contact_time is not None
+        self._firm = contact_softness(scene, numerics)[0][0]
+        self._soft = numerics.steep_contact_time * numerics.timestep
+        self._steep_angle, self._steep = numerics.steep_angle, (False, False)
+        self._far = float(model.site_pos[model.site(f"{PREFIX}far").id][0])
+
+    def _soften_if_steep(self, slopes: tuple[float, float]) -> None:
+        steep = slopes[0] > self._steep_angle, slopes[1] > self._steep_angle
+        if steep != self._steep:
+            self._steep = steep
+            for pads, is_steep in zip(self._pads, steep, strict=True):
+                self._softness[pads, 0] = self._soft if is_steep else self._firm
+
+    def _under(self, tendon: int) -> Surface:
+        """The surface where a tendon ends."""
+        return self._surface or self._ground.at(self._place.item(tendon) + self._far)
+
+
+class BoundedEnds(Bounded):
     """Bounds of the friction along x at the two ends, whatever law gives them.
 
     On a slope the weight decides a tie, and who takes up a change is seen as it moves.
@@ -87,55 +127,30 @@ class BoundedEnds(_Ends):
         self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         super().__init__(scene, numerics, model, data)
-        self._law, self._ground, self._width = LAWS[scene.friction], scene.ground, scene.robot.width
-        self._surface = scene.ground if isinstance(scene.ground, Surface) else None
         self._always = self._law.needs_load or self._surface is None
-        self._level, self._tied = scene.slope == 0, (0.0, 0.0, tie_force(scene, numerics))
-        self._softness = model.geom_solref
-        self._bounds = model.tendon_frictionloss[self._left : self._both + 1]
-        assert numerics.steep_contact_time is not None
-        self._firm = contact_softness(scene, numerics)[0][0]
-        self._soft = numerics.steep_contact_time * numerics.timestep
-        self._steep_angle = numerics.steep_angle
-        self._steep, self._last = (False, False), (-1.0, -1.0)
-        self._far = float(model.site_pos[model.site(f"{PREFIX}far").id][0])
+        self._last = (-1.0, -1.0)
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
         """See Traction.before_step."""
         _, contacts = self._look(slopes, left, right)
-        steep = slopes[0] > self._steep_angle, slopes[1] > self._steep_angle
-        if steep != self._steep:
-            self._soften(steep)
+        self._soften_if_steep(slopes)
         if contacts != self._last or self._always:
             self._last = self.contact_left, self.contact_right = contacts
             self._set_bounds(contacts)
         if not self._level:
             self._see_who_moves()
 
-    def _soften(self, steep: tuple[bool, bool]) -> None:
-        self._steep = steep
-        for pads, is_steep in zip(self._pads, steep, strict=True):
-            self._softness[pads, 0] = self._soft if is_steep else self._firm
-
     def _set_bounds(self, contacts: tuple[float, float]) -> None:
-        law, width, bounds = self._law, self._width, self._bounds
+        law, width = self._law, self._width
         load_left, load_right = self._forces.loads() if law.needs_load else _UNLOADED
-        here = there = self._surface
-        if here is None or there is None:
-            here, there = (
-                self._ground.at(self._place.item(end) + self._far)
-                for end in (self._left, self._right)
-            )
-        left = law.bound(here, width, contacts[0], load_left)
-        right = law.bound(there, width, contacts[1], load_right)
+        left = law.bound(self._under(self._left), width, contacts[0], load_left)
+        right = law.bound(self._under(self._right), width, contacts[1], load_right)
         self.left_slip = slip_fraction(left, right)
-        if left == right and self._level:
-            bounds[:3] = self._tied
-        else:
-            bounds[:3] = left, right, 0.0
+        tied = left == right and self._level
+        self._bounds[self._left : self._both + 1] = left, right, self._tie if tied else 0.0
 
 
-class ContactFriction(_Ends):
+class ContactFriction(Ends):
     """Coulomb friction of the pads.
 
     The outermost ones have the coefficient of a tip, or of a side while the end lies on it; the

@@ -13,13 +13,14 @@ from analytic.friction import LAWS, Friction
 from analytic.gait import GAITS, Gait
 from analytic.ground import Patches
 from analytic.robot import GRAVITY, Robot
-from analytic.surface import SURFACES, Ground, Surface
+from analytic.surface import SURFACES, Ground
 from mjsim import registry
 
 Chamber = Literal["linearized", "sealed", "constant-pressure"]
 Actuation = Literal["rest-angles", "actuators"]
+Contacts = Literal["auto", "ends", "all"]
+CONTACTS: tuple[str, ...] = ("auto", "ends", "all")
 ACTUATIONS: tuple[str, ...] = ("rest-angles", "actuators")
-STRONG_FRICTION = 5.0  # Phi beyond which friction bends the strip too much to be left out; measured
 
 
 @dataclass(frozen=True)
@@ -40,6 +41,9 @@ class Scene:
     rod, point masses in space"""
     friction: str = "constant"
     """friction law: constant, V_t at a tip and tau by area on a side; coulomb, by load"""
+    contacts: Contacts = "auto"
+    """where the constant bounds act: at the two ends; at all places that touch the ground; auto: at
+    all if the gait ever inflates a segment less than one on either side of it"""
     slope: float = 0.0
     """the ground rises towards +x by this angle [rad]"""
     chamber: Chamber = "linearized"
@@ -60,6 +64,7 @@ class Scene:
         one_of("friction", self.friction, LAWS)
         one_of("chamber", self.chamber, CHAMBER_LAWS)
         one_of("actuation", self.actuation, ACTUATIONS)
+        one_of("contacts", self.contacts, CONTACTS)
         whole("cycles", self.cycles, 1)
         object.__setattr__(self, "cycles", int(self.cycles))
         positive("gravity", self.gravity, "m/s^2")
@@ -97,14 +102,14 @@ class Scene:
             )
 
     @property
-    def reference_friction(self) -> Friction:
-        """The friction that the quasi-static prediction takes.
+    def between(self) -> bool:
+        """Whether friction acts between the ends too."""
+        return self.contacts == "all" or (self.contacts == "auto" and self.gait.dips())
 
-        It bends the strip as strongly as it does in the simulation; on ground that changes along x
-        it is taken as weak beside stiffness, as in section 2.2 of [Majidi13].
-        """
-        uniform = isinstance(self.ground, Surface)
-        return Friction(self.friction, 1.0 if uniform else 0.0, self.slope)
+    @property
+    def reference_friction(self) -> Friction:
+        """The friction that the quasi-static prediction takes, as strong as in the simulation."""
+        return Friction(self.friction, 1.0, self.slope, "all" if self.between else "ends")
 
     @property
     def rise_time(self) -> float:

@@ -31,7 +31,7 @@ Tables = dict[str, Table]
 Kind = TypeVar("Kind")
 
 NAMES = ("robot", "gait", "ground", "numerics")
-SCENE_FIELDS = ("cycles", "body", "friction", "chamber", "actuation", "lag", "gravity",
+SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation", "lag", "gravity",
                 "settle_time")  # fmt: skip
 SURFACE_FIELDS = tuple(field.name for field in fields(Surface) if field.name != "name")
 _KEYS: dict[str, tuple[str, ...]] = {

@@ -18,7 +18,8 @@ class Measures(NamedTuple):
         displacement: of the left end per cycle.
         direction: of it.
         amplitude: greatest height.
-        unexplained: displacement per cycle that the anchor rule does not account for.
+        unexplained: displacement per cycle that the anchor rule does not account for; NaN where
+            more than the two ends are held.
         heading: the angle it turned by to the left [rad].
         sideways: how far any of it ever was beside its plane.
     """

@@ -11,10 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from analytic.contact import may_lie_flat
 from analytic.gait import Gait
 from mjsim import registry
-from mjsim.bodies.parts import PREFIX
 from mjsim.bodies.pneumatics import chamber_pressure
 from mjsim.friction.contact_length import pads_by_node
-from mjsim.friction.traction import traction
+from mjsim.friction.laws import traction
 from mjsim.mjcf.builder import compile_model
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.judge import judge
@@ -26,7 +25,7 @@ Array = NDArray[np.float64]
 
 # what bodies and friction set in the model while it is stepped
 _SET = ("qpos_spring", "jnt_stiffness", "flex_bending", "tendon_frictionloss", "geom_solref",
-        "geom_friction")  # fmt: skip
+        "geom_friction", "wrap_prm")  # fmt: skip
 _MORE_TIMES = 100  # that the last tenth of the settling time is repeated for want of rest; chosen
 _BLOCK = 1024  # steps that are prepared at once
 
@@ -93,8 +92,6 @@ class Simulation:
         self._joints = registry.find(scene.body).bind(model, self.data, scene, numerics)
         self._traction = traction(scene, numerics, model, self.data)
         self._pads = pads_by_node(model)
-        self._right = model.tendon(f"{PREFIX}right").id
-        self._at, self._slip = self.data.ten_length.item(self._right), 0.0
         self._pressure = np.zeros(len(scene.robot.segments))
         self._coordinates: list[Array] = []
         self._ends: list[tuple[float, float, float]] = []
@@ -217,42 +214,30 @@ class Simulation:
             return
         coordinates = np.empty((len(valves), model.nq))
         ends: list[tuple[float, float, float]] = []
-        apply, before_step, slopes, shift = (
-            joints.apply, law.before_step, joints.slopes, joints.shift,
-        )  # fmt: skip
+        apply, slopes, shift = joints.apply, joints.slopes, joints.shift
+        before_step, after_step = law.before_step, law.after_step
         step_model, dt, qpos = mujoco.mj_step, numerics.timestep, data.qpos
-        length, rate, right = data.ten_length.item, data.ten_velocity.item, self._right
         height = data.geom_xpos[:, 2].item
         first, last = int(self._pads[0, 0]), int(self._pads[-1, 0])
         low, high = ends_may_be(scene, numerics)
-        at, slip = self._at, self._slip
 
         started, worked = clock.perf_counter(), clock.process_time()
         for step, (load, (left, right_end)) in enumerate(zip(loads, flat, strict=True)):
             apply(load)
             before_step(slopes(), left, right_end)
             step_model(model, data)
-
-            # The left end's x is a coordinate, integrated exactly; the right end's is integrated to
-            # first order only, since a turning hinge moves it on a circle. The excess of the last
-            # step over dt times its velocity at the step's start, which is dt v - dx with the
-            # velocity at its end, would be slip of an anchor that friction holds: give it to the
-            # end that slid.
-            before, at = at, length(right)
-            if slip:
-                excess = slip * (dt * rate(right) - (at - before))
+            excess = after_step(dt)
+            if excess:
                 shift(excess)
-                at -= excess
-            slip = law.left_slip
             coordinates[step] = qpos
-            ends.append((law.contact_left, law.contact_right, slip))
+            ends.append((law.contact_left, law.contact_right, law.left_slip))
             if not (low < height(first) < high and low < height(last) < high):
                 self._stopped = True
                 break
         self._wall += clock.perf_counter() - started
         self._cpu += clock.process_time() - worked
 
-        self._at, self._slip, self._pressure = at, slip, pressures[len(ends) - 1]
+        self._pressure = pressures[len(ends) - 1]
         self._coordinates.append(coordinates[: len(ends)])
         self._pressures.append(pressures[: len(ends)])
         self._ends += ends

@@ -22,7 +22,7 @@ from analytic import (
 )
 from analytic.dissipation import least_dissipation, minimisers
 from analytic.friction import slip_fraction
-from analytic.patches import patches
+from analytic.patches import patches_of
 
 ALL = Friction(contacts="all")
 contacts = st.lists(
@@ -93,17 +93,17 @@ LONG = Robot(length=0.13 * 8 / 3, weight_per_length=2.0, chamber_height=4.1e-3, 
 @pytest.fixture(scope="module")
 def shapes():
     path = WAVES.pressures(50) * LONG.peak_pressure
-    return {links: solve_elastica(LONG, path, links=links) for links in (96, 192)}
+    return {links: solve_elastica(LONG, path, links=links) for links in (192, 384)}
 
 
-@pytest.mark.parametrize("surface", ["felt", "gelatin"])
-def test_friction_between_the_ends_more_than_halves_the_way_of_a_long_robot(shapes, surface):
+@pytest.mark.parametrize(("surface", "near"), [("felt", 0.01), ("gelatin", 0.1)])
+def test_friction_between_the_ends_more_than_halves_the_way_of_a_long_robot(shapes, surface, near):
     """And the links are fine enough to say by how much."""
     ground = SURFACES[surface]
-    ends = displacements(shapes[192], ground).per_cycle
+    ends = displacements(shapes[384], ground).per_cycle
     coarse, fine = (displacements(s, ground, friction=ALL).per_cycle for s in shapes.values())
     assert 0 < fine / ends < 0.5
-    assert fine == pytest.approx(coarse, rel=0.06)
+    assert fine == pytest.approx(coarse, rel=near)
 
 
 def between(shapes):
@@ -112,7 +112,7 @@ def between(shapes):
     return [
         len(patch.nodes)
         for state in range(len(shapes))
-        for patch in patches(shapes, height, state)[1:-1]
+        for patch in patches_of(shapes, height, state)[1:-1]
     ]
 
 
@@ -160,7 +160,5 @@ def test_what_friction_at_all_contacts_cannot_do_is_refused():
     path = GAITS["wave"].pressures(10) * Robot().peak_pressure
     with pytest.raises(ValueError, match="forces"):
         displacements(solve_modes(Robot(), path), SURFACES["felt"], friction=ALL)
-    with pytest.raises(ValueError, match="tension must be 0"):
-        Friction(contacts="all", tension=1.0)
     with pytest.raises(ValueError, match="ends, all"):
         Friction(contacts="some")

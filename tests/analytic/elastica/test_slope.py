@@ -45,8 +45,8 @@ def test_a_tilted_cantilever_is_the_boundary_value_problem_of_tilted_weight(slop
             robot = Robot(weight_per_length=weight * unit)
             chain = Chain(robot, links, clamped=True, slope=slope)
             chain.load_at(np.zeros(3))
-            chain.tension = -weight * np.sin(slope)  # so that the free end has none
-            state = chain.equilibrium(state or chain.flat())
+            pull = np.full(links + 1, -weight * np.sin(slope))  # so that the free end has none
+            state = chain.equilibrium((state or chain.flat())._replace(tension=pull))
         at = np.linspace(0, 1, links + 1)
         errors.append(np.abs(state.theta - exact(at)[0]).max())
     assert errors[1] < 1e-3

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from walks import HEAVIER, refusal
 
-from analytic import GAITS, SURFACES, Gait, Robot, Surface, predict
+from analytic import GAITS, SURFACES, Friction, Gait, Robot, Surface, predict
 from analytic.elastica.cantilever import solve_cantilever
 from mjsim import replay, run
 from mjsim.io import cli, files
@@ -73,11 +73,11 @@ def test_a_gait_that_starts_inflated_goes_as_far_in_its_first_cycle_as_later():
     ends = [int(np.searchsorted(walk.time, t)) for t in (0.0, 12.0, 24.0)]
     x = np.append(walk.position[ends, 0, 0], walk.position[-1, 0, 0])
     cycles = np.diff(x) / scene.robot.length
-    # the first begins at rest, later ones with the joints' lag of some 10 ms behind the pressure
+    # later ones begin with the tension that the one before left in the strip
     assert cycles[1] == pytest.approx(cycles[2], abs=1e-6)
-    assert cycles[0] == pytest.approx(cycles[1], abs=1e-3)
-    exact = predict(scene.robot, scene.gait, scene.ground).locomotion.per_cycle
-    assert cycles[1] == pytest.approx(exact / scene.robot.length, abs=2e-4)
+    assert cycles[0] == pytest.approx(cycles[1], abs=2.5e-3)
+    found = predict(scene.robot, scene.gait, scene.ground, friction=Friction(tension=1.0), cycles=2)
+    assert cycles[1] == pytest.approx(found.locomotion.per_cycle / scene.robot.length, abs=2e-4)
 
 
 def test_a_strip_that_is_not_at_rest_when_it_begins_has_no_distance():
@@ -100,8 +100,11 @@ def test_a_robot_described_by_six_segments_walks_as_by_three(tmp_path, capsys):
     words = ["--surface", "polyethylene", "--links", "24"]
     three = row_of(words, tmp_path, capsys)
     six = row_of([*words, "--segments", "1,1,1,1,1,1", "--gait.stages", doubled], tmp_path, capsys)
-    for key in ("predicted_displacement_over_L", "displacement_over_L"):
-        assert six[key] == pytest.approx(three[key], abs=1e-6)
+    assert six["predicted_displacement_over_L"] == pytest.approx(
+        three["predicted_displacement_over_L"], abs=1e-9
+    )
+    # where sticking ends is a matter of rounding
+    assert six["displacement_over_L"] == pytest.approx(three["displacement_over_L"], abs=1e-4)
 
 
 def test_what_is_no_number_is_null_in_strict_json(tmp_path, capsys):
@@ -200,12 +203,12 @@ def test_the_prediction_is_bent_by_the_scene_s_own_friction_however_strong(numbe
     assert measure(walk).displacement == pytest.approx(exact, rel=0.02, abs=0.0015)
 
 
-def test_where_friction_is_too_strong_for_a_prediction_there_is_none(tmp_path, capsys):
+def test_where_friction_lets_go_at_once_the_prediction_says_so(tmp_path, capsys):
     tip = 100 * 3.84e-4 / 0.13**2 / 2
     row = row_of(["--surface.tip-force", tip, "--surface.shear-strength",
                   2 * tip / (0.04 * 0.13 / 3)], tmp_path, capsys)  # fmt: skip
-    assert row["predicted_displacement_over_L"] is None
-    assert row["prediction_flags"] == ["BRANCH_END"]
+    assert "JUMPED" in row["prediction_flags"]
+    assert row["error_over_L"] == pytest.approx(0, abs=0.006)
 
 
 def test_a_strip_that_slides_down_says_how_far_and_why(tmp_path, capsys):
@@ -315,24 +318,26 @@ LONG = ["--segments", ",".join("1" * 8), "--robot.length", "0.34667", "--pressur
         "--gait.stages", STAGES, "--links", "48"]  # fmt: skip
 
 
-def told_of_the_ground_between(words, tmp_path, capsys):
-    row = row_of([*LONG, *words], tmp_path, capsys)
-    (note,) = [n for n in row["prediction_notes"] if "touches" in n]
-    return note
-
-
-def test_a_long_robot_is_told_of_the_ground_between_its_ends(tmp_path, capsys):
-    note = told_of_the_ground_between([], tmp_path, capsys)
+def test_a_long_robot_whose_friction_is_at_its_ends_alone_is_told_of_the_ground_between(
+    tmp_path, capsys
+):
+    row = row_of([*LONG, "--contacts", "ends"], tmp_path, capsys)
+    (note,) = row["prediction_notes"]
     assert "friction acts at the two ends alone" in note
     assert not row_of([], tmp_path, capsys)["prediction_notes"]
 
 
-def test_and_per_cycle_on_patches_too_where_every_cycle_is_walked(tmp_path, capsys):
-    """Patches of one surface are that surface."""
+def test_and_else_it_acts_wherever_it_touches_in_both_models(tmp_path, capsys):
+    row = row_of([*LONG, "--gait.ramp-time", "8"], tmp_path, capsys)
+    assert row["displacement_over_L"] == pytest.approx(-0.0097, abs=0.001)
+    assert row["error_over_L"] == pytest.approx(0, abs=0.001)
+    assert row["unexplained_over_L"] is None
+
+
+def test_patches_of_one_surface_are_that_surface_for_each_of_two_cycles(tmp_path, capsys):
     path = tmp_path / "scene.toml"
     path.write_text('[[ground.patches]]\nsurface = "felt"\n'
                     '[[ground.patches]]\nfrom = 0.1\nsurface = "felt"')  # fmt: skip
-    one = told_of_the_ground_between([], tmp_path, capsys)
-    two = told_of_the_ground_between(["--scene", path, "--cycles", "2"], tmp_path, capsys)
-    far = [float(note.split("touches, ")[1].split()[0]) for note in (one, two)]
-    assert far[1] == pytest.approx(far[0], abs=0.002)
+    one = row_of([], tmp_path, capsys)["predicted_displacement_over_L"]
+    two = row_of(["--scene", path, "--cycles", "2"], tmp_path, capsys)
+    assert two["predicted_displacement_over_L"] == pytest.approx(one, abs=1e-4)
