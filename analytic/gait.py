@@ -108,6 +108,12 @@ class Gait:
         steps = np.arange(cycles * self.ramps * states_per_ramp + 1) / states_per_ramp
         return self._at_ramp(steps)
 
+    def times(self, states_per_ramp: int, cycles: int = 1) -> Array:
+        """When `pressures` has its rows, shape (T,) [s]."""
+        ends = np.concatenate([[0.0], np.cumsum(self.ramp_times * cycles)])
+        steps = np.arange(cycles * self.ramps * states_per_ramp + 1) / states_per_ramp
+        return np.interp(steps, np.arange(len(ends)), ends)
+
     def fractions(self, time: Array) -> Array:
         """Fractions of the peak pressure at times since the start, shape (T,) [s] -> (T, S).
 

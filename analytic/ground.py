@@ -5,7 +5,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 
 from analytic.checks import file_word, is_number
-from analytic.surface import Surface
+from analytic.surface import Ground, Surface
 
 
 @dataclass(frozen=True)
@@ -50,3 +50,9 @@ class Patches:
         """Where each surface begins and ends, the outer ones at infinity [m]."""
         places = (-math.inf, *self.borders, math.inf)
         return list(zip(places[:-1], places[1:], self.surfaces, strict=True))
+
+
+def depends_on_speed(ground: Ground) -> bool:
+    """Whether it resists anywhere by how fast it is slid over."""
+    surfaces = ground.surfaces if isinstance(ground, Patches) else (ground.at(0.0),)
+    return any(surface.depends_on_speed for surface in surfaces)

@@ -10,6 +10,7 @@ from analytic.checks import one_of
 from analytic.equilibria import ContactShapes, Shapes, Status
 from analytic.friction import Friction
 from analytic.gait import Gait
+from analytic.ground import depends_on_speed
 from analytic.locomotion import WEAK, Locomotion, along, displacements, mean_slip, state_slip
 from analytic.robot import Robot
 from analytic.surface import Ground, Surface
@@ -27,8 +28,15 @@ class Solver(Protocol):
 
     name: ClassVar[str]
 
-    def solve(self, robot: Robot, pressures: Array, ground: Ground, friction: Friction) -> Shapes:
-        """Equilibria at pressures of shape (B, S) [Pa].
+    def solve(
+        self,
+        robot: Robot,
+        pressures: Array,
+        ground: Ground,
+        friction: Friction,
+        times: Array | None,
+    ) -> Shapes:
+        """Equilibria at pressures of shape (B, S) [Pa] at times (B,) [s].
 
         Raises:
             ValueError: the solver cannot do what the scene asks for.
@@ -42,7 +50,14 @@ class Modes:
 
     name: ClassVar[str] = "modes"
 
-    def solve(self, robot: Robot, pressures: Array, ground: Ground, friction: Friction) -> Shapes:
+    def solve(
+        self,
+        robot: Robot,
+        pressures: Array,
+        ground: Ground,
+        friction: Friction,
+        times: Array | None,
+    ) -> Shapes:
         """See Solver.solve."""
         from analytic.modes import solve_modes
 
@@ -57,7 +72,14 @@ class Obstacle:
     name: ClassVar[str] = "obstacle"
     elements: int = 60
 
-    def solve(self, robot: Robot, pressures: Array, ground: Ground, friction: Friction) -> Shapes:
+    def solve(
+        self,
+        robot: Robot,
+        pressures: Array,
+        ground: Ground,
+        friction: Friction,
+        times: Array | None,
+    ) -> Shapes:
         """See Solver.solve."""
         from analytic.obstacle import solve_obstacle
 
@@ -78,11 +100,18 @@ class Elastica:
     links: int = 60
     chamber: str = "linearized"
 
-    def solve(self, robot: Robot, pressures: Array, ground: Ground, friction: Friction) -> Shapes:
+    def solve(
+        self,
+        robot: Robot,
+        pressures: Array,
+        ground: Ground,
+        friction: Friction,
+        times: Array | None,
+    ) -> Shapes:
         """See Solver.solve."""
         from analytic.elastica import solve_elastica
 
-        return solve_elastica(robot, pressures, self.links, self.chamber, ground, friction)
+        return solve_elastica(robot, pressures, self.links, self.chamber, ground, friction, times)
 
 
 SOLVERS: dict[str, type[Solver]] = {kind.name: kind for kind in (Modes, Obstacle, Elastica)}
@@ -117,6 +146,7 @@ def predict(
     friction: Friction = WEAK,
     path: ArrayLike | None = None,
     cycles: int = 1,
+    times: ArrayLike | None = None,
 ) -> Prediction:
     """Walk quasi-statically, one cycle or along a path.
 
@@ -132,18 +162,27 @@ def predict(
             alone lets friction bend the strip.
         path: pressures to follow instead of the gait's, (B, S) [Pa].
         cycles: how many cycles the path holds.
+        times: of the path's states, (B,) [s]; the gait's if there is no path.
 
     Raises:
         ValueError: there is no such solver or law, the solver does not know what it needs for them,
-            or the gait is divided into no states.
+            the gait is divided into no states, or the ground resists by speed and friction bends
+            nothing or the path has no times.
     """
     if isinstance(solver, str):
         one_of("solver", solver, SOLVERS)
         solver = SOLVERS[solver]()
     if path is None:
         path = robot.peak_pressure * gait.pressures(states_per_ramp, cycles)
+        times = gait.times(states_per_ramp, cycles)
     path = np.asarray(path, dtype=float)
-    shapes = solver.solve(robot, path, ground, friction)
+    when = None if times is None else np.asarray(times, dtype=float)
+    if depends_on_speed(ground) and (not friction.tension or when is None):
+        raise ValueError(
+            f"ground {ground.name!r} resists by speed: friction must have a tension above 0, and a "
+            "path its times"
+        )
+    shapes = solver.solve(robot, path, ground, friction, when)
     changes = np.flatnonzero(_anchor_changes(shapes, ground, friction))
     if len(changes) and refinement > 1:
         part = np.linspace(0, 1, refinement + 1)[1:-1, None]
@@ -151,7 +190,10 @@ def predict(
         path = np.insert(
             path, np.repeat(changes + 1, refinement - 1), np.concatenate(between), axis=0
         )
-        shapes = solver.solve(robot, path, ground, friction)
+        if when is not None:
+            when = np.insert(when, np.repeat(changes + 1, refinement - 1), np.concatenate(
+                [when[i] + part[:, 0] * (when[i + 1] - when[i]) for i in changes]))  # fmt: skip
+        shapes = solver.solve(robot, path, ground, friction, when)
     flags = Status(int(np.bitwise_or.reduce(shapes.status)))
     locomotion = displacements(shapes, ground, cycles, friction)
     return Prediction(path, shapes, locomotion, flags, cycles)

@@ -1,7 +1,9 @@
 """Ground in SI units: what resists at a place, whatever walks there."""
 
-from dataclasses import dataclass, fields
-from typing import Protocol
+from dataclasses import dataclass, fields, replace
+from typing import Any, Protocol
+
+import numpy as np
 
 from analytic.checks import file_word, not_negative
 
@@ -32,6 +34,13 @@ class Surface:
     """coefficient of friction of a side contact [1]"""
     tip_friction: float | None = None
     """coefficient of friction of a tip [1]; that of a side if not given"""
+    viscosity: float = 0.0
+    """of a film under a side: resistance per area and speed, its viscosity over its thickness
+    [Pa s/m]"""
+    static_ratio: float = 1.0
+    """friction at rest over that of fast sliding [1]"""
+    stribeck_speed: float = 0.0
+    """v_s, speed over which friction falls from the one to the other, as exp(-(v/v_s)^2) [m/s]"""
 
     def __post_init__(self) -> None:
         file_word("name of a surface", self.name)
@@ -41,6 +50,12 @@ class Surface:
             if field.name != "name":
                 not_negative(field.name, getattr(self, field.name))
                 object.__setattr__(self, field.name, float(getattr(self, field.name)))
+        if self.static_ratio < 1:
+            raise ValueError(f"static_ratio must be at least 1, got {self.static_ratio!r}")
+        if self.static_ratio > 1 and not self.stribeck_speed:
+            raise ValueError(
+                "stribeck_speed must be above 0 m/s where static_ratio is above 1, got 0.0"
+            )
 
     def at(self, x: float) -> "Surface":
         """What resists at a place: the same everywhere."""
@@ -48,7 +63,31 @@ class Surface:
 
     def scaled(self, factor: float) -> "Surface":
         """The same surface, so many times as resistant in every way."""
-        return Surface(self.name, *(factor * getattr(self, item.name) for item in fields(self)[1:]))
+        return replace(self, **{name: factor * getattr(self, name) for name in _RESISTANCES})
+
+    @property
+    def depends_on_speed(self) -> bool:
+        """Whether it resists differently at different speeds."""
+        return self.viscosity > 0 or self.static_ratio > 1
+
+    def at_speed(self, speed: Any) -> Any:
+        """Dry friction at a speed [m/s] over that of fast sliding [1], a float or an array.
+
+        The Stribeck curve of boundary lubrication: static_ratio at rest, 1 beyond stribeck_speed.
+        """
+        if self.static_ratio == 1:
+            return 1.0 + 0.0 * speed
+        return 1.0 + (self.static_ratio - 1.0) * np.exp(-((speed / self.stribeck_speed) ** 2))
+
+    def drag(self, width: float, contact: Any) -> Any:
+        """Viscous resistance of a side contact so long [m] over its speed [N s/m]; a tip has none.
+
+        Newton's film: eta / d per area, lubrication theory of a thin layer that is sheared.
+        """
+        return self.viscosity * width * contact
+
+
+_RESISTANCES = ("tip_force", "shear_strength", "friction", "tip_friction", "viscosity")
 
 
 class Ground(Protocol):

@@ -66,7 +66,8 @@ def reference(walk: Trajectory) -> Prediction:
     other, else one.
     """
     scene = walk.scene
-    path = walk.pressure[walk.start :] if scene.lag and walk.time[-1] > 0 else None
+    own = scene.lag and walk.time[-1] > 0
+    path, times = (walk.pressure[walk.start :], walk.time[walk.start :]) if own else (None, None)
     return predict(
         scene.robot,
         scene.gait,
@@ -75,6 +76,7 @@ def reference(walk: Trajectory) -> Prediction:
         refinement=_PARTS_BETWEEN if scene.between else _PARTS,
         friction=scene.reference_friction,
         path=path,
+        times=times,
         cycles=1 if path is None and isinstance(scene.ground, Surface) else scene.cycles,
     )
 
@@ -107,11 +109,18 @@ def _elsewhere(scene: Scene, known: bool) -> list[str]:
 
 
 def _undecided(scene: Scene, prediction: Prediction) -> float:
-    """Displacement per cycle over L that hangs on ties under Coulomb friction."""
-    if scene.friction != "coulomb" or scene.between or not isinstance(scene.ground, Surface):
+    """Displacement per cycle over L that hangs on ties.
+
+    Coulomb friction leaves them open, and where friction at rest is more than in sliding, the end
+    that happens to slide first goes on alone.
+    """
+    ground = scene.ground
+    if scene.between or not isinstance(ground, Surface):
+        return 0.0
+    if scene.friction != "coulomb" and ground.static_ratio == 1:
         return 0.0
     over = scene.robot.length * prediction.cycles
-    return undecided(prediction.shapes, scene.ground) / over
+    return undecided(prediction.shapes, ground, scene.friction) / over
 
 
 def table(records: list[dict[str, Any]]) -> str:

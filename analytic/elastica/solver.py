@@ -43,6 +43,7 @@ def solve_elastica(
     chamber: str = "linearized",
     ground: Ground | None = None,
     friction: Friction | None = None,
+    times: ArrayLike | None = None,
 ) -> ContactShapes:
     """Equilibria along a path of pressures that starts with the strip flat and without pressure.
 
@@ -53,6 +54,7 @@ def solve_elastica(
         chamber: law of the chambers, see analytic.chain.
         ground, friction: let friction of a tension above 0 bend the strip, and a slope tilt it; see
             analytic.elastica.stick_slip. Without them no shear acts, the limit of section 2.2.
+        times: of the states, (B,) [s]; what resists by speed acts as at rest without them.
 
     Returns:
         Shapes of B states. From where the stable branch ends (the strip rolls up, topples, snaps,
@@ -66,6 +68,9 @@ def solve_elastica(
             sealed chambers do not fit them.
     """
     p = check_pressures(robot, pressures_pa)
+    durations = np.full(len(p), np.inf)
+    if times is not None:
+        durations[1:] = np.diff(np.asarray(times, dtype=float))
     if links < 6:
         raise ValueError(f"links must be at least 6, got {links}")
     friction = friction or Friction()
@@ -87,10 +92,10 @@ def solve_elastica(
         chain.load_at(p[i])
         guess = state if last is None else _extrapolate(last, state, p, i)
         if stick_slip:
-            stick_slip.begin(state)
+            stick_slip.begin(state, durations[i])
         candidate = _unless_it_leaps(state, chain.equilibrium(guess, stick_slip))
         if candidate is None:
-            candidate = _in_smaller_steps(chain, state, here, p[i], stick_slip)
+            candidate = _in_smaller_steps(chain, state, here, p[i], stick_slip, durations[i])
         jumped = False
         if candidate is None and stick_slip:
             chain.load_at(p[i])
@@ -169,15 +174,24 @@ def _unless_it_leaps(before: ChainState, candidate: ChainState | None) -> ChainS
 
 
 def _in_smaller_steps(
-    chain: Chain, start: ChainState, from_p: Array, to_p: Array, grip: StickSlip | None
+    chain: Chain,
+    start: ChainState,
+    from_p: Array,
+    to_p: Array,
+    grip: StickSlip | None,
+    duration: float,
 ) -> ChainState | None:
     """Go from one state to the next by continuation; None if the branch ends on the way."""
+    done = 0.0
 
     def solve(part: float, near: ChainState) -> ChainState | None:
+        nonlocal done
         chain.load_at(from_p + part * (to_p - from_p))
         if grip:
-            grip.begin(near)
-        return _unless_it_leaps(near, chain.equilibrium(near, grip))
+            grip.begin(near, (part - done) * duration)
+        found = _unless_it_leaps(near, chain.equilibrium(near, grip))
+        done = done if found is None else part
+        return found
 
     least = _LEAST_STEP if grip is None else _LEAST_GRIPPED
     return follow(start, solve, first=0.25, shrink=0.5, least=least)

@@ -6,6 +6,8 @@ together, see analytic.elastica.tractions. As the friction goes to 0 the tractio
 any more and only decide who slides: section 2.2 of [Majidi13].
 """
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -48,13 +50,15 @@ class StickSlip:
         self.contacts: list[Patch] = []
         self.slips = np.zeros(0, dtype=int)
         self._before = self._nodes / chain.robot.length
-        self._take([], np.zeros(0))
+        self._speed, self._slid = 0.0, np.zeros(0)
+        self._take([], np.zeros(0), np.zeros(0))
         self._search: _FixedPoint | None = None
         self._changes = 0
 
-    def begin(self, state: ChainState) -> None:
-        """An increment begins at a state, the chain being loaded for its end."""
+    def begin(self, state: ChainState, duration: float = math.inf) -> None:
+        """An increment of so many seconds begins at a state, the chain being loaded for its end."""
         self._before, self._search, self._changes = self._places(state), None, 0
+        self._speed = self._chain.robot.length / duration  # of a slip of 1
         self.look(state)
 
     def columns(self) -> Array:
@@ -73,13 +77,13 @@ class StickSlip:
             self._share @ (x - self._before),
             self._share @ moved,
             self.bounds,
-            np.zeros(len(self.bounds)),
+            self._drag,
             self._pull,
             self.slips,
         )
         if found is None:
             return None
-        self.slips = found.slips
+        self.slips, self._slid = found.slips, np.abs(found.slid)
         return state._replace(
             y=free.y + response.y @ found.traction,
             theta=free.theta + response.theta @ found.traction,
@@ -93,11 +97,16 @@ class StickSlip:
         contacts = self._touching(state)
         robot, law = self._chain.robot, LAWS[self._friction.law]
         x = self._places(state) * robot.length
-        bounds = self._unit * np.array([
-            law.bound(self._ground.at(float(patch.share @ x[patch.nodes])), robot.width,
-                      patch.length, patch.load)
-            for patch in contacts
-        ])  # fmt: skip
+        under = [self._ground.at(float(patch.share @ x[patch.nodes])) for patch in contacts]
+        bounds, drag = self._unit * np.array([
+            (law.bound(surface, robot.width, patch.length, patch.load),
+             surface.drag(robot.width, patch.length))
+            for surface, patch in zip(under, contacts, strict=True)
+        ]).reshape(-1, 2).T  # fmt: skip
+        speed = self._slid if len(contacts) == len(self._slid) else np.zeros(len(contacts))
+        bounds *= [surface.at_speed(v * self._speed)
+                   for surface, v in zip(under, speed, strict=True)]  # fmt: skip
+        drag *= self._speed
         near = _ALIKE * float(bounds.max(initial=0.0))
         alike = self._touch_alike(contacts)
         if not alike:
@@ -107,7 +116,7 @@ class StickSlip:
         else:
             self._search = self._search or _FixedPoint(len(bounds))
             alike, bounds = self._search.next(self.bounds, bounds, near)
-        self._take(contacts, bounds)
+        self._take(contacts, bounds, drag)
         return alike
 
     def _touch_alike(self, contacts: list[Patch]) -> bool:
@@ -129,10 +138,10 @@ class StickSlip:
         sides = (patch.length > 0 for patch in self.contacts)
         return tuple(zip(sides, self.slips.tolist(), strict=True))
 
-    def _take(self, contacts: list[Patch], bounds: Array) -> None:
+    def _take(self, contacts: list[Patch], bounds: Array, drag: Array) -> None:
         if len(contacts) != len(self.contacts):
             self.slips = np.zeros(len(contacts), dtype=int)
-        self.contacts, self.bounds = contacts, bounds
+        self.contacts, self.bounds, self._drag = contacts, bounds, drag
         self._share = np.zeros((len(contacts), len(self._nodes)))
         for row, patch in zip(self._share, contacts, strict=True):
             row[patch.nodes] = patch.share

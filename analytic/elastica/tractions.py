@@ -34,11 +34,13 @@ class Tractions(NamedTuple):
         traction: t, (C,).
         whole: U.
         slips: -1, 0 or 1 as each slides towards -x, sticks or slides towards +x, (C,).
+        slid: s, (C,).
     """
 
     traction: Array
     whole: float
     slips: NDArray[np.int_]
+    slid: Array
 
 
 def tractions(
@@ -88,7 +90,7 @@ def tractions(
         if not len(wrong):
             held = stick.any() or viscosity.any() or abs(pull) <= _ROUNDING
             slips = np.where(dry, slips, np.sign(slid).astype(int))
-            return Tractions(traction, whole, slips) if held or _opposed(slips[dry]) else None
+            return Tractions(traction, whole, slips, slid) if held or _opposed(slips[dry]) else None
         if attempt >= _ALL_AT_ONCE:
             wrong = wrong[:1]  # the least index, which cannot cycle
         slips[wrong] = np.where(stick[wrong], -np.sign(traction[wrong]).astype(int), 0)

@@ -49,6 +49,8 @@ class BoundedContacts(Bounded):
         contacts = self._finder.find(force, height, (self._half * sides[0], self._half * sides[1]))
         self._bounds[self._tendons] = 0.0
         self._bounds[self._both] = 0.0
+        if self._by_speed:
+            self._drag[self._tendons] = 0.0
         self.left_slip, self._held = float("nan"), np.zeros(0, dtype=int)
         if not contacts:
             self.contact_left = self.contact_right = 0.0
@@ -57,13 +59,14 @@ class BoundedContacts(Bounded):
         nodes = [_middle(contact) for contact in contacts]
         tendons = self._tendons[nodes]
         bounds = np.array([
-            self._law.bound(self._under(tendon), self._width, contact.length, contact.load)
+            self._bound(tendon, contact.length, contact.load)
             for tendon, contact in zip(tendons.tolist(), contacts, strict=True)
         ])  # fmt: skip
         self._bounds[tendons] = bounds
         rates = self._rate[tendons]
         low, high = minimisers(bounds, rates)
-        if high > low and self._level:
+        viscous = self._by_speed and self._drag[tendons].any()
+        if high > low and self._level and not viscous:
             self._hold(nodes, rates, low, high)
         else:
             slow = int(np.argmin(np.where(bounds > 0, np.abs(rates), np.inf)))

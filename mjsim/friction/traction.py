@@ -13,6 +13,7 @@ from typing import Protocol
 import mujoco
 
 from analytic.friction import LAWS, slip_fraction
+from analytic.ground import depends_on_speed
 from analytic.surface import Surface
 from mjsim.bodies.parts import PREFIX, TENDONS, contact_softness, tie_force
 from mjsim.friction.contact_length import ContactForces, pads_by_node
@@ -84,8 +85,8 @@ class Ends:
         return (left, right), self._forces.lengths(left, right) if left or right else _TIPS
 
     def _see_who_moves(self) -> None:
-        left, right = self._rate.item(self._left), self._rate.item(self._right)
-        self.left_slip = 1.0 if abs(left) > abs(right) else 0.0
+        left, right = abs(self._rate.item(self._left)), abs(self._rate.item(self._right))
+        self.left_slip = 1.0 if left > right else 0.0
 
 
 class Bounded(Ends):
@@ -99,6 +100,7 @@ class Bounded(Ends):
         self._surface = scene.ground if isinstance(scene.ground, Surface) else None
         self._level, self._tie = scene.slope == 0, tie_force(scene, numerics)
         self._softness, self._bounds = model.geom_solref, model.tendon_frictionloss
+        self._drag, self._by_speed = model.tendon_damping, depends_on_speed(scene.ground)
         assert numerics.steep_contact_time is not None
         self._firm = contact_softness(scene, numerics)[0][0]
         self._soft = numerics.steep_contact_time * numerics.timestep
@@ -112,9 +114,14 @@ class Bounded(Ends):
             for pads, is_steep in zip(self._pads, steep, strict=True):
                 self._softness[pads, 0] = self._soft if is_steep else self._firm
 
-    def _under(self, tendon: int) -> Surface:
-        """The surface where a tendon ends."""
-        return self._surface or self._ground.at(self._place.item(tendon) + self._far)
+    def _bound(self, tendon: int, contact: float, load: float) -> float:
+        """Bound of a contact at a tendon's end; sets its viscous resistance too."""
+        surface = self._surface or self._ground.at(self._place.item(tendon) + self._far)
+        bound = self._law.bound(surface, self._width, contact, load)
+        if self._by_speed:
+            bound *= surface.at_speed(self._rate.item(tendon))
+            self._drag[tendon] = surface.drag(self._width, contact)
+        return float(bound)
 
 
 class BoundedEnds(Bounded):
@@ -127,7 +134,7 @@ class BoundedEnds(Bounded):
         self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         super().__init__(scene, numerics, model, data)
-        self._always = self._law.needs_load or self._surface is None
+        self._always = self._law.needs_load or self._surface is None or self._by_speed
         self._last = (-1.0, -1.0)
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
@@ -137,16 +144,17 @@ class BoundedEnds(Bounded):
         if contacts != self._last or self._always:
             self._last = self.contact_left, self.contact_right = contacts
             self._set_bounds(contacts)
-        if not self._level:
+        if not self._level or self._by_speed:
             self._see_who_moves()
 
     def _set_bounds(self, contacts: tuple[float, float]) -> None:
-        law, width = self._law, self._width
-        load_left, load_right = self._forces.loads() if law.needs_load else _UNLOADED
-        left = law.bound(self._under(self._left), width, contacts[0], load_left)
-        right = law.bound(self._under(self._right), width, contacts[1], load_right)
+        load_left, load_right = self._forces.loads() if self._law.needs_load else _UNLOADED
+        left = self._bound(self._left, contacts[0], load_left)
+        right = self._bound(self._right, contacts[1], load_right)
         self.left_slip = slip_fraction(left, right)
         tied = left == right and self._level
+        if self._by_speed:
+            tied = tied and not (self._drag[self._left] or self._drag[self._right])
         self._bounds[self._left : self._both + 1] = left, right, self._tie if tied else 0.0
 
 

@@ -11,7 +11,7 @@ from analytic.chain import CHAMBER_LAWS
 from analytic.checks import not_negative, one_of, positive, slope, whole
 from analytic.friction import LAWS, Friction
 from analytic.gait import GAITS, Gait
-from analytic.ground import Patches
+from analytic.ground import Patches, depends_on_speed
 from analytic.robot import GRAVITY, Robot
 from analytic.surface import SURFACES, Ground
 from mjsim import registry
@@ -80,10 +80,17 @@ class Scene:
         surfaces = (
             self.ground.surfaces if isinstance(self.ground, Patches) else (self.ground.at(0),)
         )
-        if not any(LAWS[self.friction].acts_on(surface) for surface in surfaces):
+        if self.friction == "coulomb" and depends_on_speed(self.ground):
+            raise ValueError(
+                f"surface {self.ground.name!r} resists by speed: friction must be constant, not "
+                "coulomb"
+            )
+        acts = LAWS[self.friction].acts_on
+        if not any(acts(surface) or surface.viscosity for surface in surfaces):
             raise ValueError(
                 f"surface {self.ground.name!r} resists by nothing under friction {self.friction}; "
-                "give tip_force or shear_strength (constant), friction or tip_friction (coulomb)"
+                "give tip_force, shear_strength or viscosity (constant), friction or tip_friction "
+                "(coulomb)"
             )
 
     def _check_turn(self) -> None:

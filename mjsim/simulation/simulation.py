@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 
 # what bodies and friction set in the model while it is stepped
 _SET = ("qpos_spring", "jnt_stiffness", "flex_bending", "tendon_frictionloss", "geom_solref",
-        "geom_friction", "wrap_prm")  # fmt: skip
+        "geom_friction", "wrap_prm", "tendon_damping")  # fmt: skip
 _MORE_TIMES = 100  # that the last tenth of the settling time is repeated for want of rest; chosen
 _BLOCK = 1024  # steps that are prepared at once
 

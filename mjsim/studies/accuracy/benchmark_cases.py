@@ -1,7 +1,8 @@
 """What walking is measured on, and what it should come to; needs no MuJoCo.
 
-The default gait of the default robot on level ground, its ramps so slow that the quasi-static reference is what a method should find: what is measured is its numerical
-error, and not what inertia does at 2 s a ramp.
+The default gait of the default robot on level ground, its ramps so slow that the quasi-static
+reference is what a method should find: what is measured is its numerical error, and not what
+inertia does at 2 s a ramp.
 """
 
 from dataclasses import replace
