@@ -16,7 +16,7 @@ _RIPPLE = 0.2  # of w L h^3 / D0: how high a flat stretch ripples between nodes,
 
 
 def side_contact(
-    robot: Robot, nodes: Array, force: Array, height: Array, pressures: Array
+    robot: Robot, nodes: Array, force: Array, height: Array, pressures: Array, press: float = 0.0
 ) -> tuple[Array, Array]:
     """Length of side contact at the left and the right end.
 
@@ -33,19 +33,26 @@ def side_contact(
         force: of the ground on each, 0 where it does not touch, shape (B, S) [N].
         height: of each, shape (B, S) [m].
         pressures: of the segments, shape (B, S) [Pa].
+        press: with which adhesion pulls at a flat stretch besides its weight; with any an inflated
+            end may lie flat too [N/m].
 
     Returns:
         Two arrays of shape (B,) [m]; half the length each where no node is in the air, NaN where
         a force is.
     """
     up = lifted_nodes(robot, nodes, height)
-    left = _from_left(robot, nodes, force, up)
-    right = _from_left(robot, nodes[-1] - nodes[::-1], force[:, ::-1], up[:, ::-1])
+    weight = robot.weight_per_length + press
+    left = _from_left(weight, nodes, force, up)
+    right = _from_left(weight, nodes[-1] - nodes[::-1], force[:, ::-1], up[:, ::-1])
     flat = ~up.any(axis=1)
     half = 0.5 * robot.length
     blank = np.where(np.isfinite(force).all(axis=1), 1.0, np.nan)
-    left = _if_flat(pressures[:, 0], robot, np.where(flat, half, left))
-    right = _if_flat(pressures[:, -1], robot, np.where(flat, half, right))
+    left, right = np.where(flat, half, left), np.where(flat, half, right)
+    if not press:
+        left, right = (
+            _if_flat(pressures[:, 0], robot, left),
+            _if_flat(pressures[:, -1], robot, right),
+        )
     return blank * left, blank * right
 
 
@@ -65,10 +72,10 @@ def _if_flat(pressure: Array, robot: Robot, contact: Array) -> Array:
     return np.where(may_lie_flat(pressure, robot.peak_pressure), contact, 0.0)
 
 
-def _from_left(robot: Robot, nodes: Array, force: Array, up: NDArray[np.bool_]) -> Array:
+def _from_left(weight: float, nodes: Array, force: Array, up: NDArray[np.bool_]) -> Array:
     begun = np.cumsum(force > 0, axis=1) > 0  # the outermost node may hover by a rounding of h
     held = force * (np.cumsum(begun & up, axis=1) == 0)
-    return np.asarray(flat_length(robot.weight_per_length, held.sum(axis=1), held @ nodes))
+    return np.asarray(flat_length(weight, held.sum(axis=1), held @ nodes))
 
 
 def flat_length(weight: float, total: Any, moment: Any) -> Any:

@@ -41,10 +41,11 @@ class Finder:
     Args:
         robot: the strip.
         nodes: arclength of its nodes, (N,) [m].
+        press: of adhesive ground, see analytic.contact [N/m].
     """
 
-    def __init__(self, robot: Robot, nodes: Array) -> None:
-        self._weight = robot.weight_per_length
+    def __init__(self, robot: Robot, nodes: Array, press: float = 0.0) -> None:
+        self._weight = robot.weight_per_length + press
         self._place: list[float] = nodes.tolist()
         self._lifted = ripple(robot, nodes)
 

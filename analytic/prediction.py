@@ -61,7 +61,7 @@ class Modes:
         """See Solver.solve."""
         from analytic.modes import solve_modes
 
-        _refuse_bending(self.name, friction)
+        _refuse_bending(self.name, friction, ground)
         return solve_modes(robot, pressures)
 
 
@@ -83,7 +83,7 @@ class Obstacle:
         """See Solver.solve."""
         from analytic.obstacle import solve_obstacle
 
-        _refuse_bending(self.name, friction)
+        _refuse_bending(self.name, friction, ground)
         return solve_obstacle(robot, pressures, self.elements)
 
 
@@ -212,6 +212,8 @@ def _anchor_changes(shapes: Shapes, ground: Ground, friction: Friction) -> NDArr
     return np.asarray(change | (np.abs(slip - np.round(2 * slip) / 2) > 0))
 
 
-def _refuse_bending(name: str, friction: Friction) -> None:
+def _refuse_bending(name: str, friction: Friction, ground: Ground) -> None:
+    if ground.at(0.0).adhesion:
+        raise ValueError(f"{REFERENCE} alone knows adhesive ground, got solver {name!r}")
     if friction.tension:
         raise ValueError(f"{REFERENCE} alone lets friction bend the strip, got solver {name!r}")

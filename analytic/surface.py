@@ -41,6 +41,10 @@ class Surface:
     """friction at rest over that of fast sliding [1]"""
     stribeck_speed: float = 0.0
     """v_s, speed over which friction falls from the one to the other, as exp(-(v/v_s)^2) [m/s]"""
+    adhesion: float = 0.0
+    """work that peeling a side off takes per area [J/m^2]"""
+    adhesion_reach: float = 1e-4
+    """height up to which it pulls, with a constant force per area [m]; chosen"""
 
     def __post_init__(self) -> None:
         file_word("name of a surface", self.name)
@@ -52,6 +56,8 @@ class Surface:
                 object.__setattr__(self, field.name, float(getattr(self, field.name)))
         if self.static_ratio < 1:
             raise ValueError(f"static_ratio must be at least 1, got {self.static_ratio!r}")
+        if self.adhesion and not self.adhesion_reach:
+            raise ValueError("adhesion_reach must be above 0 m where adhesion is, got 0.0")
         if self.static_ratio > 1 and not self.stribeck_speed:
             raise ValueError(
                 "stribeck_speed must be above 0 m/s where static_ratio is above 1, got 0.0"
@@ -78,6 +84,10 @@ class Surface:
         if self.static_ratio == 1:
             return 1.0 + 0.0 * speed
         return 1.0 + (self.static_ratio - 1.0) * np.exp(-((speed / self.stribeck_speed) ** 2))
+
+    def press(self, width: float) -> float:
+        """Force per length with which adhesion pulls a strip that is within its reach [N/m]."""
+        return self.adhesion * width / self.adhesion_reach if self.adhesion else 0.0
 
     def drag(self, width: float, contact: Any) -> Any:
         """Viscous resistance of a side contact so long [m] over its speed [N s/m]; a tip has none.

@@ -16,7 +16,7 @@ def main(folder: Path | None = None, count: int = 5) -> list[tuple[float, float,
     robot, gait = Robot(), replace(GAITS["wave"], ramp_time=8.0)
     unit = friction_number(SURFACES["polyethylene"], robot, pneunet.base_rigidity(robot))
     rows = []
-    for number in np.geomspace(0.3, 50.0, count).tolist():
+    for number in np.geomspace(0.1, 100.0, count).tolist():
         ground = SURFACES["polyethylene"].scaled(number / unit)
         theory = predict(robot, gait, ground, friction=Friction(tension=1.0)).locomotion.per_cycle
         numbers = measure(simulate(Scene(robot, gait, ground)))

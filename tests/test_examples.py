@@ -87,10 +87,31 @@ def test_a_crossing_stalls_where_theory_says():
     assert walked == pytest.approx(theory, abs=0.02 * 0.13)
 
 
-def test_a_long_robot_goes_less_far_with_friction_between_its_ends():
+def test_a_long_robot_goes_otherwise_with_friction_between_its_ends_in_both_models():
     shifts = example("long_robot")()
-    for name in ("felt", "gelatin"):
-        assert abs(shifts[f"{name} all"]) < 0.7 * abs(shifts[f"{name} ends"])
+    for part in ("60 % of the pressure", "full pressure"):
+        for name in ("felt", "polyethylene", "gelatin"):
+            theory, found = (shifts[f"{part}, {name}, {kind}"] for kind in ("all", "MuJoCo"))
+            assert found == pytest.approx(theory, rel=0.05, abs=0.001)
+            assert abs(theory - shifts[f"{part}, {name}, ends"]) > 5 * abs(theory - found)
+
+
+def test_wet_ground_turns_a_slow_robot_round():
+    far = example("wet_ground")(count=2)
+    wet = far["film, and tips that hold"]
+    assert wet[0] > 0.005 > -0.03 > wet[1]
+    assert far["MuJoCo"] == pytest.approx(wet, abs=0.002)
+    for name in ("dry felt", "dry gelatin"):
+        assert far[name][0] == far[name][1]
+
+
+def test_a_robot_goes_farther_on_sticky_ground():
+    far = example("sticky_ground")()
+    for pairs in far.values():
+        (weak, found), (strong, found_there) = pairs
+        assert abs(strong) > 1.2 * abs(weak)
+        assert found == pytest.approx(weak, rel=0.03)
+        assert found_there == pytest.approx(strong, rel=0.06)
 
 
 @pytest.mark.slow

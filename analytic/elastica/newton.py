@@ -25,6 +25,7 @@ from analytic.chain import check_chamber, joint_springs, link_lengths, sealed_sp
 from analytic.elastica.stability import stable
 from analytic.elastica.state import ChainState, Grip, Mask
 from analytic.robot import Robot
+from analytic.surface import Surface
 
 Array = NDArray[np.float64]
 
@@ -45,6 +46,8 @@ class Chain:
         clamped: hold the first node and the direction of the first link, which is that of the
             strip's end, and take the ground away: a heavy cantilever, to verify the rest by.
         slope: angle by which the ground rises towards +x [rad].
+        surface: whose adhesion pulls at nodes within its reach, by constant forces, so that peeling
+            a length off takes adhesion times its area.
 
     Attributes:
         iterations: Newton steps so far.
@@ -57,6 +60,7 @@ class Chain:
         chamber: str = "linearized",
         clamped: bool = False,
         slope: float = 0.0,
+        surface: Surface | None = None,
     ) -> None:
         check_chamber(robot, links, chamber)
         self.robot, self.links = robot, links
@@ -70,6 +74,11 @@ class Chain:
         self.weight[1:] += half
         # the weight's part downhill adds to the tension of the tractions
         self.hanging = math.sin(slope) * np.cumsum(self.weight)[:-1]
+        self.sticky, self.reach = np.zeros(links + 2), 0.0
+        if surface and surface.adhesion:
+            self.reach = surface.adhesion_reach / robot.length
+            per_weight = surface.press(robot.width) / robot.weight_per_length
+            self.sticky = per_weight * self.weight
         self.weight *= math.cos(slope)
         self.stiffness, self.rest = np.zeros(links), np.zeros(links)
         self.pressure = np.zeros(len(robot.segments))
@@ -82,7 +91,7 @@ class Chain:
         held = np.ones(n + 2, bool)
         held[1:] = not self.clamped
         zero = np.zeros(n + 1)
-        return ChainState(np.zeros(n + 2), zero, zero, held, zero, 0.0)
+        return ChainState(np.zeros(n + 2), zero, zero, held, zero, 0.0, held)
 
     def load_at(self, pressure: Array) -> None:
         """Set the hinges from segment pressures, shape (S,) [Pa]."""
@@ -123,10 +132,10 @@ class Chain:
             state = new
             if change > _SETTLED:
                 continue
-            active = self._revise(state, revisions)
-            if active is not None:
+            revised = self._revise(state, revisions)
+            if revised is not None:
                 revisions += 1
-                state = state._replace(active=active)
+                state = revised
                 continue
             if grip is not None and looks < _LOOKS and not grip.look(state):
                 looks += 1
@@ -156,7 +165,7 @@ class Chain:
         band[6, 0::3] = state.active
         band[4, 2::3] = free[:-1]  # V_k in the row of node k
         band[7, 2::3] = -1.0 * free[1:]  # V_k in the row of node k + 1
-        right[0::3, 0] = self.weight * free
+        right[0::3, 0] = (self.weight + self.sticky * state.near) * free
         # moments, row 3 i + 1
         band[6, 1::3] = bend[:-1] + bend[1:] + geometric
         band[9, 1:-3:3] = -bend[1:-1]
@@ -190,12 +199,19 @@ class Chain:
         """Force of the ground on each node, shape (N + 2,)."""
         before = np.concatenate([[0.0], state.shear])
         after = np.concatenate([state.shear, [0.0]])
-        return np.where(state.active, self.weight + before - after, 0.0)
+        down = self.weight + self.sticky * state.near
+        return np.where(state.active, down + before - after, 0.0)
 
-    def _revise(self, state: ChainState, revisions: int) -> Mask | None:
+    def _revise(self, state: ChainState, revisions: int) -> ChainState | None:
+        """With other nodes held or pulled, or None if these are right."""
+        active = None if self.clamped else self._other_nodes(state, revisions)
+        near = state.active | (state.y < self.reach)
+        if self.reach and (near != state.near).any():
+            return state._replace(near=near, active=state.active if active is None else active)
+        return None if active is None else state._replace(active=active)
+
+    def _other_nodes(self, state: ChainState, revisions: int) -> Mask | None:
         """Other nodes to hold, or None if these are right; one at a time after many tries."""
-        if self.clamped:
-            return None
         sinking = ~state.active & (state.y < -_ROUNDING)
         force = self.ground_force(state)
         pulled = force < -_ROUNDING * self.weight.sum()
@@ -222,6 +238,7 @@ class Chain:
             moment[:-1] - moment[1:] - state.shear * cosine + (state.tension + self.hanging) * sine
         )
         kinematic = np.diff(state.y) - sine
+        pulled = self.sticky @ state.near / total
         parts = (-state.y, -force, np.abs(force * state.y), np.abs(torque) / total,
-                 np.abs(kinematic), [abs(force.sum() - 1)])  # fmt: skip
+                 np.abs(kinematic), [abs(force.sum() - 1 - pulled)])  # fmt: skip
         return max(float(np.max(part)) for part in parts)

@@ -19,6 +19,7 @@ from analytic.elastica.state import ChainState
 from analytic.elastica.stick_slip import StickSlip
 from analytic.equilibria import ContactShapes, Status
 from analytic.friction import Friction
+from analytic.ground import Patches
 from analytic.pressures import check_pressures
 from analytic.robot import Robot
 from analytic.surface import Ground
@@ -26,8 +27,9 @@ from analytic.surface import Ground
 Array = NDArray[np.float64]
 
 _LEAST_STEP = 1e-4  # of the way between two states, below which the branch is taken to end
-_LEAST_GRIPPED = 1e-2  # the same under friction, where damped motion goes on
+_LEAST_GRIPPED = 1e-2  # the same where friction or adhesion may let go, and damped motion goes on
 _CURLED = 0.02  # slope that an end in flat contact does not have, even where it lifts off [rad]
+_JUMP = 0.03  # change of a direction at one pressure that is told as a jump [rad]; chosen
 _LEAP = 0.3  # change of a direction in one step that may be a leap to another branch [rad]
 
 _FIRST_DRAG, _LEAST_DRAG, _MOST_DRAG = 10.0, 1e-3, 1e6  # over the hinges' stiffness; chosen
@@ -65,7 +67,7 @@ def solve_elastica(
 
     Raises:
         ValueError: the pressures are bad, there is no such chamber law, links is below 6, or
-            sealed chambers do not fit them.
+            sealed chambers do not fit them, or ground that changes along x is adhesive.
     """
     p = check_pressures(robot, pressures_pa)
     durations = np.full(len(p), np.inf)
@@ -74,7 +76,10 @@ def solve_elastica(
     if links < 6:
         raise ValueError(f"links must be at least 6, got {links}")
     friction = friction or Friction()
-    chain = Chain(robot, links, chamber, slope=friction.slope)
+    if isinstance(ground, Patches) and any(surface.adhesion for surface in ground.surfaces):
+        raise ValueError(f"adhesion must be of uniform ground, got {ground.name!r}")
+    surface = ground.at(0.0) if ground else None
+    chain = Chain(robot, links, chamber, slope=friction.slope, surface=surface)
     stick_slip = None
     if ground and friction.tension:
         stick_slip = StickSlip(chain, ground, friction)
@@ -97,9 +102,10 @@ def solve_elastica(
         if candidate is None:
             candidate = _in_smaller_steps(chain, state, here, p[i], stick_slip, durations[i])
         jumped = False
-        if candidate is None and stick_slip:
+        if candidate is None and (stick_slip or chain.reach):
             chain.load_at(p[i])
-            candidate, jumped = _damped(chain, state, stick_slip), True
+            candidate = _damped(chain, state, stick_slip)
+            jumped = candidate is not None and _apart(candidate, state) > _JUMP
         iterations[i] = chain.iterations - begun
         if candidate is None:
             break
@@ -116,7 +122,8 @@ def solve_elastica(
 
     nodes = node_positions(robot, links)
     newtons = force * chain.force_unit
-    left, right = side_contact(robot, nodes, newtons, y * robot.length, p)
+    press = surface.press(robot.width) if surface else 0.0
+    left, right = side_contact(robot, nodes, newtons, y * robot.length, p, press)
     lengths = link_lengths(robot, links)
     return ContactShapes(
         robot=robot,
@@ -168,9 +175,12 @@ def _rolled_up(state: ChainState) -> bool:
 
 def _unless_it_leaps(before: ChainState, candidate: ChainState | None) -> ChainState | None:
     """An equilibrium near the last one, or None: one far away may lie on another branch."""
-    if candidate is None or np.abs(candidate.theta - before.theta).max() > _LEAP:
-        return None
-    return candidate
+    return None if candidate is None or _apart(candidate, before) > _LEAP else candidate
+
+
+def _apart(one: ChainState, two: ChainState) -> float:
+    """Greatest difference of a direction [rad]."""
+    return float(np.abs(one.theta - two.theta).max())
 
 
 def _in_smaller_steps(
@@ -193,28 +203,30 @@ def _in_smaller_steps(
         done = done if found is None else part
         return found
 
-    least = _LEAST_STEP if grip is None else _LEAST_GRIPPED
+    least = _LEAST_GRIPPED if grip or chain.reach else _LEAST_STEP
     return follow(start, solve, first=0.25, shrink=0.5, least=least)
 
 
-def _damped(chain: Chain, state: ChainState, grip: StickSlip) -> ChainState | None:
+def _damped(chain: Chain, state: ChainState, grip: StickSlip | None) -> ChainState | None:
     """Where hinges that resist turning, ever less, lead to at one pressure; None if nowhere."""
     drag, steps = _FIRST_DRAG, 0
     while drag < _MOST_DRAG and steps < _FLOW_STEPS:
         steps += 1
         chain.damp(drag, state)
-        grip.begin(state)
+        if grip:
+            grip.begin(state)
         candidate = _unless_it_leaps(state, chain.equilibrium(state, grip))
         chain.damp(0.0)
         if candidate is None:
             drag *= 4.0
             continue
-        moved = float(np.abs(candidate.theta - state.theta).max())
+        moved = _apart(candidate, state)
         state = candidate
         if moved < _LEAP / 3:
             drag *= 0.5
         if drag < _LEAST_DRAG:
-            grip.begin(state)
+            if grip:
+                grip.begin(state)
             return _unless_it_leaps(state, chain.equilibrium(state, grip))
     return None
 

@@ -18,6 +18,7 @@ class ChainState(NamedTuple):
             (N + 1,); tension but for the weight's part along a slope.
         active: nodes that the ground holds.
         left: x of the left end.
+        near: nodes low enough for adhesive ground to pull at.
     """
 
     y: Array
@@ -26,6 +27,7 @@ class ChainState(NamedTuple):
     active: Mask
     tension: Array
     left: float
+    near: Mask
 
 
 class Grip(Protocol):

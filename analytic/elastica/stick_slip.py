@@ -44,7 +44,8 @@ class StickSlip:
     def __init__(self, chain: Chain, ground: Ground, friction: Friction) -> None:
         self._chain, self._ground, self._friction = chain, ground, friction
         self._nodes = node_positions(chain.robot, chain.links)
-        self._finder = Finder(chain.robot, self._nodes)
+        self._press = ground.at(0.0).press(chain.robot.width)
+        self._finder = Finder(chain.robot, self._nodes, self._press)
         self._pull = friction.downhill(chain.robot) / chain.force_unit
         self._unit = friction.tension / chain.force_unit
         self.contacts: list[Patch] = []
@@ -155,7 +156,9 @@ class StickSlip:
         chain, robot = self._chain, self._chain.robot
         force = chain.ground_force(state)[None, :] * chain.force_unit
         height = state.y[None, :] * robot.length
-        left, right = side_contact(robot, self._nodes, force, height, chain.pressure[None, :])
+        left, right = side_contact(
+            robot, self._nodes, force, height, chain.pressure[None, :], self._press
+        )
         lengths = float(left[0]), float(right[0])
         if self._friction.contacts == "all":
             return self._finder.find(force[0].tolist(), height[0].tolist(), lengths)

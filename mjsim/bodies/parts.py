@@ -14,7 +14,7 @@ import mujoco
 import numpy as np
 
 from analytic import pneunet
-from analytic.chain import node_positions
+from analytic.chain import link_lengths, node_positions
 from mjsim.scene import Numerics, Scene
 
 PALE, DARK = (0.86, 0.82, 0.72), (0.16, 0.17, 0.20)  # passive and inflated, as in Figure 4
@@ -80,6 +80,8 @@ def add_pads(
 ) -> None:
     """Contact pads of one node, side by side at places in its body's frame [m]."""
     coulomb = scene.friction == "coulomb"
+    surface = scene.ground.at(0.0)
+    press, reach = surface.press(scene.robot.width), surface.adhesion_reach
     for i, place in enumerate(places):
         pad = body.add_geom(name=f"pad_{node}" + (f"_{i}" if i else ""))
         pad.type, pad.pos = mujoco.mjtGeom.mjGEOM_SPHERE, place
@@ -87,8 +89,16 @@ def add_pads(
         pad.contype, pad.conaffinity, pad.priority = 1, 0, 1
         pad.condim = 3 if coulomb else 1
         pad.solref[:], pad.solimp[:3] = contact_softness(scene, numerics)
+        if press:
+            pad.adhesion, pad.gap = press * _share(scene, numerics, node) / len(places), reach
         if coulomb:
             pad.friction[:] = pad_friction(scene, node in (0, numerics.links + 1)), 0.0, 0.0
+
+
+def _share(scene: Scene, numerics: Numerics, node: int) -> float:
+    """Length of the strip that a node stands for, half of the links beside it [m]."""
+    lengths = np.concatenate([[0.0], link_lengths(scene.robot, numerics.links), [0.0]])
+    return 0.5 * float(lengths[node] + lengths[node + 1])
 
 
 def pad_friction(scene: Scene, at_end: bool) -> float:

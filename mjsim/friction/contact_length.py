@@ -43,7 +43,9 @@ class ContactForces:
     ) -> None:
         assert numerics.pad_radius is not None
         self._model, self._data, self._radius = model, data, numerics.pad_radius
-        self._length, self._weight = scene.robot.length, scene.robot.weight_per_length
+        robot = scene.robot
+        self._length = robot.length
+        self._weight = robot.weight_per_length + scene.ground.at(0.0).press(robot.width)
         arclength = node_positions(scene.robot, numerics.links)
         self._least = float(arclength[1])  # the first link lies flat as a whole
         pads = pads_by_node(model)
@@ -85,6 +87,7 @@ class ContactForces:
     def by_node(self) -> tuple[list[float], list[float]]:
         """Normal force on each node and its height, (N + 2,) each [N, m]."""
         contact, rowwise = self._data.contact, self._data.efc_force.tolist()
+        rowwise.append(0.0)  # of contacts in an adhesive gap, whose row is -1
         force = [0.0] * len(self._rows)
         rows = contact.efc_address.tolist()
         for i, geom in enumerate(contact.geom2.tolist()):
@@ -113,6 +116,7 @@ class ContactForces:
         rows = contact.efc_address.tolist()
         force = [self._normal(i) for i in range(len(rows))] if self._pyramidal else None
         rowwise = data.efc_force.tolist()
+        rowwise.append(0.0)  # of contacts in an adhesive gap, whose row is -1
         # the ground is a plane, and MuJoCo names the plane of a pair first
         for i, geom in enumerate(contact.geom2.tolist()):
             push = force[i] if force else rowwise[rows[i]]

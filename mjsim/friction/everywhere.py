@@ -30,7 +30,8 @@ class BoundedContacts(Bounded):
     ) -> None:
         super().__init__(scene, numerics, model, data)
         nodes = node_positions(scene.robot, numerics.links)
-        self._finder = Finder(scene.robot, nodes)
+        press = scene.ground.at(0.0).press(scene.robot.width)
+        self._finder = Finder(scene.robot, nodes, press)
         self._half = 0.5 * scene.robot.length
         inner = [model.tendon(f"{PREFIX}grip_{node}").id for node in range(1, len(nodes) - 1)]
         self._tendons = np.array([self._left, *inner, self._right])

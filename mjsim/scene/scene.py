@@ -85,6 +85,8 @@ class Scene:
                 f"surface {self.ground.name!r} resists by speed: friction must be constant, not "
                 "coulomb"
             )
+        if isinstance(self.ground, Patches) and any(surface.adhesion for surface in surfaces):
+            raise ValueError(f"adhesion must be of uniform ground, got {self.ground.name!r}")
         acts = LAWS[self.friction].acts_on
         if not any(acts(surface) or surface.viscosity for surface in surfaces):
             raise ValueError(

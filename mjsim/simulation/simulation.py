@@ -209,7 +209,8 @@ class Simulation:
         pressures = chamber_pressure(scene, numerics, valves, self._pressure)
         joints, law = self._joints, self._traction
         loads = joints.loads(valves, self._pressure, pressures)
-        flat = may_lie_flat(pressures[:, [0, -1]], scene.robot.peak_pressure).tolist()
+        sticky = scene.ground.at(0.0).adhesion > 0  # which may hold an inflated end flat
+        flat = (sticky | may_lie_flat(pressures[:, [0, -1]], scene.robot.peak_pressure)).tolist()
         if not len(valves) or self._stopped:
             return
         coordinates = np.empty((len(valves), model.nq))
