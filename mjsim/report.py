@@ -4,6 +4,8 @@ import math
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from analytic.locomotion import direction, undecided
 from analytic.prediction import REFERENCE, Elastica, Prediction, predict
 from analytic.surface import Surface
@@ -11,6 +13,7 @@ from mjsim.scene import Scene
 from mjsim.simulation.measures import measure, slid_over_length
 from mjsim.simulation.trajectory import Trajectory
 
+_STATES, _TO_A_LAG = 50, 10  # of the reference in a ramp, or in so many times chambers' lag
 _OPEN = 1e-4  # of the length: less is a rounding
 _LINKS, _LINKS_A_SEGMENT = 60, 24  # of the reference: contacts between the ends need finer links
 _PARTS, _PARTS_BETWEEN = 32, 8  # of increments in which contacts change, see analytic.prediction
@@ -67,7 +70,13 @@ def reference(walk: Trajectory) -> Prediction:
     """
     scene = walk.scene
     own = scene.lag and walk.time[-1] > 0
-    path, times = (walk.pressure[walk.start :], walk.time[walk.start :]) if own else (None, None)
+    path = times = None
+    if own:
+        last = len(walk.time) - 1
+        every = max(1, round(min(*scene.gait.ramp_times, _TO_A_LAG * scene.lag)
+                             / (_STATES * walk.numerics.timestep)))  # fmt: skip
+        rows = np.unique(np.append(np.arange(walk.start, last, every), last))
+        path, times = walk.pressure[rows], walk.time[rows]
     return predict(
         scene.robot,
         scene.gait,

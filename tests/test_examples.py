@@ -74,6 +74,7 @@ def test_theory_alone_finds_the_neutral_surface_at_polyethylene():
     assert example("theory_alone")() == pytest.approx(0.5, abs=0.01)
 
 
+@pytest.mark.slow
 def test_strong_friction_turns_the_robot_round_as_theory_says():
     rows = example("strong_friction")(count=3)
     gaps = [abs(theory - simulated) for _, theory, simulated in rows]
@@ -87,6 +88,7 @@ def test_a_crossing_stalls_where_theory_says():
     assert walked == pytest.approx(theory, abs=0.02 * 0.13)
 
 
+@pytest.mark.slow
 def test_a_long_robot_goes_otherwise_with_friction_between_its_ends_in_both_models():
     shifts = example("long_robot")()
     for part in ("60 % of the pressure", "full pressure"):
@@ -96,6 +98,7 @@ def test_a_long_robot_goes_otherwise_with_friction_between_its_ends_in_both_mode
             assert abs(theory - shifts[f"{part}, {name}, ends"]) > 5 * abs(theory - found)
 
 
+@pytest.mark.slow
 def test_wet_ground_turns_a_slow_robot_round():
     far = example("wet_ground")(count=2)
     wet = far["film, and tips that hold"]

@@ -5,9 +5,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from analytic import GAITS, SURFACES, ContactShapes, Prediction, Status, pneunet, predict
+from analytic import GAITS, SURFACES, ContactShapes, Prediction, Robot, Status, pneunet, predict
 from mjsim.scene import INTEGRATORS, Numerics, Scene
-from mjsim.studies.accuracy.benchmark_cases import ROBOT
 from mjsim.studies.stability.outcome import GROUND, outcome, tried
 
 LINKS = tuple(range(6, 73, 6))
@@ -79,7 +78,7 @@ class Standing:
 
     def done(self) -> "Standing":
         """The same with what became of it."""
-        robot = pneunet.with_load(replace(ROBOT, peak_pressure=self.pressure), self.gamma)
+        robot = pneunet.with_load(replace(Robot(), peak_pressure=self.pressure), self.gamma)
         gait, surface = GAITS["wave"], SURFACES[GROUND]
         exact, obstacle, modes = (
             predict(robot, gait, surface, solver) for solver in ("elastica", "obstacle", "modes")

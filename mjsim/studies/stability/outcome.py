@@ -13,7 +13,7 @@ from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 from mjsim.simulation.status import Status
-from mjsim.studies.accuracy.benchmark_cases import ROBOT, WALK, exact
+from mjsim.studies.accuracy.benchmark_cases import WALK, exact
 from mjsim.studies.accuracy.setting import Setting
 
 OUTCOMES = ("accurate", "drifting", "wrong direction", "toppled", "diverged", "finished")
@@ -67,7 +67,8 @@ def tried(
 
 def stiffened(stiffness: float) -> Scene:
     """The benchmark scene on GROUND with a strip so many times as stiff, of the same mass."""
-    base, scene = ROBOT, Scene()
+    scene = Scene()
+    base = scene.robot
     robot = replace(
         base,
         modulus=stiffness * base.modulus,
