@@ -10,6 +10,9 @@ larger bound stays. Where several dU dissipate alike (equal tips; no bound anywh
 vanishing equal viscosity decides, the least squares of the slips among the minimisers.
 """
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,19 +28,26 @@ def least_dissipation(bounds: Array, moves: Array) -> float:
         bounds: V_j of the contacts, at least 0, shape (C,) [N].
         moves: dX_j by which the shape moves them, shape (C,) [m].
     """
-    low, high = minimisers(bounds, moves)
+    low, high = minimisers(bounds.tolist(), moves.tolist())
     return float(np.clip(-moves.mean(), low, high))
 
 
-def minimisers(bounds: Array, moves: Array) -> tuple[float, float]:
-    """The interval of all dU that dissipate least [m]; without any bound the whole line."""
-    total = float(bounds.sum())
+def minimisers(bounds: Sequence[float], moves: Sequence[float]) -> tuple[float, float]:
+    """The interval of all dU that dissipate least [m]; without any bound the whole line.
+
+    Plain floats, since this is asked at every step of a simulation.
+    """
+    total = sum(bounds)
     if total <= 0:
-        return -np.inf, np.inf
-    order = np.argsort(-moves)
-    places, below = -moves[order], np.cumsum(bounds[order])
-    half = 0.5 * total
-    # slope of the dissipation right of the j-th place is 2 below_j - total
-    first = int(np.searchsorted(below, half - _ALIKE * total))
-    last = int(np.searchsorted(below, half + _ALIKE * total))
-    return float(places[first]), float(places[min(last, len(places) - 1)])
+        return -math.inf, math.inf
+    first, below = None, 0.0
+    ordered = sorted(zip(moves, bounds, strict=True), reverse=True)
+    for move, bound in ordered:
+        below += bound
+        # the slope of the dissipation right of this place is 2 below - total
+        if first is None and below >= (0.5 - _ALIKE) * total:
+            first = -move
+        if below >= (0.5 + _ALIKE) * total:
+            return (-move if first is None else first), -move
+    last = -ordered[-1][0]
+    return (last if first is None else first), last

@@ -73,7 +73,7 @@ def _slide(
         for patch in contacts
     ])  # fmt: skip
     moves = np.array([patch.share @ step[patch.nodes] for patch in contacts])
-    low, high = minimisers(bounds, moves)
+    low, high = minimisers(bounds.tolist(), moves.tolist())
     going = least_dissipation(bounds, moves)
     stays = contacts[int(np.argmin(np.abs(going + moves)))]
     place = float(stays.share @ x[stays.nodes])

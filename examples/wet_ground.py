@@ -39,7 +39,7 @@ def main(folder: Path | None = None, count: int = 3) -> dict[str, list[float]]:
         axes.axhline(0, color="0.8", lw=0.8)
         styles = zip(GROUNDS, ("#6a994e", "#bc6c25", "#e9c46a", "#4cc9f0", "#1d3557"), strict=True)
         for name, colour in styles:
-            axes.plot(times, far[name], color=colour, label=name)
+            axes.plot(times, far[name], "--" if "under" in name else "-", color=colour, label=name)
         axes.plot(times, far["MuJoCo"], "o", color="#1d3557", ms=4, label="the last in MuJoCo")
         axes.set(xscale="log", xlabel="duration of a ramp [s]", ylabel="displacement per cycle / L")
         axes.legend(frameon=False, fontsize=8)

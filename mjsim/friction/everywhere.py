@@ -6,9 +6,9 @@ more friction holds what vanishing viscosity would: the mean position of all con
 contact at the border of what the bounds leave open.
 """
 
+import math
+
 import mujoco
-import numpy as np
-from numpy.typing import NDArray
 
 from analytic.chain import node_positions
 from analytic.dissipation import minimisers
@@ -16,8 +16,6 @@ from analytic.patches import Finder, Patch
 from mjsim.bodies.parts import PREFIX
 from mjsim.friction.traction import Bounded
 from mjsim.scene import Numerics, Scene
-
-Array = NDArray[np.float64]
 
 _APART = 1e12  # divisor of a pulley that takes a node out of the mean
 
@@ -34,13 +32,16 @@ class BoundedContacts(Bounded):
         self._finder = Finder(scene.robot, nodes, press)
         self._half = 0.5 * scene.robot.length
         inner = [model.tendon(f"{PREFIX}grip_{node}").id for node in range(1, len(nodes) - 1)]
-        self._tendons = np.array([self._left, *inner, self._right])
+        self._tendons = [self._left, *inner, self._right]
+        self._bounds[self._tendons] = 0.0
+        self._held_by: list[int] = [self._both]
+        self._meant: list[int] = []
         begin = model.tendon_adr[self._both]
         self._divisors = model.wrap_prm[begin : begin + model.tendon_num[self._both] : 3]
         self._places = data.ten_length
         self._before = self._places.copy()
-        self._held = np.zeros(0, dtype=int)
-        self._holding = self._held
+        self._held: list[int] = []
+        self._holding: list[int] = []
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
         """See Traction.before_step."""
@@ -48,52 +49,59 @@ class BoundedContacts(Bounded):
         force, height = self._forces.by_node()
         sides = left and slopes[0] <= self._flat, right and slopes[1] <= self._flat
         contacts = self._finder.find(force, height, (self._half * sides[0], self._half * sides[1]))
-        self._bounds[self._tendons] = 0.0
-        self._bounds[self._both] = 0.0
-        if self._by_speed:
-            self._drag[self._tendons] = 0.0
-        self.left_slip, self._held = float("nan"), np.zeros(0, dtype=int)
+        for tendon in self._held_by:
+            self._bounds[tendon] = 0.0
+            self._drag[tendon] = 0.0
+        self.left_slip, self._held = float("nan"), []
         if not contacts:
             self.contact_left = self.contact_right = 0.0
+            self._held_by = []
             return
         self.contact_left, self.contact_right = contacts[0].length, contacts[-1].length
         nodes = [_middle(contact) for contact in contacts]
-        tendons = self._tendons[nodes]
-        bounds = np.array([
+        tendons = [self._tendons[node] for node in nodes]
+        bounds = [
             self._bound(tendon, contact.length, contact.load)
-            for tendon, contact in zip(tendons.tolist(), contacts, strict=True)
-        ])  # fmt: skip
-        self._bounds[tendons] = bounds
-        rates = self._rate[tendons]
+            for tendon, contact in zip(tendons, contacts, strict=True)
+        ]
+        for tendon, bound in zip(tendons, bounds, strict=True):
+            self._bounds[tendon] = bound
+        self._held_by = [*tendons, self._both]
+        rates = [self._rate.item(tendon) for tendon in tendons]
         low, high = minimisers(bounds, rates)
-        viscous = self._by_speed and self._drag[tendons].any()
+        viscous = self._by_speed and any(self._drag[tendon] for tendon in tendons)
         if high > low and self._level and not viscous:
             self._hold(nodes, rates, low, high)
         else:
-            slow = int(np.argmin(np.where(bounds > 0, np.abs(rates), np.inf)))
-            self._held = tendons[slow : slow + 1]
+            speeds = [abs(v) if bound else math.inf for v, bound in zip(rates, bounds, strict=True)]
+            self._held = [tendons[speeds.index(min(speeds))]]
 
     def after_step(self, dt: float) -> float:
         """See Traction.after_step."""
         excess, before, now = 0.0, self._before, self._places.copy()
         held, self._holding = self._holding, self._held
-        if len(held):
-            excess = float(np.mean(dt * self._rate[held] - (now[held] - before[held])))
-        self._before = now - excess
+        if held:
+            gone = [dt * self._rate.item(i) - now.item(i) + before.item(i) for i in held]
+            excess = sum(gone) / len(gone)
+            now -= excess
+        self._before = now
         return excess
 
-    def _hold(self, nodes: list[int], rates: Array, low: float, high: float) -> None:
+    def _hold(self, nodes: list[int], rates: list[float], low: float, high: float) -> None:
         """Hold what a tie leaves open."""
-        tendons = self._tendons[nodes]
-        mean = -float(rates.mean())
+        tendons = [self._tendons[node] for node in nodes]
+        mean = -sum(rates) / len(rates)
         if low < mean < high:
-            self._divisors[:] = _APART
-            self._divisors[nodes] = 1.0
+            if nodes != self._meant:
+                self._divisors[:] = _APART
+                self._divisors[nodes] = 1.0
+                self._meant = nodes
             self._bounds[self._both], self._held = self._tie, tendons
         else:
-            border = tendons[int(np.argmin(np.abs(rates + (low if mean <= low else high))))]
-            self._bounds[border] += self._tie
-            self._held = np.array([border])
+            border = low if mean <= low else high
+            off = [abs(rate + border) for rate in rates]
+            self._held = [tendons[off.index(min(off))]]
+            self._bounds[self._held[0]] += self._tie
 
 
 def _middle(contact: Patch) -> int:
