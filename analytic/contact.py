@@ -92,7 +92,7 @@ def flat_length(weight: float, total: Any, moment: Any) -> Any:
 
 def may_lie_flat(pressure: Any, peak_pressure: float) -> Any:
     """Whether an end segment at this pressure [Pa] may lie on its side: with next to none."""
-    return pressure <= PASSIVE * peak_pressure
+    return abs(pressure) <= PASSIVE * peak_pressure
 
 
 def end_loads(force: Array, height: Array) -> tuple[Array, Array]:

@@ -18,12 +18,13 @@ class Gait:
 
     Args:
         name: how commands and files call the gait.
-        stages: fractions of the peak pressure in [0, 1], left segment first; the last stage must
-            equal the first, so that cycles join.
+        stages: fractions of the peak pressure in [-1, 1], left segment first; the last stage must
+            equal the first, so that cycles join. Below 0 the pressure is on a segment's other face
+            and curls it up.
         ramp_time: duration of the linear ramp between two stages, one for all or one each [s].
 
     Raises:
-        ValueError: fewer than two stages, stages that are not alike many fractions in [0, 1], a
+        ValueError: fewer than two stages, stages that are not alike many fractions in [-1, 1], a
             cycle that does not close, or ramp times that are not positive and finite or not as many
             as ramps.
     """
@@ -40,8 +41,8 @@ class Gait:
         if len(self.stages) < 2:
             raise ValueError(f"stages must be at least two, got {len(self.stages)}")
         for stage in self.stages:
-            if not stage or not all(is_number(f) and 0 <= f <= 1 for f in stage):
-                raise ValueError(f"stages must hold a fraction in [0, 1] a segment, got {stage!r}")
+            if not stage or not all(is_number(f) and -1 <= f <= 1 for f in stage):
+                raise ValueError(f"stages must hold a fraction in [-1, 1] a segment, got {stage!r}")
             if len(stage) != self.segments:
                 raise ValueError(f"stages must have {self.segments} fractions each, got {stage!r}")
         if self.stages[0] != self.stages[-1]:

@@ -2,10 +2,13 @@
 
 import math
 from bisect import bisect_right
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from analytic.checks import file_word, is_number
-from analytic.surface import Ground, Surface
+from analytic.surface import RESISTANCES, Ground, Surface
+
+_SAMPLES = 16  # of a field along a side contact; chosen
 
 
 @dataclass(frozen=True)
@@ -56,3 +59,26 @@ def depends_on_speed(ground: Ground) -> bool:
     """Whether it resists anywhere by how fast it is slid over."""
     surfaces = ground.surfaces if isinstance(ground, Patches) else (ground.at(0.0),)
     return any(surface.depends_on_speed for surface in surfaces)
+
+
+def over(ground: Ground, begin: float, end: float) -> Surface:
+    """What a side contact between two places rests on: the mean of the ground's properties.
+
+    Bounds and viscous resistance are linear in them, so that theirs is the sum over the stretch.
+    """
+    if isinstance(ground, Surface) or end <= begin:
+        return ground.at(begin)
+    if isinstance(ground, Patches):
+        inner = [border for border in ground.borders if begin < border < end]
+        edges = [begin, *inner, end]
+    else:
+        edges = [begin + (end - begin) * i / _SAMPLES for i in range(_SAMPLES + 1)]
+    if len(edges) == 2:
+        return ground.at(begin)
+    pieces = [(ground.at(0.5 * (a + b)), (b - a) / (end - begin)) for a, b in pairwise(edges)]
+    means = {}
+    for name in RESISTANCES:
+        values = [getattr(surface, name) for surface, _ in pieces]
+        parts = zip(values, (part for _, part in pieces), strict=True)
+        means[name] = values[0] if len(set(values)) == 1 else sum(v * part for v, part in parts)
+    return replace(ground.at(0.5 * (begin + end)), **means)

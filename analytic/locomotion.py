@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from analytic.contact import end_loads
 from analytic.equilibria import ContactShapes, Shapes
 from analytic.friction import LAWS, Friction, slip_fraction
+from analytic.ground import over
 from analytic.surface import Ground, Surface
 from analytic.traction import motion
 
@@ -83,10 +84,11 @@ def along(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, ND
         change = shapes.separation[i + 1] - separation
         slips, surfaces, x = [], [], left[i]
         for j in (i, i + 1):
-            under = ground.at(x), ground.at(x + shapes.separation[j])
+            right = x + shapes.separation[j]
+            under = over(ground, x, x + contact[0][j]), over(ground, right - contact[1][j], right)
             ends = (law.bound(under[k], width, contact[k][j], load[k][j]) for k in (0, 1))
             slips.append(slip_fraction(next(ends), next(ends), downhill, change > 0))
-            surfaces.append(under)
+            surfaces.append((ground.at(x), ground.at(right)))
             x = left[i] - slips[0] * change  # where the second state would be by the first's rule
         left[i + 1] = left[i] - 0.5 * sum(slips) * change
         changes[i] = slips[0] != slips[1] or slips[0] != last or surfaces[0] != surfaces[1]

@@ -34,6 +34,15 @@ class Patch(NamedTuple):
     length: float
     load: float
 
+    def extent(self, x: Array) -> tuple[float, float]:
+        """Where it begins and ends, from the places of all nodes (N,) [m]."""
+        place = float(np.dot(self.share, x[self.nodes]))
+        if self.nodes == [0]:
+            return place, place + self.length
+        if self.nodes == [len(x) - 1]:
+            return place - self.length, place
+        return place - 0.5 * self.length, place + 0.5 * self.length
+
 
 class Finder:
     """Finds the contacts of one strip.
@@ -54,10 +63,10 @@ class Finder:
     ) -> list[Patch]:
         """The contacts of one state, left first.
 
-        The two ends are tips or sides as in analytic.contact. Between them a run of nodes on the
-        ground is a tip if it is one point, else a side whose length follows from its forces, as
-        that of an end: either half of it carries its weight and a push. There an inflated part may
-        lie flat too, held by the weight on both sides of it.
+        The two ends are tips or sides as in analytic.contact, unless they curl up. Between them a
+        run of nodes on the ground is a tip if it is one point, else a side whose length follows
+        from its forces, as that of an end: either half of it carries its weight and a push. There
+        an inflated part may lie flat too, held by the weight on both sides of it.
 
         Args:
             force: of the ground on the nodes, (N,) [N].
@@ -78,8 +87,9 @@ class Finder:
         for number, run in enumerate(runs):
             push = [force[node] for node in run]
             load = sum(push)
-            if number == 0 or number == len(runs) - 1:
-                end = 0 if number == 0 else len(force) - 1
+            end = 0 if number == 0 else len(force) - 1
+            outermost = number == 0 or number == len(runs) - 1
+            if outermost and height[end] <= self._lifted:
                 length = lengths[1 if end else 0]
                 if length and not whole:
                     length = self._side(run, push, self._place[end])

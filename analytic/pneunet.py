@@ -59,7 +59,7 @@ def natural_curvature(robot: Robot, pressure: ArrayLike) -> Array:
 
 def rigidity(robot: Robot, pressure: ArrayLike) -> Array:
     """D_p = D0 + eta p, the affine law the locomotion model uses [N m^2] (9)."""
-    return base_rigidity(robot) + rigidity_per_pressure(robot) * np.asarray(pressure, dtype=float)
+    return base_rigidity(robot) + rigidity_per_pressure(robot) * np.abs(pressure)
 
 
 def tangent_rigidity(robot: Robot, pressure: ArrayLike) -> Array:

@@ -69,7 +69,7 @@ class Surface:
 
     def scaled(self, factor: float) -> "Surface":
         """The same surface, so many times as resistant in every way."""
-        return replace(self, **{name: factor * getattr(self, name) for name in _RESISTANCES})
+        return replace(self, **{name: factor * getattr(self, name) for name in RESISTANCES})
 
     @property
     def depends_on_speed(self) -> bool:
@@ -97,7 +97,7 @@ class Surface:
         return self.viscosity * width * contact
 
 
-_RESISTANCES = ("tip_force", "shear_strength", "friction", "tip_friction", "viscosity")
+RESISTANCES = ("tip_force", "shear_strength", "friction", "tip_friction", "viscosity")
 
 
 class Ground(Protocol):

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from analytic.dissipation import least_dissipation, minimisers
 from analytic.equilibria import ContactShapes, Shapes
 from analytic.friction import LAWS, Friction
+from analytic.ground import over
 from analytic.patches import Patch, patches_of
 from analytic.surface import Ground
 
@@ -69,7 +70,7 @@ def _slide(
     """The motion of an increment [m], whether a tie decides it, and where a contact stays [m]."""
     law = LAWS[friction.law]
     bounds = np.array([
-        law.bound(ground.at(float(patch.share @ x[patch.nodes])), width, patch.length, patch.load)
+        law.bound(over(ground, *patch.extent(x)), width, patch.length, patch.load)
         for patch in contacts
     ])  # fmt: skip
     moves = np.array([patch.share @ step[patch.nodes] for patch in contacts])

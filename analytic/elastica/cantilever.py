@@ -28,7 +28,7 @@ def solve_cantilever(
         ValueError: the pressure is bad.
         ArithmeticError: no stable equilibrium was found on the way from the straight strip.
     """
-    (pressure,) = check_pressures(robot, pressure_pa)
+    (pressure,) = check_pressures(robot, pressure_pa, both_ways=chamber != "sealed")
     chain = Chain(robot, links, chamber, clamped=True)
     weight, state = chain.weight, chain.flat()
     done, step = 0.0, _FIRST

@@ -69,7 +69,7 @@ def solve_elastica(
         ValueError: the pressures are bad, there is no such chamber law, links is below 6, or
             sealed chambers do not fit them, or ground that changes along x is adhesive.
     """
-    p = check_pressures(robot, pressures_pa)
+    p = check_pressures(robot, pressures_pa, both_ways=chamber != "sealed")
     durations = np.full(len(p), np.inf)
     if times is not None:
         durations[1:] = np.diff(np.asarray(times, dtype=float))
@@ -110,7 +110,7 @@ def solve_elastica(
         if candidate is None:
             break
         last, state, here = state, candidate, p[i]
-        if _rolled_up(candidate):
+        if friction.contacts == "ends" and _rolled_up(candidate):
             status[i] = Status.ROLLED_UP
             continue
         y[i], theta[i] = candidate.y, candidate.theta

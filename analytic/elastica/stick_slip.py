@@ -17,6 +17,7 @@ from analytic.elastica.newton import Chain
 from analytic.elastica.state import ChainState
 from analytic.elastica.tractions import tractions
 from analytic.friction import LAWS, Friction
+from analytic.ground import over
 from analytic.patches import Finder, Patch
 from analytic.surface import Ground
 
@@ -98,7 +99,7 @@ class StickSlip:
         contacts = self._touching(state)
         robot, law = self._chain.robot, LAWS[self._friction.law]
         x = self._places(state) * robot.length
-        under = [self._ground.at(float(patch.share @ x[patch.nodes])) for patch in contacts]
+        under = [over(self._ground, *patch.extent(x)) for patch in contacts]
         bounds, drag = self._unit * np.array([
             (law.bound(surface, robot.width, patch.length, patch.load),
              surface.drag(robot.width, patch.length))

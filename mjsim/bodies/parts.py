@@ -119,7 +119,7 @@ def add_ends(
     """
     ends = {0: "end_left", len(nodes) - 1: "end_right"}
     constant = scene.friction != "coulomb"
-    everywhere = constant and scene.between
+    everywhere = scene.between
     names = [ends.get(node, f"node_{node}") for node in range(len(nodes))]
     for node, (name, (body, place)) in enumerate(zip(names, nodes, strict=True)):
         if everywhere or node in ends:
@@ -129,7 +129,8 @@ def add_ends(
     left, right, both = TENDONS
     _tie(spec, left, "far", names[:1], bound)
     _tie(spec, right, "far", names[-1:], bound)
-    _tie(spec, both, "far", names if everywhere else [names[0], names[-1]], bound)
+    mean = names if everywhere and constant else [names[0], names[-1]]
+    _tie(spec, both, "far", mean, bound)
     if everywhere:
         for node in range(1, len(nodes) - 1):
             _tie(spec, f"grip_{node}", "far", [names[node]], bound)

@@ -14,10 +14,64 @@ from analytic.chain import node_positions
 from analytic.dissipation import minimisers
 from analytic.patches import Finder, Patch
 from mjsim.bodies.parts import PREFIX
-from mjsim.friction.traction import Bounded
+from mjsim.friction.traction import Bounded, ContactFriction
 from mjsim.scene import Numerics, Scene
 
 _APART = 1e12  # divisor of a pulley that takes a node out of the mean
+
+
+def node_tendons(model: mujoco.MjModel, left: int, right: int, nodes: int) -> list[int]:
+    """Tendons of the nodes, left first, the ends' being known."""
+    return [left, *(model.tendon(f"{PREFIX}grip_{node}").id for node in range(1, nodes - 1)), right]
+
+
+class Anchors:
+    """Where friction holds the strip, and how far a step moved that by its order alone.
+
+    Attributes:
+        held: tendons of the nodes held in the coming step.
+    """
+
+    def __init__(self, data: mujoco.MjData) -> None:
+        self.held: list[int] = []
+        self._holding: list[int] = []
+        self._rate, self._places = data.ten_velocity, data.ten_length
+        self._before = self._places.copy()
+
+    def after_step(self, dt: float) -> float:
+        """See Traction.after_step; the mean over what is held."""
+        excess, before, now = 0.0, self._before, self._places.copy()
+        held, self._holding = self._holding, self.held
+        if held:
+            gone = [dt * self._rate.item(i) - now.item(i) + before.item(i) for i in held]
+            excess = sum(gone) / len(gone)
+            now -= excess
+        self._before = now
+        return excess
+
+
+class ContactFrictionEverywhere(ContactFriction):
+    """Coulomb friction of a strip that may be held between its ends; `left_slip` is NaN."""
+
+    def __init__(
+        self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
+    ) -> None:
+        super().__init__(scene, numerics, model, data)
+        self._tendons = node_tendons(model, self._left, self._right, numerics.links + 2)
+        self._anchors = Anchors(data)
+
+    def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
+        """See Traction.before_step."""
+        super().before_step(slopes, left, right)
+        self.left_slip = float("nan")
+        force, _ = self._forces.by_node()
+        held = [t for t, push in zip(self._tendons, force, strict=True) if push > 0.0]
+        rates = [abs(self._rate.item(tendon)) for tendon in held]
+        self._anchors.held = [held[rates.index(min(rates))]] if held else []
+
+    def after_step(self, dt: float) -> float:
+        """See Traction.after_step."""
+        return self._anchors.after_step(dt)
 
 
 class BoundedContacts(Bounded):
@@ -31,17 +85,13 @@ class BoundedContacts(Bounded):
         press = scene.ground.at(0.0).press(scene.robot.width)
         self._finder = Finder(scene.robot, nodes, press)
         self._half = 0.5 * scene.robot.length
-        inner = [model.tendon(f"{PREFIX}grip_{node}").id for node in range(1, len(nodes) - 1)]
-        self._tendons = [self._left, *inner, self._right]
+        self._tendons = node_tendons(model, self._left, self._right, len(nodes))
         self._bounds[self._tendons] = 0.0
         self._held_by: list[int] = [self._both]
         self._meant: list[int] = []
         begin = model.tendon_adr[self._both]
         self._divisors = model.wrap_prm[begin : begin + model.tendon_num[self._both] : 3]
-        self._places = data.ten_length
-        self._before = self._places.copy()
-        self._held: list[int] = []
-        self._holding: list[int] = []
+        self._anchors = Anchors(data)
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
         """See Traction.before_step."""
@@ -52,7 +102,7 @@ class BoundedContacts(Bounded):
         for tendon in self._held_by:
             self._bounds[tendon] = 0.0
             self._drag[tendon] = 0.0
-        self.left_slip, self._held = float("nan"), []
+        self.left_slip, self._anchors.held = float("nan"), []
         if not contacts:
             self.contact_left = self.contact_right = 0.0
             self._held_by = []
@@ -61,7 +111,7 @@ class BoundedContacts(Bounded):
         nodes = [_middle(contact) for contact in contacts]
         tendons = [self._tendons[node] for node in nodes]
         bounds = [
-            self._bound(tendon, contact.length, contact.load)
+            self._bound(tendon, contact.length, contact.load, self._inward(tendon))
             for tendon, contact in zip(tendons, contacts, strict=True)
         ]
         for tendon, bound in zip(tendons, bounds, strict=True):
@@ -74,18 +124,14 @@ class BoundedContacts(Bounded):
             self._hold(nodes, rates, low, high)
         else:
             speeds = [abs(v) if bound else math.inf for v, bound in zip(rates, bounds, strict=True)]
-            self._held = [tendons[speeds.index(min(speeds))]]
+            self._anchors.held = [tendons[speeds.index(min(speeds))]]
 
     def after_step(self, dt: float) -> float:
         """See Traction.after_step."""
-        excess, before, now = 0.0, self._before, self._places.copy()
-        held, self._holding = self._holding, self._held
-        if held:
-            gone = [dt * self._rate.item(i) - now.item(i) + before.item(i) for i in held]
-            excess = sum(gone) / len(gone)
-            now -= excess
-        self._before = now
-        return excess
+        return self._anchors.after_step(dt)
+
+    def _inward(self, tendon: int) -> float:
+        return {self._left: 1.0, self._right: 0.0}.get(tendon, 0.5)
 
     def _hold(self, nodes: list[int], rates: list[float], low: float, high: float) -> None:
         """Hold what a tie leaves open."""
@@ -96,12 +142,12 @@ class BoundedContacts(Bounded):
                 self._divisors[:] = _APART
                 self._divisors[nodes] = 1.0
                 self._meant = nodes
-            self._bounds[self._both], self._held = self._tie, tendons
+            self._bounds[self._both], self._anchors.held = self._tie, tendons
         else:
             border = low if mean <= low else high
             off = [abs(rate + border) for rate in rates]
-            self._held = [tendons[off.index(min(off))]]
-            self._bounds[self._held[0]] += self._tie
+            self._anchors.held = [tendons[off.index(min(off))]]
+            self._bounds[self._anchors.held[0]] += self._tie
 
 
 def _middle(contact: Patch) -> int:

@@ -2,7 +2,7 @@
 
 import mujoco
 
-from mjsim.friction.everywhere import BoundedContacts
+from mjsim.friction.everywhere import BoundedContacts, ContactFrictionEverywhere
 from mjsim.friction.traction import BoundedEnds, ContactFriction, Traction
 from mjsim.scene import Numerics, Scene
 
@@ -12,6 +12,7 @@ def traction(
 ) -> Traction:
     """The law of a scene at work."""
     if scene.friction == "coulomb":
-        return ContactFriction(scene, numerics, model, data)
-    kind = BoundedContacts if scene.between else BoundedEnds
-    return kind(scene, numerics, model, data)
+        by_load = ContactFrictionEverywhere if scene.between else ContactFriction
+        return by_load(scene, numerics, model, data)
+    bounded = BoundedContacts if scene.between else BoundedEnds
+    return bounded(scene, numerics, model, data)

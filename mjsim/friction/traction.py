@@ -13,7 +13,7 @@ from typing import Protocol
 import mujoco
 
 from analytic.friction import LAWS, slip_fraction
-from analytic.ground import depends_on_speed
+from analytic.ground import depends_on_speed, over
 from analytic.surface import Surface
 from mjsim.bodies.parts import PREFIX, TENDONS, contact_softness, tie_force
 from mjsim.friction.contact_length import ContactForces, pads_by_node
@@ -114,9 +114,19 @@ class Bounded(Ends):
             for pads, is_steep in zip(self._pads, steep, strict=True):
                 self._softness[pads, 0] = self._soft if is_steep else self._firm
 
-    def _bound(self, tendon: int, contact: float, load: float) -> float:
-        """Bound of a contact at a tendon's end; sets its viscous resistance too."""
-        surface = self._surface or self._ground.at(self._place.item(tendon) + self._far)
+    def _bound(self, tendon: int, contact: float, load: float, inward: float) -> float:
+        """Bound of a contact; sets its viscous resistance too.
+
+        Args:
+            tendon: that ends there.
+            contact: its length, 0 for a tip [m].
+            load: normal force [N].
+            inward: part of the length that lies beyond the tendon's end: 1, 1/2 or 0.
+        """
+        surface = self._surface
+        if surface is None:
+            begin = self._place.item(tendon) + self._far - (1.0 - inward) * contact
+            surface = over(self._ground, begin, begin + contact)
         bound = self._law.bound(surface, self._width, contact, load)
         if self._by_speed:
             bound *= surface.at_speed(self._rate.item(tendon))
@@ -149,8 +159,8 @@ class BoundedEnds(Bounded):
 
     def _set_bounds(self, contacts: tuple[float, float]) -> None:
         load_left, load_right = self._forces.loads() if self._law.needs_load else _UNLOADED
-        left = self._bound(self._left, contacts[0], load_left)
-        right = self._bound(self._right, contacts[1], load_right)
+        left = self._bound(self._left, contacts[0], load_left, 1.0)
+        right = self._bound(self._right, contacts[1], load_right, 0.0)
         self.left_slip = slip_fraction(left, right)
         tied = left == right and self._level
         if self._by_speed:

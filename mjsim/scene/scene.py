@@ -98,7 +98,7 @@ class Scene:
     def _check_turn(self) -> None:
         """Refuse pressures at which the strip closes into a circle, by the gait's fullest stage."""
         lengths = np.diff(self.robot.borders)
-        most = max(float(lengths @ np.array(stage)) for stage in self.gait.stages)
+        most = max(float(lengths @ np.abs(stage)) for stage in self.gait.stages)
         if most * pneunet.turn_number(self.robot) >= 2 * math.pi:
             limit = 2 * math.pi / pneunet.turn_number(self.robot) * self.robot.peak_pressure / most
             robot, hint = self.robot, ""

@@ -120,15 +120,15 @@ class Simulation:
         """Do one time step.
 
         Args:
-            valves: commanded pressures, left segment first, (S,) [Pa], at least 0.
+            valves: commanded pressures, left segment first, (S,) [Pa]; below 0 on the other face.
 
         Raises:
             ValueError: the commands are not of that kind.
         """
         command = np.asarray(valves, dtype=float)
-        if command.shape != self._pressure.shape or not (command >= 0).all():
+        if command.shape != self._pressure.shape or not np.isfinite(command).all():
             raise ValueError(
-                f"valves must be {len(self._pressure)} pressures of at least 0 Pa, got {valves!r}"
+                f"valves must be {len(self._pressure)} finite pressures [Pa], got {valves!r}"
             )
         if not self._stopped:
             self._play(command[None])

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from analytic import GAITS, SURFACES, Patches, Robot, predict
+from analytic.ground import over
 
 FELT, GELATIN = SURFACES["felt"], SURFACES["gelatin"]
 WAVE, LENGTH = GAITS["wave"], Robot().length
@@ -29,11 +30,31 @@ def test_far_from_the_border_it_walks_as_on_the_surface_it_is_on():
 
 
 def test_from_felt_onto_gelatin_it_stalls_at_the_seam():
-    """Forward on felt until its right end holds no more; then it stands."""
+    """Forward on felt until its right end stands on gelatin; then ever more slowly, by the part of
+    its side that still lies on felt.
+    """
     x = cycles(Patches("felt-gelatin", (0.15,), (FELT, GELATIN)), 9)
     assert (np.diff(x[:4]) > 0.03).all()
-    assert np.abs(np.diff(x[6:])).max() < 1e-3
+    assert np.diff(x[6:]).max() < 0.002
+    assert (np.diff(x[5:], 2) < 1e-5).all()
     assert x[-1] < 0.15 / LENGTH < x[-1] + 1
+
+
+def test_a_side_across_a_seam_rests_on_the_mean_of_both():
+    ground = Patches("felt-gelatin", (0.15,), (FELT, GELATIN))
+    mean = over(ground, 0.14, 0.18)
+    assert mean.shear_strength == pytest.approx(0.25 * FELT.shear_strength)
+    assert mean.tip_force == pytest.approx(0.75 * GELATIN.tip_force)
+    assert over(ground, 0.10, 0.14) == FELT
+    assert over(FELT, 0.14, 0.18) is FELT
+
+    class Field:
+        name = "field"
+
+        def at(self, x):
+            return FELT.scaled(x)
+
+    assert over(Field(), 1.0, 3.0).shear_strength == pytest.approx(2 * FELT.shear_strength)
 
 
 def test_the_mirrored_ground_takes_it_the_mirrored_way():

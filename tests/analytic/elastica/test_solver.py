@@ -11,6 +11,7 @@ from strategies import batches, groups, robot_from_groups, robots
 from analytic import (
     GAITS,
     SURFACES,
+    Friction,
     Mode,
     Robot,
     Status,
@@ -238,3 +239,25 @@ def test_a_strip_without_pressure_lies_flat():
 def test_a_chain_needs_6_links():
     with pytest.raises(ValueError, match="links"):
         solve_elastica(Robot(), [0, 0, 0], links=5)
+
+
+def test_a_segment_that_curls_up_is_the_arch_upside_down():
+    """Held at its middle by its weight, both ends up by kappa s^2 / 2, less what they weigh."""
+    robot = replace(Robot(), weight_per_length=0.02)
+    part = np.linspace(0, -0.1, 20)
+    path = part[:, None] * np.ones(3) * robot.peak_pressure
+    shapes = solve_elastica(robot, path, 120, friction=Friction(contacts="all"))
+    assert (shapes.status == 0).all()
+    kappa = float(pneunet.natural_curvature(robot, -path[-1, 0]))
+    _, y = shapes.curve(shapes.nodes)
+    assert y[-1, 0] == pytest.approx(kappa * (robot.length / 2) ** 2 / 2, rel=0.05)
+    assert y[-1, 0] == pytest.approx(y[-1, -1], abs=1e-6)
+
+
+def test_a_strip_that_is_mirrored_top_to_bottom_without_weight_bends_the_other_way():
+    robot = replace(Robot(), segments=(1.0,))
+    up, down = (
+        solve_cantilever(replace(robot, weight_per_length=1e-9), np.array([p]), 24)[1]
+        for p in (2e4, -2e4)
+    )
+    assert up == pytest.approx(-down, abs=1e-9)

@@ -46,7 +46,7 @@ def test_name_and_ramp_time_may_be_left_out(tmp_path):
 
 BAD = [
     ("stages = [[0, 0], [1, 0]]", "stages", "close"),
-    ("stages = [[0, 0], [2, 0], [0, 0]]", "stages", "[0, 1]"),
+    ("stages = [[0, 0], [2, 0], [0, 0]]", "stages", "[-1, 1]"),
     ("stages = [[0, 0], [1], [0, 0]]", "stages", "2 fractions"),
     ("stages = [[0], ['up'], [0]]", "stages", "'up'"),
     ("stages = [[0], [true], [0]]", "stages", "True"),
