@@ -1,6 +1,6 @@
 PY := .venv/bin/python
 
-.PHONY: run test check numbers scenes loop startup bench regression identify models gallery figures \
+.PHONY: run test check numbers scenes reach loop startup bench regression identify models gallery figures \
 	chart maps reference architecture clean
 
 run: .venv/ready
@@ -21,6 +21,9 @@ numbers: .venv/ready
 
 scenes: .venv/ready
 	$(PY) benchmarks/scenes.py
+
+reach: .venv/ready
+	$(PY) benchmarks/reach.py
 
 loop: .venv/ready
 	$(PY) benchmarks/loop.py
