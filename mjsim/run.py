@@ -2,9 +2,10 @@
 
 import hashlib
 import json
+import math
 import sys
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -48,8 +49,9 @@ class Options(SceneOptions):
     """
 
     tolerance: float | None = None
-    """of body auto, the cheapest numerics measured to meet it: relative error of the displacement
-    that the numerics may make, beside what inertia does; 0.02 if not given"""
+    """of body auto, which walks the scene ever finer, from the cheapest numerics measured to meet
+    it on, until two walks agree within it: relative error of the displacement that the numerics may
+    make, or 0.001 L, beside what inertia does; 0.02 if not given"""
     out: Path = Path("videos")
     """folder for the video and the trajectory, made if need be"""
     json: bool = False
@@ -62,10 +64,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv)
     try:
-        tables, auto = _bodies(tables_of(options), options.tolerance)
+        tables, tolerance = _bodies(tables_of(options), options.tolerance)
         cases = [build(table) for table in tables]
         check_folder(options.out)
-        records, walks = _walk(cases, options, auto)
+        records, walks = _walk(cases, options, tolerance)
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
 
@@ -86,15 +88,15 @@ def main(argv: Sequence[str] | None = None) -> int:
     return 0 if fine else FAILED
 
 
-def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables], bool]:
-    """The tables with the body and numerics that auto picks, if it is asked for."""
+def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables], float | None]:
+    """The tables, and the tolerance within which auto is to walk them, if it is asked for."""
     if tables[0]["numerics"].get("body") != AUTO:
         if tolerance is not None:
             body = tables[0]["numerics"].get("body", "planar")
             raise ValueError(f"tolerance is for body {AUTO}, got body {body!r}")
-        return tables, False
-    choice = cheapest(_TOLERANCE if tolerance is None else tolerance)
-    picked = {"body": choice.body, "links": choice.links, "timestep": choice.timestep}
+        return tables, None
+    tolerance = _TOLERANCE if tolerance is None else tolerance
+    choice = cheapest(tolerance)
     for table in tables:
         numerics = table["numerics"]
         both: list[str] = [key for key in ("links", "timestep") if key in numerics]
@@ -104,12 +106,12 @@ def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables]
             raise ValueError(
                 f"body {AUTO} picks links and timestep under constant friction, got {both[0]}"
             )
-        table["numerics"] = {**numerics, **picked}
-    return tables, True
+        table["numerics"] = {**numerics, "body": choice.body}
+    return tables, tolerance
 
 
 def _walk(
-    cases: list[tuple[Scene, Numerics]], options: Options, auto: bool
+    cases: list[tuple[Scene, Numerics]], options: Options, tolerance: float | None
 ) -> "tuple[list[dict[str, Any]], list[Trajectory]]":
     """Simulate each scene and save what came of it."""
     from mjsim.video import gl
@@ -120,7 +122,7 @@ def _walk(
 
     records, walks = [], []
     for scene, numerics in cases:
-        walk, note = _simulate(scene, numerics, auto)
+        walk, note = _simulate(scene, numerics, tolerance)
         origin = provenance(walk.scene, walk.numerics)
         failed = walk.status not in ("ok", "slid")
         path = options.out / f"{file_name(walk.scene, walk.numerics)}{'-failed' * failed}.nc"
@@ -134,23 +136,23 @@ def _walk(
     return records, walks
 
 
-def _simulate(scene: Scene, numerics: Numerics, auto: bool) -> "tuple[Trajectory, list[str]]":
+def _simulate(
+    scene: Scene, numerics: Numerics, tolerance: float | None
+) -> "tuple[Trajectory, list[str]]":
     """The walk, and what is to be said of the numerics that auto picked."""
+    from mjsim.simulation.checked import walk_checked
     from mjsim.simulation.simulation import simulate
 
     total = round(scene.duration / numerics.timestep)
     with bar(f"simulating {scene.ground.name}", total) as advance:
-        walk = simulate(scene, numerics, advance)
-        if not auto:
-            return walk, []
-        benchmark = replace(scene, ground=Scene.ground, cycles=1, body="planar") == Scene()
-        note = [] if benchmark else ["auto was measured on the benchmark scene only"]
-        if walk.status == "ok":
-            return walk, note
-        usual = Numerics()
-        walk = simulate(replace(scene, body="planar"), usual, advance)
-        return walk, [f"what auto picked failed, {usual.links} links at {usual.timestep:g} s "
-                      "were taken"]  # fmt: skip
+        if tolerance is None:
+            return simulate(scene, numerics, advance), []
+        found = walk_checked(scene, tolerance, advance)
+    last = found.tried[-1]
+    what = f"auto: {last.links} links at {last.timestep:g} s"
+    if not math.isfinite(found.error):
+        return found.walk, [f"{what}, alike at the two finest" if found.agreed else what]
+    return found.walk, [f"{what}, {'within' if found.agreed else 'off by'} {found.error:.4f} L"]
 
 
 def _film(walks: "list[Trajectory]", records: list[dict[str, Any]], out: Path) -> Path | None:

@@ -1,7 +1,7 @@
 """The cheapest body, links and time step that were measured to be accurate enough.
 
-Measured on the benchmark scene of mjsim.studies.accuracy, under constant bounds; on other scenes
-the tolerance is a hope, not a promise.
+Measured on the benchmark scene of mjsim.studies.accuracy, under constant bounds. On other scenes it
+is where mjsim.simulation.checked begins.
 """
 
 import csv

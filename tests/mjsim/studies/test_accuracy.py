@@ -167,9 +167,11 @@ def test_the_command_picks_a_body(tmp_path, capsys):
     words = ["--body", "auto", "--tolerance", "0.05", "--json", "--no-video"]
     assert run.main([*words, "--surface", "gelatin", "--out", str(tmp_path)]) == 0
     row, choice = json.loads(capsys.readouterr().out), cheapest(0.05)
-    assert (row["body"], row["links"], row["timestep_s"]) == (
-        choice.body, choice.links, choice.timestep,
-    )  # fmt: skip
+    assert row["body"] == choice.body
+    assert row["links"] >= choice.links
+    assert row["timestep_s"] < choice.timestep  # the second of two that agree
+    (note,) = row["prediction_notes"]
+    assert float(note.split("within ")[1].split()[0]) < 0.05 * abs(row["displacement_over_L"])
     assert abs(row["error_over_L"]) < 0.05 * abs(row["predicted_displacement_over_L"])
 
 

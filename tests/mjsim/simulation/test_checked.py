@@ -1,0 +1,50 @@
+"""Numerics that check themselves keep their word on scenes that nobody measured."""
+
+import itertools
+from dataclasses import replace
+
+import pytest
+
+from analytic import GAITS, SURFACES, Gait, Robot
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.checked import ladder, walk_checked
+from mjsim.simulation.measures import measure
+from mjsim.simulation.simulation import simulate
+
+HIGH = Scene(Robot(peak_pressure=60e3), ground=SURFACES["felt"])
+UNEVEN = Scene(Robot(segments=(1.0, 2.0, 3.0)), ground=SURFACES["gelatin"])
+FAST = Scene(gait=replace(GAITS["wave"], ramp_time=0.3), ground=SURFACES["felt"])
+FOUR = Scene(
+    Robot(segments=(1.0,) * 4),
+    Gait("four", ((0,) * 4, (1, 0, 0, 0), (1, 1, 0, 0), (0, 0, 1, 1), (0, 0, 0, 1), (0,) * 4)),
+    SURFACES["polyethylene"],
+)
+
+
+@pytest.mark.parametrize(
+    "scene", [HIGH, UNEVEN, FAST, FOUR], ids=["high", "uneven", "fast", "four"]
+)
+def test_the_distance_is_that_of_fine_numerics_within_the_tolerance(scene):
+    found = walk_checked(scene, 0.02)
+    exact = measure(simulate(scene, Numerics(links=48, timestep=0.001))).displacement
+    assert found.agreed
+    assert measure(found.walk).displacement == pytest.approx(exact, rel=0.02, abs=0.001)
+
+
+def test_a_robot_that_falls_is_said_to_fall_by_two_fine_walks():
+    heavy = Scene(Robot(weight_per_length=2.0, chamber_height=4.1e-3, peak_pressure=80e3))
+    found = walk_checked(heavy, 0.02)
+    assert found.walk.status == "toppled"
+    assert found.agreed
+    assert found.tried[-1].timestep <= 0.005
+
+
+def test_each_walk_is_finer_than_the_one_before_and_steps_follow_the_ramps():
+    for scene in (HIGH, FAST, FOUR):
+        steps = list(ladder(scene, 0.02))
+        assert len(steps) > 2
+        for one, two in itertools.pairwise(steps):
+            assert two.links >= one.links
+            assert two.timestep <= one.timestep
+        assert steps[0].timestep <= min(scene.gait.ramp_times) / 40 + 1e-12
+    assert all(numerics.links % 4 == 0 for numerics in ladder(FOUR, 0.02))
