@@ -1,6 +1,6 @@
 PY := .venv/bin/python
 
-.PHONY: run test check numbers scenes reach loop startup bench regression identify models gallery figures \
+.PHONY: run test check numbers scenes reach auto loop startup bench regression identify models gallery figures \
 	chart maps reference architecture clean
 
 run: .venv/ready
@@ -24,6 +24,9 @@ scenes: .venv/ready
 
 reach: .venv/ready
 	$(PY) benchmarks/reach.py
+
+auto: .venv/ready
+	$(PY) benchmarks/auto.py
 
 loop: .venv/ready
 	$(PY) benchmarks/loop.py

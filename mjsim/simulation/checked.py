@@ -18,6 +18,8 @@ from mjsim.simulation.trajectory import Trajectory
 
 # links of a robot of three segments and time step [s], each finer than the one before; chosen
 _FINER = ((24, 0.020), (24, 0.005), (48, 0.005), (48, 0.001))
+# links a segment of other robots; contacts between the ends need them finer from the start
+_PARTS, _PARTS_BETWEEN = (6, 12, 12, 24, 24), (8, 16, 24, 24, 32)
 _STEPS_A_RAMP = 40
 _SHORT = 1e-3  # of the length: less is as good as the same, whatever the tolerance
 
@@ -63,14 +65,13 @@ def ladder(scene: Scene, tolerance: float) -> Iterator[Numerics]:
     """Numerics for a scene, each finer than the one before."""
     first = cheapest(tolerance)
     segments, shortest = len(scene.robot.segments), min(scene.gait.ramp_times)
+    parts = _PARTS_BETWEEN if scene.between else _PARTS
     last: tuple[int, float] | None = None
-    for links, timestep in ((first.links, first.timestep), *_FINER):
-        # whole elements of every segment in pairs, as Simpson's weights need them
-        part = max(2, 2 * round(links / 6)) if segments > 3 else 0
-        pair = (
-            min(MAX_LINKS, part * segments) if part else links,
-            min(timestep, shortest / _STEPS_A_RAMP),
-        )
+    rungs = ((first.links, first.timestep), *_FINER)
+    for part, (links, timestep) in zip(parts, rungs, strict=True):
+        if segments > 3 or scene.between:
+            links = min(MAX_LINKS, part * segments)
+        pair = (links, min(timestep, shortest / _STEPS_A_RAMP))
         if last is None or (pair[0] >= last[0] and pair[1] <= last[1] and pair != last):
             last = pair
             yield Numerics(links=pair[0], timestep=pair[1])
