@@ -144,8 +144,9 @@ def hold_sideways(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None
     if scene.friction == "coulomb":
         return
     spec.worldbody.add_site(name="aside", pos=(0.0, -_FARTHER, 0.0), group=4)
-    for end in ("left", "right"):
-        _tie(spec, f"aside_{end}", "aside", (f"end_{end}",), tie_force(scene, numerics))
+    sites = [site.name for site in spec.sites if site.name.startswith(("end_", "node_"))]
+    for site in sites:
+        _tie(spec, f"aside_{site}", "aside", (site,), tie_force(scene, numerics))
 
 
 def tie_force(scene: Scene, numerics: Numerics) -> float:

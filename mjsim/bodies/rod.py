@@ -74,6 +74,10 @@ class Rod:
             body.inertia = [mass[i] * _RADIUS**2] * 3  # a point does not turn
             parts.add_pads(body, scene, numerics, i, [(0.0, 0.0, 0.0)])
         parts.add_ends(spec, scene, [(body, (0.0, 0.0, 0.0)) for body in bodies])
+        for i, body in enumerate(bodies):
+            # a rod has no width: every vertex is kept in the plane, not its ends alone
+            if not body.sites and scene.friction != "coulomb":
+                body.add_site(name=f"node_{i}", size=[6e-4] * 3, group=4)
         parts.hold_sideways(spec, scene, numerics)
         return spec
 

@@ -1,13 +1,16 @@
 """The bodies in space walk as the planar one does, and say so if they leave its plane."""
 
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 import pytest
 from walks import measured
 
 import mjsim.simulation.simulation as simulation
-from analytic import SURFACES, Friction, Robot, predict
+from analytic import GAITS, SURFACES, Friction, Gait, Robot, pneunet, predict
 from analytic.chain import joint_springs
+from analytic.surface import from_ratios
 from mjsim import registry
 from mjsim.mjcf.builder import compile_model
 from mjsim.scene import Numerics, Scene
@@ -135,3 +138,26 @@ def test_couples_on_a_rod_are_in_balance():
     assert np.abs(force).max() > 0.1
     assert np.abs(force.sum(axis=0)).max() < 1e-12
     assert abs(turning.sum()) < 1e-12
+
+
+@pytest.mark.parametrize("gamma", [8.0, 30.0])
+def test_a_rod_stays_in_its_plane_on_robots_that_nobody_chose(gamma):
+    """It has no width to stand on: held at its ends alone one in four turned aside."""
+    robot = pneunet.with_load(Robot(peak_pressure=50e3, chamber_height=4.1e-3), gamma)
+    for gait in (GAITS["pulse"], GAITS["full-wave"]):
+        walk = simulation.simulate(Scene(robot, gait, from_ratios("any", 1.0, 1.0), body="rod"))
+        assert walk.status is Status.OK
+        assert np.abs(walk.position[..., 1]).max() < 1e-3 * robot.length
+
+
+def test_cable_and_rod_are_held_between_their_ends_too():
+    stages = ((0,) * 5, (1, 0, 0, 1, 0), (0, 1, 0, 0, 1), (0, 0, 1, 0, 0), (0,) * 5)
+    robot, gait = Robot(length=0.13 * 5 / 3, segments=(1.0,) * 5), Gait("two", stages, 4.0)
+    scene = Scene(robot, gait, SURFACES["polyethylene"])
+    assert scene.between
+    planar, cable, rod = (
+        measure(simulation.simulate(replace(scene, body=body), Numerics(links=30))).displacement
+        for body in ("planar", "cable", "rod")
+    )
+    assert cable == pytest.approx(planar, abs=5e-4)
+    assert rod == pytest.approx(planar, abs=1e-3)
