@@ -120,12 +120,17 @@ def test_the_error_of_a_slow_walk_is_of_second_order_in_the_links(case):
 
 
 def test_nothing_is_both_cheaper_and_more_accurate_than_the_default():
-    """But for a thousandth of the distance, which is chance on one scene."""
+    """But for numerical scatter: by how much its error changes as its time step shrinks."""
     for ground in GROUNDS[WALK]:
         here = [row for row in read() if (row.case, row.scene) == (WALK, ground)]
         usual = next(row for row in here if figure.is_default(row))
         assert usual.error < 0.002
-        assert not any(row.cost < usual.cost and row.error < usual.error - 0.001 for row in here)
+        like = [row.error for row in here
+                if (row.method, row.integrator, row.links) == ("planar", "discrete", usual.links)
+                and row.timestep <= 2 * usual.timestep]  # fmt: skip
+        scatter = max(like) - min(like)
+        assert scatter < 0.005
+        assert not any(row.cost < usual.cost and row.error < usual.error - scatter for row in here)
 
 
 def test_engines_that_share_no_code_agree_with_the_elastica_on_the_distance():
