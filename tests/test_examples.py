@@ -83,6 +83,7 @@ def test_strong_friction_turns_the_robot_round_as_theory_says():
     assert rows[-1][2] < -0.01 < rows[0][2]
 
 
+@pytest.mark.slow
 def test_a_crossing_stalls_where_theory_says():
     walked, theory = example("crossing")()
     assert walked == pytest.approx(theory, abs=0.02 * 0.13)
@@ -108,6 +109,7 @@ def test_wet_ground_turns_a_slow_robot_round():
         assert far[name][0] == far[name][1]
 
 
+@pytest.mark.slow
 def test_a_robot_goes_farther_on_sticky_ground():
     far = example("sticky_ground")()
     for pairs in far.values():
@@ -117,6 +119,7 @@ def test_a_robot_goes_farther_on_sticky_ground():
         assert found_there == pytest.approx(strong, rel=0.06)
 
 
+@pytest.mark.slow
 def test_the_piezo_inchworm_goes_as_in_the_simulator_that_others_published():
     """-0.5 to -1.1 mm a cycle there, +0.9 to +1.1 mm with the mirrored gait.
 

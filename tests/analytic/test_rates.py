@@ -24,6 +24,7 @@ def test_friction_is_static_at_rest_and_kinetic_beyond_the_stribeck_speed():
     assert slick.at_speed(0.1) == pytest.approx(1.0)
 
 
+@pytest.mark.slow
 def test_a_film_alone_walks_as_felt_does_however_fast():
     """Only sides hold, and what they hold is only asked to be more than nothing."""
     felt = predict(Robot(), GAITS["wave"], SURFACES["felt"]).locomotion.per_cycle / Robot().length

@@ -69,6 +69,7 @@ def test_without_adhesion_its_reach_is_of_no_account():
     assert (one.separation == two.separation).all()
 
 
+@pytest.mark.slow
 def test_the_stickier_the_farther_either_way():
     """A side that sticks stays long as the arch grows, and so holds for longer."""
     bent = Friction(tension=1.0)

@@ -150,6 +150,7 @@ def test_a_rod_stays_in_its_plane_on_robots_that_nobody_chose(gamma):
         assert np.abs(walk.position[..., 1]).max() < 1e-3 * robot.length
 
 
+@pytest.mark.slow
 def test_cable_and_rod_are_held_between_their_ends_too():
     stages = ((0,) * 5, (1, 0, 0, 1, 0), (0, 1, 0, 0, 1), (0, 0, 1, 0, 0), (0,) * 5)
     robot, gait = Robot(length=0.13 * 5 / 3, segments=(1.0,) * 5), Gait("two", stages, 4.0)
