@@ -17,7 +17,7 @@ def test_random_scenes_at_4_s_a_ramp_are_the_elastica_s():
     """
     seed = secrets.randbits(32)
     print(f"seed {seed}")  # shown where it fails
-    drawn = cases(seed)
+    drawn = cases(seed, sensitive=False)
     error = report(drawn, 4.0, Numerics())
     distance = np.abs([case.reference for case in drawn])
     assert np.median(error / distance) < 0.02
