@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from analytic.ground import depends_on_speed
 from analytic.locomotion import Direction, direction
 from mjsim.simulation.judge import slid
 from mjsim.simulation.status import Status
@@ -19,7 +20,7 @@ class Measures(NamedTuple):
         direction: of it.
         amplitude: greatest height.
         unexplained: displacement per cycle that the anchor rule does not account for; NaN where
-            more than the two ends are held.
+            more than the two ends are held or the ground resists by speed.
         heading: the angle it turned by to the left [rad].
         sideways: how far any of it ever was beside its plane.
     """
@@ -47,6 +48,8 @@ def measure(walk: Trajectory) -> Measures | None:
     left = x[begin:, 0]
     change = np.diff(x[begin:, -1] - left)
     ruled = -float(walk.left_slip_fraction[begin + 1 :] @ change)
+    if depends_on_speed(walk.scene.ground):
+        ruled = math.nan  # both ends slide, by their viscous resistance
     travel = float(left[-1] - left[0])
     along, aside, _ = walk.position[-1, -1] - walk.position[-1, 0]
     return Measures(
