@@ -38,9 +38,9 @@ class Options(SceneOptions):
     reference; error, their difference; unexpl., the part of Δ/L that the anchor rule does not
     explain, which inertia drags along (none on wet ground and where friction acts between the ends
     too); height/L, the greatest height; sim s, wall s, × real: simulated time, time that the
-    stepping took, and their ratio; status, ok or how it failed, in brackets what limits the reference: jumped,
-    friction lets go at once somewhere; branch_end, no stable shape goes on; undecided, what hangs
-    on ties. --json has the same with units in its keys.
+    stepping took, and their ratio; status, ok or how it failed, in brackets what limits the
+    reference: jumped, friction lets go at once somewhere; branch_end, no stable shape goes on;
+    undecided, what hangs on ties. --json has the same with units in its keys.
 
     Exit code 0: done; 2: bad input; 3: the simulation failed.
 
