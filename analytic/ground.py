@@ -55,10 +55,20 @@ class Patches:
         return list(zip(places[:-1], places[1:], self.surfaces, strict=True))
 
 
+def surfaces_of(ground: Ground) -> tuple[Surface, ...]:
+    """Every surface of patches; of another ground the one at x = 0."""
+    return ground.surfaces if isinstance(ground, Patches) else (ground.at(0.0),)
+
+
 def depends_on_speed(ground: Ground) -> bool:
     """Whether it resists anywhere by how fast it is slid over."""
-    surfaces = ground.surfaces if isinstance(ground, Patches) else (ground.at(0.0),)
-    return any(surface.depends_on_speed for surface in surfaces)
+    return any(surface.depends_on_speed for surface in surfaces_of(ground))
+
+
+def check_adhesion(ground: Ground) -> None:
+    """Raise ValueError for patches that are adhesive anywhere."""
+    if isinstance(ground, Patches) and any(surface.adhesion for surface in ground.surfaces):
+        raise ValueError(f"adhesion must be of uniform ground, got {ground.name!r}")
 
 
 def over(ground: Ground, begin: float, end: float) -> Surface:

@@ -19,7 +19,7 @@ from analytic.elastica.state import ChainState
 from analytic.elastica.stick_slip import StickSlip
 from analytic.equilibria import ContactShapes, Status
 from analytic.friction import Friction
-from analytic.ground import Patches
+from analytic.ground import check_adhesion
 from analytic.pressures import check_pressures
 from analytic.robot import Robot
 from analytic.surface import Ground
@@ -76,9 +76,10 @@ def solve_elastica(
     if links < 6:
         raise ValueError(f"links must be at least 6, got {links}")
     friction = friction or Friction()
-    if isinstance(ground, Patches) and any(surface.adhesion for surface in ground.surfaces):
-        raise ValueError(f"adhesion must be of uniform ground, got {ground.name!r}")
-    surface = ground.at(0.0) if ground else None
+    surface = None
+    if ground:
+        check_adhesion(ground)
+        surface = ground.at(0.0)
     chain = Chain(robot, links, chamber, slope=friction.slope, surface=surface)
     stick_slip = None
     if ground and friction.tension:

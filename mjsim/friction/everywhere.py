@@ -97,7 +97,7 @@ class BoundedContacts(Bounded):
         """See Traction.before_step."""
         self._soften_if_steep(slopes)
         force, height = self._forces.by_node()
-        sides = left and slopes[0] <= self._flat, right and slopes[1] <= self._flat
+        sides = self._on_side(slopes, left, right)
         contacts = self._finder.find(force, height, (self._half * sides[0], self._half * sides[1]))
         for tendon in self._held_by:
             self._bounds[tendon] = 0.0

@@ -81,8 +81,12 @@ class Ends:
         self, slopes: tuple[float, float], left: bool, right: bool
     ) -> tuple[tuple[bool, bool], tuple[float, float]]:
         """Whether each end lies on its side, and over what length."""
-        left, right = left and slopes[0] <= self._flat, right and slopes[1] <= self._flat
-        return (left, right), self._forces.lengths(left, right) if left or right else _TIPS
+        sides = left, right = self._on_side(slopes, left, right)
+        return sides, self._forces.lengths(left, right) if left or right else _TIPS
+
+    def _on_side(self, slopes: tuple[float, float], left: bool, right: bool) -> tuple[bool, bool]:
+        """Whether each end lies on its side: it may, and is as good as flat."""
+        return left and slopes[0] <= self._flat, right and slopes[1] <= self._flat
 
     def _see_who_moves(self) -> None:
         left, right = abs(self._rate.item(self._left)), abs(self._rate.item(self._right))

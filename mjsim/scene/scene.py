@@ -11,7 +11,7 @@ from analytic.chain import CHAMBER_LAWS
 from analytic.checks import not_negative, one_of, positive, slope, whole
 from analytic.friction import LAWS, Friction
 from analytic.gait import GAITS, Gait
-from analytic.ground import Patches, depends_on_speed
+from analytic.ground import check_adhesion, depends_on_speed, surfaces_of
 from analytic.robot import GRAVITY, Robot
 from analytic.surface import SURFACES, Ground
 from mjsim import registry
@@ -77,18 +77,14 @@ class Scene:
                 f"the robot has {len(self.robot.segments)}"
             )
         self._check_turn()
-        surfaces = (
-            self.ground.surfaces if isinstance(self.ground, Patches) else (self.ground.at(0),)
-        )
         if self.friction == "coulomb" and depends_on_speed(self.ground):
             raise ValueError(
                 f"surface {self.ground.name!r} resists by speed: friction must be constant, not "
                 "coulomb"
             )
-        if isinstance(self.ground, Patches) and any(surface.adhesion for surface in surfaces):
-            raise ValueError(f"adhesion must be of uniform ground, got {self.ground.name!r}")
+        check_adhesion(self.ground)
         acts = LAWS[self.friction].acts_on
-        if not any(acts(surface) or surface.viscosity for surface in surfaces):
+        if not any(acts(surface) or surface.viscosity for surface in surfaces_of(self.ground)):
             raise ValueError(
                 f"surface {self.ground.name!r} resists by nothing under friction {self.friction}; "
                 "give tip_force, shear_strength or viscosity (constant), friction or tip_friction "
