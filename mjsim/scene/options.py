@@ -30,6 +30,14 @@ _GaitOptions = optional(
                           "as in 000,100,110,011,001,000", "of gait wave"), field(default=None)),
         ("ramp_time", option(str, "duration of the ramp between two stages, one for all or one "
                              "each with commas between [s]", 2.0), field(default=None)),
+        ("lag", option(float, "in place of stages: part of the cycle from one segment's inflation "
+                       "to the next one's", "of gait wave, 0.2"), field(default=None)),
+        ("duty", option(float, "part of the cycle for which a segment holds more than half the "
+                        "peak pressure", "of gait wave, 0.4"), field(default=None)),
+        ("ramp", option(float, "part of the cycle that a rise or a fall takes",
+                        "of gait wave, 0.2"),
+         field(default=None)),
+        ("period", option(float, "of the cycle of such a gait [s]", 10.0), field(default=None)),
     ],
 )  # fmt: skip
 _GroundOptions = optional(

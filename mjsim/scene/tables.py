@@ -1,7 +1,8 @@
 """Scenes as tables of plain values, from TOML files and from the command line.
 
     [robot]     fields of analytic.Robot, in SI units
-    [gait]      name of a gait, or stages and ramp_time, or file of a TOML table of these
+    [gait]      name of a gait, or stages and ramp_time, or lag, duty, ramp and period of
+                analytic.trapezoid, or file of a TOML table of these
     [ground]    surface, a name; or fields of analytic.Surface; slope_deg; or patches beside each
                 other, [[ground.patches]] with `from` [m] and a surface
     [numerics]  body, friction, cycles, ... of mjsim.Scene, and fields of mjsim.Numerics
@@ -23,6 +24,7 @@ from analytic.gait import GAITS, Gait
 from analytic.ground import Patches
 from analytic.robot import Robot
 from analytic.surface import SURFACES, Ground, Surface
+from analytic.trapezoid import trapezoid
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene
 
@@ -34,9 +36,10 @@ NAMES = ("robot", "gait", "ground", "numerics")
 SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation", "lag", "gravity",
                 "settle_time")  # fmt: skip
 SURFACE_FIELDS = tuple(field.name for field in fields(Surface) if field.name != "name")
+TRAPEZOID = ("lag", "duty", "ramp")
 _KEYS: dict[str, tuple[str, ...]] = {
     "robot": tuple(field.name for field in fields(Robot)),
-    "gait": ("name", "stages", "ramp_time", "reverse", "file"),
+    "gait": ("name", "stages", "ramp_time", *TRAPEZOID, "period", "reverse", "file"),
     "ground": ("surface", *SURFACE_FIELDS, "slope_deg", "patches"),
     "numerics": (*SCENE_FIELDS, *(field.name for field in fields(Numerics))),
 }
@@ -69,7 +72,7 @@ def check_keys(name: str, table: Mapping[str, Any], where: str = "") -> None:
 def merged(*layers: Tables) -> Tables:
     """Tables laid over each other, the later ones above.
 
-    A surface by name or a gait by name, stages or file replaces what a lower layer says of it.
+    A surface by name or a gait by name, stages, lag or file replaces what a lower layer says of it.
     """
     result: Tables = {name: {} for name in NAMES}
     for layer in layers:
@@ -77,9 +80,9 @@ def merged(*layers: Tables) -> Tables:
             if name == "ground" and {"surface", "patches"} & table.keys():
                 kept = {k: v for k, v in result[name].items() if k == "slope_deg"}
                 result[name] = kept
-            if name == "gait" and {"name", "stages", "file"} & table.keys():
-                kept = {k: v for k, v in result[name].items() if k in ("ramp_time", "reverse")}
-                result[name] = kept
+            if name == "gait" and {"name", "stages", "file", *TRAPEZOID} & table.keys():
+                own = (*TRAPEZOID, "period") if {*TRAPEZOID} & table.keys() else ("ramp_time",)
+                result[name] = {k: v for k, v in result[name].items() if k in (*own, "reverse")}
             result[name] = {**result[name], **table}
     return result
 
@@ -91,7 +94,7 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
         ValueError: a value cannot be; the message names its table and key.
     """
     robot = make(Robot, tables.get("robot", {}), f"{where}[robot] ")
-    gait = build_gait(tables.get("gait", {}), f"{where}[gait] ")
+    gait = build_gait(tables.get("gait", {}), f"{where}[gait] ", len(robot.segments))
     ground = tables.get("ground", {})
     slope = ground.get("slope_deg", 0.0)
     if not is_number(slope):
@@ -154,20 +157,22 @@ def build_surface(table: Table, where: str = "") -> Surface:
     return make(Surface, given, where, name=name)
 
 
-def build_gait(table: Table, where: str = "") -> Gait:
-    """A named gait, one of given stages, or one from a file; reversed and timed as given."""
+def build_gait(table: Table, where: str = "", segments: int = 3) -> Gait:
+    """A named gait, one of given stages, of a lag, or from a file; reversed and timed as given."""
     table = dict(table)
     if "file" in table:
         path = Path(str(table.pop("file")))
         content = _toml(path, "gait")
         content.setdefault("name", path.stem)
         check_keys("gait", content, f"gait {str(path)!r}: ")
-        if "stages" not in content:
+        if "stages" not in content and not {*TRAPEZOID} & content.keys():
             raise ValueError(f"gait {str(path)!r}: stages is missing")
         table = {**content, **table}
         where = f"gait {str(path)!r}: "
     backward = table.pop("reverse", False)
-    if "stages" in table:
+    if {*TRAPEZOID} & table.keys():
+        gait = _trapezoid(table, where, segments)
+    elif "stages" in table:
         table.setdefault("name", "custom")
         gait = make(Gait, table, where)
     else:
@@ -177,6 +182,21 @@ def build_gait(table: Table, where: str = "") -> Gait:
         if table:
             gait = replace(gait, **_checked(Gait, table, where))
     return gait.reversed() if backward else gait
+
+
+def _trapezoid(table: Table, where: str, segments: int) -> Gait:
+    name = table.pop("name", None)
+    for key in table:
+        if key not in (*TRAPEZOID, "period"):
+            raise ValueError(f"{where}{key} or lag, duty and ramp must be given, not both")
+    missing = [key for key in TRAPEZOID if key not in table]
+    if missing:
+        raise ValueError(f"{where}{missing[0]} is missing; a gait has lag, duty and ramp")
+    try:
+        gait = trapezoid(**table, segments=segments)
+        return gait if name is None else replace(gait, name=name)
+    except ValueError as error:
+        raise ValueError(f"{where}{error}") from error
 
 
 def make(kind: type[Kind], table: Mapping[str, Any], where: str = "", **more: Any) -> Kind:

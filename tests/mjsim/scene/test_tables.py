@@ -8,6 +8,7 @@ import tyro
 from walks import refusal
 
 from analytic import GAITS, SURFACES, Gait, Robot, Surface
+from analytic.trapezoid import trapezoid
 from mjsim import Scene
 from mjsim.io.options import field_docs
 from mjsim.scene import Numerics
@@ -87,6 +88,18 @@ def test_a_gait_may_be_named_reversed_and_timed():
     assert scene.gait == replace(GAITS["pulse"], ramp_time=3.0).reversed()
 
 
+def test_a_gait_may_be_given_by_lag_duty_and_ramp(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text("[robot]\nsegments = [1, 1, 1, 1]\n[gait]\nlag = 0.25\nduty = 0.5\nramp = 0.1\n"
+                    "period = 8\n")  # fmt: skip
+    scene, _ = build(read_tables(path))
+    assert scene.gait == trapezoid(0.25, 0.5, 0.1, segments=4, period=8.0)
+    ((over, _),) = parsed("--scene", str(path), "--gait.lag", "-0.25", "--gait.period", "6")
+    assert over.gait == trapezoid(-0.25, 0.5, 0.1, segments=4, period=6.0)
+    ((named, _),) = parsed("--gait", "pulse")
+    assert named.gait == GAITS["pulse"]
+
+
 def test_several_surfaces_are_several_scenes():
     assert [scene.ground.name for scene, _ in parsed("--surface", "all")] == list(SURFACES)
     names = [scene.ground.name for scene, _ in parsed("--surface", "gelatin,felt")]
@@ -94,6 +107,10 @@ def test_several_surfaces_are_several_scenes():
 
 
 BAD = [
+    ("[gait]\nlag = 0.2", "duty", "missing"),
+    ("[gait]\nlag = 0.2\nduty = 0.4\nramp = 0.5", "0.5", "at most 0.4"),
+    ("[gait]\nlag = 0.2\nduty = 0.4\nramp = 0.1\nramp_time = 2", "ramp_time", "not both"),
+    ("[gait]\nlag = 'x'\nduty = 0.4\nramp = 0.1", "'x'", "lag"),
     ("[robot]\nlenght = 0.1", "'lenght'", "length"),
     ("[robot]\nlength = 'long'", "length", "a number"),
     ("[robot]\nlength = -1", "length", "positive"),
