@@ -1,0 +1,29 @@
+"""How sure a predicted displacement is: what the modes assume, and what a finer solver changes."""
+
+import math
+
+import numpy as np
+
+from analytic.equilibria import Status
+from analytic.prediction import Prediction
+
+# flags of shapes that are no equilibrium: somewhere the ground would have to pull, or hold a
+# moment. Several roots alone are no such thing, the one taken is the stable one
+UNSOUND = Status.NO_ROOT | Status.PENETRATES | Status.BOTH_FLAT | Status.HELD_FLAT
+
+
+def modes_error(prediction: Prediction) -> float:
+    """Bound on the error that the modes' assumed contacts make in the displacement per cycle [m].
+
+    Where no state is flagged, the modes are the equilibria of exact contact and the bound is 0. In
+    increments that begin or end in a state that is no equilibrium (UNSOUND) nothing is known of who
+    slides, and all change of separation in them may be wrong; measured on random gaits, it is about
+    five times the error against exact contact and nowhere less. Without a displacement, infinite.
+    Solvers with exact contact raise none of these flags: 0.
+    """
+    if math.isnan(prediction.locomotion.per_cycle):
+        return math.inf
+    shapes = prediction.shapes
+    unsound = (shapes.status & int(UNSOUND)) != 0
+    change = np.abs(np.diff(shapes.separation))
+    return float(change[unsound[1:] | unsound[:-1]].sum()) / prediction.cycles
