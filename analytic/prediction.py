@@ -126,14 +126,21 @@ class Prediction(NamedTuple):
         shapes: their equilibria.
         locomotion: displacements along them.
         flags: every flag that a state carries.
-        cycles: how many the states are of.
+        by_cycle: displacement of the left end in each cycle, shape (C,) [m]. On uniform ground the
+            last one is locomotion.per_cycle; the first may differ where a gait starts inflated or
+            chambers lag. On ground that changes along x per_cycle is their mean.
     """
 
     pressures: Array
     shapes: Shapes
     locomotion: Locomotion
     flags: Status
-    cycles: int
+    by_cycle: Array
+
+    @property
+    def cycles(self) -> int:
+        """How many cycles the states are of."""
+        return len(self.by_cycle)
 
 
 def predict(
@@ -161,7 +168,7 @@ def predict(
         friction: law, tension and slope; "coulomb" needs a solver that knows forces, and elastica
             alone lets friction bend the strip.
         path: pressures to follow instead of the gait's, (B, S) [Pa].
-        cycles: how many cycles the path holds.
+        cycles: how many cycles of equal duration, or of equally many rows, the path holds.
         times: of the path's states, (B,) [s]; the gait's if there is no path.
 
     Raises:
@@ -177,6 +184,7 @@ def predict(
         times = gait.times(states_per_ramp, cycles)
     path = np.asarray(path, dtype=float)
     when = None if times is None else np.asarray(times, dtype=float)
+    clock = np.arange(float(len(path))) if when is None else when
     if depends_on_speed(ground) and (not friction.tension or when is None):
         raise ValueError(
             f"ground {ground.name!r} resists by speed: friction must have a tension above 0, and a "
@@ -185,18 +193,22 @@ def predict(
     shapes = solver.solve(robot, path, ground, friction, when)
     changes = np.flatnonzero(_anchor_changes(shapes, ground, friction))
     if len(changes) and refinement > 1:
-        part = np.linspace(0, 1, refinement + 1)[1:-1, None]
-        between = [path[i] + part * (path[i + 1] - path[i]) for i in changes]
-        path = np.insert(
-            path, np.repeat(changes + 1, refinement - 1), np.concatenate(between), axis=0
-        )
-        if when is not None:
-            when = np.insert(when, np.repeat(changes + 1, refinement - 1), np.concatenate(
-                [when[i] + part[:, 0] * (when[i + 1] - when[i]) for i in changes]))  # fmt: skip
-        shapes = solver.solve(robot, path, ground, friction, when)
+        path, clock = _refined(path, changes, refinement), _refined(clock, changes, refinement)
+        shapes = solver.solve(robot, path, ground, friction, None if when is None else clock)
     flags = Status(int(np.bitwise_or.reduce(shapes.status)))
     locomotion = displacements(shapes, ground, cycles, friction)
-    return Prediction(path, shapes, locomotion, flags, cycles)
+    ends = np.linspace(clock[0], clock[-1], cycles + 1)
+    by_cycle = np.diff(np.interp(ends, clock, locomotion.left))
+    if isinstance(ground, Surface):
+        locomotion = locomotion._replace(per_cycle=float(by_cycle[-1]))
+    return Prediction(path, shapes, locomotion, flags, by_cycle)
+
+
+def _refined(values: Array, changes: NDArray[np.int_], parts: int) -> Array:
+    """Rows with those increments divided."""
+    part = np.linspace(0, 1, parts + 1)[1:-1].reshape(-1, *[1] * (values.ndim - 1))
+    between = [values[i] + part * (values[i + 1] - values[i]) for i in changes]
+    return np.insert(values, np.repeat(changes + 1, parts - 1), np.concatenate(between), axis=0)
 
 
 def _anchor_changes(shapes: Shapes, ground: Ground, friction: Friction) -> NDArray[np.bool_]:

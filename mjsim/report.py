@@ -1,19 +1,20 @@
 """A walk beside its prediction, as one flat record and as text."""
 
 import math
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from analytic.locomotion import direction, undecided
+from analytic.locomotion import direction
 from analytic.prediction import REFERENCE, Elastica, Prediction, predict
 from analytic.surface import Surface
+from mjsim.cautions import APART, cautions, elsewhere, tied
 from mjsim.scene import Scene
-from mjsim.simulation.measures import measure, slid_over_length
+from mjsim.simulation.measures import Measures, measure, slid_over_length
 from mjsim.simulation.trajectory import Trajectory
 
 _STATES, _TO_A_LAG = 50, 10  # of the reference in a ramp, or in so many times chambers' lag
+_RESOLVED = 2e-4  # of the length: what no halving shows; then 51 of 53 random scenes hold
 _OPEN = 1e-4  # of the length: less is a rounding
 _LINKS, _LINKS_A_SEGMENT = 60, 24  # of the reference: contacts between the ends need finer links
 _PARTS, _PARTS_BETWEEN = 32, 8  # of increments in which contacts change, see analytic.prediction
@@ -23,8 +24,10 @@ def record(walk: Trajectory) -> dict[str, Any]:
     """The run as plain data; quantities that do not exist are None, never a number."""
     scene, numerics = walk.scene, walk.numerics
     prediction = reference(walk)
-    predicted = prediction.locomotion.per_cycle / scene.robot.length
+    by_cycle = (prediction.by_cycle / scene.robot.length).tolist()
+    predicted = _of_cycle(scene, prediction)
     known = math.isfinite(predicted)
+    bar = abs(_of_cycle(scene, reference(walk, coarser=2)) - predicted) + _RESOLVED if known else None
     numbers = measure(walk)
     simulated = float(len(walk.time) * numerics.timestep)
     shift = numbers.displacement if numbers else None
@@ -39,15 +42,18 @@ def record(walk: Trajectory) -> dict[str, Any]:
         "timestep_s": numerics.timestep,
         "peak_pressure_Pa": scene.robot.peak_pressure,
         "displacement_over_L": shift,
+        "displacement_by_cycle_over_L": list(numbers.by_cycle) if numbers else None,
         "displacement_m": meters,
         "speed_m_per_s": None if meters is None else meters / scene.gait.period,
         "direction": numbers and numbers.direction,
         "predicted_by": REFERENCE,
         "predicted_displacement_over_L": predicted if known else None,
+        "predicted_by_cycle_over_L": by_cycle if known else None,
+        "prediction_uncertainty_over_L": _number(bar),
         "predicted_direction": direction(predicted, 1.0) if known else None,
-        "prediction_undecided_over_L": _undecided(scene, prediction) if known else None,
+        "prediction_undecided_over_L": tied(scene, prediction) if known else None,
         "prediction_flags": [flag.name for flag in prediction.flags],
-        "prediction_notes": _elsewhere(scene, known),
+        "prediction_notes": _notes(scene, numbers, prediction) if known else [],
         "error_over_L": None if shift is None or not known else shift - predicted,
         "unexplained_over_L": _number(numbers and numbers.unexplained),
         "heading_deg": numbers and math.degrees(numbers.heading),
@@ -61,33 +67,54 @@ def record(walk: Trajectory) -> dict[str, Any]:
     }
 
 
-def reference(walk: Trajectory) -> Prediction:
+def reference(walk: Trajectory, coarser: int = 1) -> Prediction:
     """What the quasi-static reference makes of the same scene.
 
-    Chambers that lag behind their valves take the strip along another path than the gait's: then
-    it is theirs that the reference follows. Every cycle is walked where they differ from each
-    other, else one.
+    Chambers that lag behind their valves take the strip along another path than the gait's: then it
+    is theirs that the reference follows. Every cycle is walked where they differ from each other,
+    else one; two where a gait starts inflated, whose first cycle differs from those after.
+
+    Args:
+        walk: whose scene it is.
+        coarser: divides links and states; 2 says how well the reference is resolved.
     """
-    scene = walk.scene
+    scene, states = walk.scene, _STATES // coarser
     own = scene.lag and walk.time[-1] > 0
     path = times = None
     if own:
         last = len(walk.time) - 1
         every = max(1, round(min(*scene.gait.ramp_times, _TO_A_LAG * scene.lag)
-                             / (_STATES * walk.numerics.timestep)))  # fmt: skip
+                             / (states * walk.numerics.timestep)))  # fmt: skip
         rows = np.unique(np.append(np.arange(walk.start, last, every), last))
         path, times = walk.pressure[rows], walk.time[rows]
+    cycles = scene.cycles
+    if path is None and isinstance(scene.ground, Surface):
+        cycles = 2 if scene.rise_time else 1
     return predict(
         scene.robot,
         scene.gait,
         scene.ground,
-        Elastica(_links(scene), scene.chamber),
-        refinement=_PARTS_BETWEEN if scene.between else _PARTS,
+        Elastica(_links(scene) // coarser, scene.chamber),
+        states_per_ramp=states,
+        refinement=(_PARTS_BETWEEN if scene.between else _PARTS) // coarser,
         friction=scene.reference_friction,
         path=path,
         times=times,
-        cycles=1 if path is None and isinstance(scene.ground, Surface) else scene.cycles,
+        cycles=cycles,
     )
+
+
+def _notes(scene: Scene, numbers: Measures | None, prediction: Prediction) -> list[str]:
+    notes = elsewhere(scene, _links(scene), _PARTS_BETWEEN)
+    return notes + cautions(scene, numbers, prediction)
+
+
+def _of_cycle(scene: Scene, prediction: Prediction) -> float:
+    """Predicted displacement over L of the cycle that the walk's displacement is of."""
+    found = prediction.locomotion.per_cycle
+    if isinstance(scene.ground, Surface):
+        found = prediction.by_cycle[min(scene.cycles, prediction.cycles) - 1]
+    return float(found / scene.robot.length)
 
 
 def _number(value: float | None) -> float | None:
@@ -99,43 +126,10 @@ def _links(scene: Scene) -> int:
     return max(_LINKS, _LINKS_A_SEGMENT * len(scene.robot.segments) * scene.gait.dips())
 
 
-def _elsewhere(scene: Scene, known: bool) -> list[str]:
-    """What friction would do where a long robot touches the ground between its ends."""
-    if scene.contacts != "ends" or not scene.gait.dips() or not known:
-        return []
-    found = predict(
-        scene.robot,
-        scene.gait,
-        scene.ground,
-        Elastica(_links(scene), scene.chamber),
-        refinement=_PARTS_BETWEEN,
-        friction=replace(scene.reference_friction, contacts="all"),
-    ).locomotion.per_cycle
-    if not math.isfinite(found):
-        return []
-    return [f"friction acts at the two ends alone; wherever it touches, "
-            f"{found / scene.robot.length:+.4f} L"]  # fmt: skip
-
-
-def _undecided(scene: Scene, prediction: Prediction) -> float:
-    """Displacement per cycle over L that hangs on ties.
-
-    Coulomb friction leaves them open, and where friction at rest is more than in sliding, the end
-    that happens to slide first goes on alone.
-    """
-    ground = scene.ground
-    if scene.between or not isinstance(ground, Surface):
-        return 0.0
-    if scene.friction != "coulomb" and ground.static_ratio == 1:
-        return 0.0
-    over = scene.robot.length * prediction.cycles
-    return undecided(prediction.shapes, ground, scene.friction) / over
-
-
 def table(records: list[dict[str, Any]]) -> str:
     """One line a run: direction and displacement beside the prediction, and what it cost."""
     head = (
-        f"{'surface':<14}{'direction':<11}{'Δ/L':>9}{REFERENCE:>9}{'error':>9}{'unexpl.':>9}"
+        f"{'surface':<14}{'direction':<11}{'Δ/L':>9}{REFERENCE:>9}{'±':>8}{'error':>9}{'unexpl.':>9}"
         f"{'height/L':>10}{'sim s':>8}{'wall s':>8}{'× real':>8}  status"
     )
     return "\n".join([head, *(_line(row) for row in records)])
@@ -145,7 +139,7 @@ def _line(row: dict[str, Any]) -> str:
     return (
         f"{row['surface']:<14}{row['direction'] or '-':<11}"
         f"{_signed(row['displacement_over_L'])}{_signed(row['predicted_displacement_over_L'])}"
-        f"{_signed(row['error_over_L'])}{_signed(row['unexplained_over_L'])}"
+        f"{_bar(row['prediction_uncertainty_over_L'])}{_signed(row['error_over_L'])}{_signed(row['unexplained_over_L'])}"
         f"{_plain(row['amplitude_over_L'])}{row['sim_time_s']:>8.1f}{row['wall_time_s']:>8.2f}"
         f"{row['realtime_factor']:>8.0f}  {row['status']}{_remarks(row)}"
     )
@@ -153,17 +147,28 @@ def _line(row: dict[str, Any]) -> str:
 
 def _remarks(row: dict[str, Any]) -> str:
     """What the reference met on its way and leaves out, and how far a slope dragged the strip."""
-    remarks = [flag.lower() for flag in row["prediction_flags"]] + row["prediction_notes"]
+    remarks = [f"{row['predicted_by']} {flag.lower()}" for flag in row["prediction_flags"]]
+    remarks += row["prediction_notes"]
     if (row["prediction_undecided_over_L"] or 0.0) > _OPEN:
         remarks.append(f"undecided by ±{row['prediction_undecided_over_L']:.3f}")
-    text = f" ({row['predicted_by']}: {', '.join(remarks)})" if remarks else ""
+    text = f" ({'; '.join(remarks)})" if remarks else ""
+    if row["displacement_by_cycle_over_L"] and _differ(row["displacement_by_cycle_over_L"]):
+        text += f" first cycle {row['displacement_by_cycle_over_L'][0]:+.4f} L"
     if row["slid_over_L"] is not None:
         text += f" {row['slid_over_L']:.3f} L downhill: no bound holds its weight there"
     return text
 
 
+def _differ(by_cycle: list[float]) -> bool:
+    return abs(by_cycle[0] - by_cycle[-1]) > APART
+
+
 def _signed(value: float | None) -> str:
     return f"{'-':>9}" if value is None else f"{value:>+9.4f}"
+
+
+def _bar(value: float | None) -> str:
+    return f"{'-':>8}" if value is None else f"{value:>8.4f}"
 
 
 def _plain(value: float | None) -> str:

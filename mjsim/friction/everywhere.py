@@ -14,6 +14,7 @@ from analytic.chain import node_positions
 from analytic.dissipation import minimisers
 from analytic.patches import Finder, Patch
 from mjsim.bodies.parts import PREFIX
+from mjsim.friction.contact_length import pads_by_node
 from mjsim.friction.traction import Bounded, ContactFriction
 from mjsim.scene import Numerics, Scene
 
@@ -30,10 +31,13 @@ class Anchors:
 
     Attributes:
         held: tendons of the nodes held in the coming step.
+        contacts, bounds: tendons and bounds of all contacts in the coming step.
     """
 
     def __init__(self, data: mujoco.MjData) -> None:
         self.held: list[int] = []
+        self.contacts: list[int] = []
+        self.bounds: list[float] = []
         self._holding: list[int] = []
         self._rate, self._places = data.ten_velocity, data.ten_length
         self._before = self._places.copy()
@@ -49,6 +53,15 @@ class Anchors:
         self._before = now
         return excess
 
+    def drift(self) -> float:
+        """Speed of the whole after a step that least dissipation does not explain [m/s]."""
+        if not self.contacts:
+            return 0.0
+        rates = [self._rate.item(tendon) for tendon in self.contacts]
+        low, high = minimisers(self.bounds, rates)
+        mean = sum(rates) / len(rates)
+        return min(max(mean, -high), -low)
+
 
 class ContactFrictionEverywhere(ContactFriction):
     """Coulomb friction of a strip that may be held between its ends; `left_slip` is NaN."""
@@ -59,19 +72,27 @@ class ContactFrictionEverywhere(ContactFriction):
         super().__init__(scene, numerics, model, data)
         self._tendons = node_tendons(model, self._left, self._right, numerics.links + 2)
         self._anchors = Anchors(data)
+        self._geoms = pads_by_node(model)[:, 0].tolist()
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
         """See Traction.before_step."""
         super().before_step(slopes, left, right)
         self.left_slip = float("nan")
         force, _ = self._forces.by_node()
-        held = [t for t, push in zip(self._tendons, force, strict=True) if push > 0.0]
-        rates = [abs(self._rate.item(tendon)) for tendon in held]
-        self._anchors.held = [held[rates.index(min(rates))]] if held else []
+        held = [i for i, push in enumerate(force) if push > 0.0]
+        anchors = self._anchors
+        anchors.contacts = [self._tendons[i] for i in held]
+        anchors.bounds = [force[i] * self._coefficient(i) for i in held]
+        rates = [abs(self._rate.item(tendon)) for tendon in anchors.contacts]
+        anchors.held = [anchors.contacts[rates.index(min(rates))]] if held else []
 
     def after_step(self, dt: float) -> float:
         """See Traction.after_step."""
+        self.drift = self._anchors.drift()
         return self._anchors.after_step(dt)
+
+    def _coefficient(self, node: int) -> float:
+        return float(self._friction[self._geoms[node], 0])
 
 
 class BoundedContacts(Bounded):
@@ -105,7 +126,7 @@ class BoundedContacts(Bounded):
         self.left_slip, self._anchors.held = float("nan"), []
         if not contacts:
             self.contact_left = self.contact_right = 0.0
-            self._held_by = []
+            self._held_by = self._anchors.contacts = []
             return
         self.contact_left, self.contact_right = contacts[0].length, contacts[-1].length
         nodes = [_middle(contact) for contact in contacts]
@@ -117,6 +138,7 @@ class BoundedContacts(Bounded):
         for tendon, bound in zip(tendons, bounds, strict=True):
             self._bounds[tendon] = bound
         self._held_by = [*tendons, self._both]
+        self._anchors.contacts, self._anchors.bounds = tendons, bounds
         rates = [self._rate.item(tendon) for tendon in tendons]
         low, high = minimisers(bounds, rates)
         viscous = self._by_speed and any(self._drag[tendon] for tendon in tendons)
@@ -128,6 +150,8 @@ class BoundedContacts(Bounded):
 
     def after_step(self, dt: float) -> float:
         """See Traction.after_step."""
+        if not self._by_speed:
+            self.drift = self._anchors.drift()
         return self._anchors.after_step(dt)
 
     def _inward(self, tendon: int) -> float:

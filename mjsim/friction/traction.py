@@ -28,12 +28,16 @@ class Traction(Protocol):
 
     Attributes:
         contact_left, contact_right: lengths of side contact, 0 for a tip [m].
-        left_slip: part of the next change of separation that the left end takes up.
+        left_slip: part of the next change of separation that the left end takes up; NaN where more
+            than the two ends share the motion.
+        drift: speed of what friction should have held in the last step [m/s], where left_slip does
+            not tell who that is; else NaN.
     """
 
     contact_left: float
     contact_right: float
     left_slip: float
+    drift: float
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
         """Read the contacts and set what resists in the next step.
@@ -61,7 +65,7 @@ class Ends:
         self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         self.contact_left = self.contact_right = 0.0
-        self.left_slip = 0.5
+        self.left_slip, self.drift = 0.5, float("nan")
         self._forces = ContactForces(scene, numerics, model, data)
         self._flat = numerics.side_angle
         self._left, self._right, self._both = (model.tendon(PREFIX + n).id for n in TENDONS)

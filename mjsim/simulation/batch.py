@@ -147,6 +147,7 @@ def rollout(
             contact_left=unknown,
             contact_right=unknown,
             left_slip_fraction=unknown,
+            drift=unknown,
             wall_time=wall_time,
             cpu_time=cpu_time,
         )

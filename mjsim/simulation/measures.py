@@ -4,9 +4,11 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from analytic.ground import depends_on_speed
 from analytic.locomotion import Direction, direction
+from analytic.surface import Surface
 from mjsim.simulation.judge import slid
 from mjsim.simulation.status import Status
 from mjsim.simulation.trajectory import Trajectory
@@ -16,16 +18,18 @@ class Measures(NamedTuple):
     """Numbers of a walk, lengths over L.
 
     Attributes:
-        displacement: of the left end per cycle.
+        displacement: of the left end per cycle: in the last one on uniform ground, else their mean.
+        by_cycle: the same in each cycle; the first may differ where a gait starts inflated.
         direction: of it.
         amplitude: greatest height.
         unexplained: displacement per cycle that the anchor rule does not account for; NaN where
-            more than the two ends are held or the ground resists by speed.
+            the ground resists by speed.
         heading: the angle it turned by to the left [rad].
         sideways: how far any of it ever was beside its plane.
     """
 
     displacement: float
+    by_cycle: tuple[float, ...]
     direction: Direction
     amplitude: float
     unexplained: float
@@ -43,23 +47,39 @@ def measure(walk: Trajectory) -> Measures | None:
     if walk.status is not Status.OK:
         return None
     x, z = walk.nodes()
-    begin = walk.start
-    length, cycles = walk.scene.robot.length, walk.scene.cycles
-    left = x[begin:, 0]
-    change = np.diff(x[begin:, -1] - left)
-    ruled = -float(walk.left_slip_fraction[begin + 1 :] @ change)
-    if depends_on_speed(walk.scene.ground):
+    scene, begin = walk.scene, walk.start
+    length = scene.robot.length
+    ends = _ends_of_cycles(walk)
+    by_cycle = np.diff(x[ends, 0]) / length
+    uniform = isinstance(scene.ground, Surface)
+    ends = ends[-2:] if uniform else ends[[0, -1]]
+    travel = float(x[ends[1], 0] - x[ends[0], 0])
+    change = np.diff((x[:, -1] - x[:, 0])[ends[0] : ends[1] + 1])
+    ruled = -float(walk.left_slip_fraction[ends[0] + 1 : ends[1] + 1] @ change)
+    if math.isnan(ruled):
+        drift = walk.drift[ends[0] + 1 : ends[1] + 1]
+        ruled = travel - float(drift.sum()) * walk.numerics.timestep
+    if depends_on_speed(scene.ground):
         ruled = math.nan  # both ends slide, by their viscous resistance
-    travel = float(left[-1] - left[0])
+    counted = 1 if uniform else scene.cycles
+    shift = travel / (counted * length)
     along, aside, _ = walk.position[-1, -1] - walk.position[-1, 0]
     return Measures(
-        displacement=travel / (cycles * length),
-        direction=direction(travel / cycles, length),
+        displacement=shift,
+        by_cycle=tuple(by_cycle.tolist()),
+        direction=direction(shift, 1.0),
         amplitude=float(z[begin:].max()) / length,
-        unexplained=(travel - ruled) / (cycles * length),
+        unexplained=shift - ruled / (counted * length),
         heading=math.atan2(aside, along),
         sideways=float(np.abs(walk.position[..., 1]).max()) / length,
     )
+
+
+def _ends_of_cycles(walk: Trajectory) -> NDArray[np.int_]:
+    """Rows in which cycles begin and end, (C + 1,)."""
+    times = walk.scene.gait.period * np.arange(walk.scene.cycles + 1)
+    rows = walk.start + np.rint(times / walk.numerics.timestep).astype(int)
+    return np.minimum(rows, len(walk.time) - 1)
 
 
 def slid_over_length(walk: Trajectory) -> float:

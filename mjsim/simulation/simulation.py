@@ -94,7 +94,7 @@ class Simulation:
         self._pads = pads_by_node(model)
         self._pressure = np.zeros(len(scene.robot.segments))
         self._coordinates: list[Array] = []
-        self._ends: list[tuple[float, float, float]] = []
+        self._ends: list[tuple[float, float, float, float]] = []
         self._pressures: list[Array] = []
         self._wall = self._cpu = 0.0
         self._stopped = False
@@ -185,7 +185,7 @@ class Simulation:
     def trajectory(self) -> Trajectory:
         """Everything since the last reset."""
         count = len(self._ends)
-        contact_left, contact_right, left_slip = np.array(self._ends).T
+        contact_left, contact_right, left_slip, drift = np.array(self._ends).T
         coordinates = np.concatenate(self._coordinates)[:count]
         walk = Trajectory(
             scene=self.scene,
@@ -198,6 +198,7 @@ class Simulation:
             contact_left=contact_left,
             contact_right=contact_right,
             left_slip_fraction=left_slip,
+            drift=drift,
             wall_time=self._wall,
             cpu_time=self._cpu,
         )
@@ -214,7 +215,7 @@ class Simulation:
         if not len(valves) or self._stopped:
             return
         coordinates = np.empty((len(valves), model.nq))
-        ends: list[tuple[float, float, float]] = []
+        ends: list[tuple[float, float, float, float]] = []
         apply, slopes, shift = joints.apply, joints.slopes, joints.shift
         before_step, after_step = law.before_step, law.after_step
         step_model, dt, qpos = mujoco.mj_step, numerics.timestep, data.qpos
@@ -231,7 +232,7 @@ class Simulation:
             if excess:
                 shift(excess)
             coordinates[step] = qpos
-            ends.append((law.contact_left, law.contact_right, law.left_slip))
+            ends.append((law.contact_left, law.contact_right, law.left_slip, law.drift))
             if not (low < height(first) < high and low < height(last) < high):
                 self._stopped = True
                 break

@@ -35,7 +35,9 @@ class Trajectory:
             (T, N + 2, 3) [m].
         contact_left, contact_right: length of side contact, 0 for a tip, (T,) [m].
         left_slip_fraction: part of a change of separation that the friction law gives the left end,
-            (T,).
+            (T,); NaN where more than the two ends share the motion.
+        drift: speed of what friction should have held, NaN where left_slip_fraction tells who that
+            is, (T,) [m/s].
         wall_time, cpu_time: seconds the loop took, by the clock and of all cores together,
             assembly and compilation excluded.
     """
@@ -50,6 +52,7 @@ class Trajectory:
     contact_left: Array
     contact_right: Array
     left_slip_fraction: Array
+    drift: Array
     wall_time: float
     cpu_time: float
 
@@ -87,6 +90,7 @@ class Trajectory:
         yield "contact_right", ("time",), self.contact_right, "m", "side contact, 0 for a tip"
         yield ("left_slip_fraction", ("time",), self.left_slip_fraction, "1",
                "left end's part of a change of separation, by the anchor rule")  # fmt: skip
+        yield "drift", ("time",), self.drift, "m s-1", "of what friction should have held"
         yield "x", ("time", "node"), x, "m", "position of the vertices along the ground"
         yield "height", ("time", "node"), z, "m", "height of the vertices over flat rest"
         yield "y", ("time", "node"), self.position[..., 1], "m", "out of the plane of the gait"
@@ -130,7 +134,7 @@ def load(path: Path) -> Trajectory:
     with h5netcdf.File(path, "r") as file:
         scene, numerics = configuration(json.loads(file.attrs["provenance"]))
         names = ("time", "pressure", "coordinates", "contact_left", "contact_right",
-                 "left_slip_fraction")  # fmt: skip
+                 "left_slip_fraction", "drift")  # fmt: skip
         return Trajectory(
             scene=scene,
             numerics=numerics,

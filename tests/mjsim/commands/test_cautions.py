@@ -1,0 +1,116 @@
+"""What makes a number unsure stands beside it: inertia, ties, the branch's end, other cycles."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from analytic import GAITS, SURFACES, Friction, Robot, predict
+from analytic.surface import from_ratios
+from analytic.trapezoid import trapezoid
+from mjsim import run
+from mjsim.cautions import cautions, tied
+from mjsim.report import record
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.measures import measure
+from mjsim.simulation.simulation import simulate
+
+BENT = Friction(tension=1.0)
+PERIODIC = trapezoid(1 / 3, 0.52, 0.23, period=12.0)  # starts inflated
+
+
+def told(scene, numerics=None):
+    return record(simulate(scene, numerics))
+
+
+def test_help_explains_every_key_of_json(tmp_path, capsys):
+    run.main(["--surface", "felt", "--no-video", "--links", "6", "--json", "--out", str(tmp_path)])
+    keys = json.loads(capsys.readouterr().out)
+    with pytest.raises(SystemExit):
+        run.main(["--help"])
+    said = " ".join(capsys.readouterr().out.replace("│", " ").split())
+    for key in keys:
+        assert key in said or key.replace("prediction", "") in said, key
+
+
+@pytest.mark.parametrize("ramp", [0.2, 0.3, 0.5])
+@pytest.mark.parametrize("surface", ["felt", "polyethylene"])
+def test_the_estimate_of_inertia_is_right_within_a_factor_of_2(surface, ramp):
+    gait = replace(GAITS["wave"], ramp_time=ramp)
+    row = told(Scene(gait=gait, ground=SURFACES[surface]), Numerics(links=48, timestep=0.001))
+    if abs(row["error_over_L"]) > 0.002:
+        ratio = row["unexplained_over_L"] / row["error_over_L"]
+        assert 0.5 < ratio < 2.0
+        assert any("inertia" in note for note in row["prediction_notes"])
+
+
+@pytest.mark.parametrize("surface", list(SURFACES))
+def test_a_slow_walk_has_no_word_of_inertia(surface):
+    scene = Scene(gait=replace(GAITS["wave"], ramp_time=4.0), ground=SURFACES[surface])
+    assert not any("inertia" in note for note in told(scene)["prediction_notes"])
+
+
+def test_bounds_that_are_nearly_alike_are_said_to_be():
+    """A tip of as much as a side of some length: shift either bound by 1 %, and see."""
+    robot, gait = Robot(), GAITS["wave"]
+    walk = predict(robot, gait, SURFACES["polyethylene"])
+    scene = Scene(ground=SURFACES["polyethylene"])
+    assert 0.001 < tied(scene, walk, 0.05) < 0.01
+    shifts = [predict(robot, gait, from_ratios("any", 0.5 * part, 1.0)).locomotion.per_cycle
+              for part in (0.98, 1.02)]  # fmt: skip
+    assert abs(shifts[1] - shifts[0]) / robot.length < 2 * tied(scene, walk, 0.05)
+    assert tied(Scene(), predict(robot, gait, SURFACES["felt"]), 0.05) < 1e-4
+
+
+def test_the_end_of_the_branch_is_announced_before_it_is_reached():
+    """The default robot's stable branch ends between 72 and 77 kPa."""
+    pressures = np.arange(60e3, 80e3, 2e3)
+    known, warned = [], []
+    for pressure in pressures:
+        scene = Scene(replace(Robot(), peak_pressure=float(pressure)))
+        walk = predict(scene.robot, scene.gait, scene.ground)
+        known.append(np.isfinite(walk.locomotion.per_cycle))
+        warned.append(any("more pressure" in note for note in cautions(scene, None, walk)))
+    last = int(np.flatnonzero(known)[-1])
+    assert not known[last + 1]
+    assert warned[last]
+    assert not any(warned[: last - 1])
+
+
+def test_the_distance_per_cycle_is_that_of_the_limit_cycle():
+    """A gait that starts inflated: its first cycle goes somewhere, all that follow nowhere."""
+    for ground in (SURFACES["polyethylene"], SURFACES["gelatin"]):
+        scene = Scene(gait=PERIODIC, ground=ground, cycles=3)
+        row = told(scene)
+        first, second, third = row["displacement_by_cycle_over_L"]
+        assert first > 0.003
+        assert third == pytest.approx(second, abs=1e-4)
+        assert row["displacement_over_L"] == third
+        assert row["predicted_by_cycle_over_L"] == pytest.approx([first, third], abs=0.001)
+        assert abs(row["error_over_L"]) < 5e-4
+
+
+def test_one_cycle_of_such_a_gait_says_what_the_next_ones_are_like():
+    row = told(Scene(gait=PERIODIC, ground=SURFACES["gelatin"]))
+    assert row["displacement_over_L"] == pytest.approx(0.009, abs=0.001)
+    assert abs(row["error_over_L"]) < 0.001
+    assert any("from cycle 2 on" in note for note in row["prediction_notes"])
+
+
+def test_cycles_that_begin_at_rest_are_alike_in_theory_and_simulation():
+    scene = Scene(ground=SURFACES["gelatin"], cycles=3)
+    theory = predict(scene.robot, scene.gait, scene.ground, friction=BENT, cycles=3)
+    assert np.ptp(theory.by_cycle) < 1e-4 * scene.robot.length
+    assert np.ptp(measure(simulate(scene)).by_cycle) < 2e-4
+
+
+@pytest.mark.parametrize("surface", list(SURFACES))
+def test_the_reference_s_error_bar_holds_what_a_finer_one_says(surface):
+    from analytic import Elastica
+
+    scene = Scene(ground=SURFACES[surface])
+    row = told(scene)
+    fine = predict(scene.robot, scene.gait, scene.ground, Elastica(180), 150, friction=BENT)
+    off = abs(row["predicted_displacement_over_L"] - fine.locomotion.per_cycle / 0.13)
+    assert off < row["prediction_uncertainty_over_L"] < 5e-4
