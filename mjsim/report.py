@@ -27,7 +27,9 @@ def record(walk: Trajectory) -> dict[str, Any]:
     by_cycle = (prediction.by_cycle / scene.robot.length).tolist()
     predicted = _of_cycle(scene, prediction)
     known = math.isfinite(predicted)
-    bar = abs(_of_cycle(scene, reference(walk, coarser=2)) - predicted) + _RESOLVED if known else None
+    bar = (
+        abs(_of_cycle(scene, reference(walk, coarser=2)) - predicted) + _RESOLVED if known else None
+    )
     numbers = measure(walk)
     simulated = float(len(walk.time) * numerics.timestep)
     shift = numbers.displacement if numbers else None

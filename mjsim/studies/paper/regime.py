@@ -1,4 +1,4 @@
-"""The regime map: which way and how far, over the friction ratio and the pressure."""
+"""The regime map: which way and how far, over the friction ratio and the amplitude."""
 
 from dataclasses import replace
 
@@ -14,26 +14,29 @@ from mjsim.studies.paper.style import FONT
 
 NAME = "regime"
 CAPTION = """\
-Regime map. Displacement per cycle by elastica over the surface's ratio V_t / (tau q L) and the peak
-pressure, for the default robot and one of a third and of three times its weight; the black line is
-the neutral curve. Felt is the left edge, gelatin the right one, polyethylene the dashed line; the
-star is the paper's robot on polyethylene, on the neutral curve; grey is beyond the stable branch.
+Regime map. Displacement per cycle by elastica over the surface's ratio V_t / (tau q L) and the
+greatest height over L, as the peak pressure rises from 4 to 77 kPa, for the default robot and one
+of a third and of three times its weight; the black line is the neutral curve. Felt is the left
+edge, gelatin the right one, polyethylene the dashed line; the star is the paper's robot on
+polyethylene, on the neutral curve; grey is beyond the stable branch, or no pressure leads there.
 Agrees with the paper: one gait, and the friction ratio alone turns the robot round. Differs:
 standing still is a curve in this map, not a property of polyethylene; which side of it {0.5, 1}
-falls on depends on the pressure and on the weight, and the default robot was identified as one that
-stands still.
+falls on depends on the amplitude and on the weight, and the default robot was identified as one
+that stands still.
 """
 
 _LOADS = (1 / 3, 1.0, 3.0)
 _PRESSURES = np.linspace(4e3, 77e3, 50)
 _RATIOS = np.concatenate([[0.0], np.geomspace(0.01, 3.0, 79)])
 _PER_RAMP = 120
+_HIGHEST = 0.5  # amplitude over L that is shown
 
 
 def make() -> xr.Dataset:
     """Displacements over L; NaN where the branch has ended."""
     path = GAITS["wave"].pressures(_PER_RAMP)
     shift = np.full((len(_LOADS), len(_PRESSURES), len(_RATIOS)), np.nan)
+    amplitude = np.full((len(_LOADS), len(_PRESSURES)), np.nan)
     for i, load in enumerate(_LOADS):
         for j, pressure in enumerate(_PRESSURES):
             robot = replace(
@@ -42,14 +45,20 @@ def make() -> xr.Dataset:
                 peak_pressure=float(pressure),
             )
             shapes = solve_elastica(robot, path * pressure)
+            amplitude[i, j] = shapes.amplitude.max() / robot.length
             for k, ratio in enumerate(_RATIOS):
                 side = robot.width * robot.length  # of a shear strength of 1 Pa
                 surface = Surface("any", tip_force=float(ratio) * side, shear_strength=1.0)
                 shift[i, j, k] = displacements(shapes, surface).per_cycle / robot.length
     return xr.Dataset(
-        {"displacement": (("load", "pressure", "ratio"), shift)},
+        {
+            "displacement": (("load", "pressure", "ratio"), shift),
+            "amplitude": (("load", "pressure"), amplitude),
+        },
         coords={"load": list(_LOADS), "pressure": _PRESSURES, "ratio": _RATIOS},
-        attrs={"units": "displacement over L, pressure in Pa, load over the default's"},
+        attrs={
+            "units": "displacement and amplitude over L, pressure in Pa, load over the default's"
+        },
     )
 
 
@@ -59,28 +68,30 @@ def draw(data: xr.Dataset) -> Figure:
     axes = figure.subplots(1, 3, sharey=True)
     ratio = data["ratio"].values.copy()
     ratio[0] = 0.5 * ratio[1]  # 0 has no place on a logarithmic axis: felt sits at the left edge
-    pressure = 1e-3 * data["pressure"].values
     limit = 0.08
     polyethylene = neutral_ratio(SURFACES["polyethylene"], Robot())
     norm, colours = TwoSlopeNorm(0, -limit, limit), "RdBu"
     for ax, load in zip(axes, data["load"].values, strict=True):
-        shift = data["displacement"].sel(load=load).values
+        height = data["amplitude"].sel(load=load).values
+        known = np.isfinite(height)
+        height, shift = height[known], data["displacement"].sel(load=load).values[known]
         ax.set_facecolor("0.85")
-        ax.pcolormesh(ratio, pressure, shift, cmap=colours, shading="nearest",
+        ax.pcolormesh(ratio, height, shift, cmap=colours, shading="nearest",
                               norm=norm, rasterized=True)  # fmt: skip
-        ax.contour(ratio, pressure, np.ma.masked_invalid(shift), levels=[0.0], colors="black",
+        ax.contour(ratio, height, np.ma.masked_invalid(shift), levels=[0.0], colors="black",
                    linewidths=1.4)  # fmt: skip
         ax.axvline(polyethylene, color="0.2", dashes=(4, 2), lw=1)
         if load == 1:
-            ax.plot(polyethylene, 1e-3 * Robot().peak_pressure, "*", ms=13, color="#f2c14e",
+            star = np.interp(Robot().peak_pressure, data["pressure"].values[known], height)
+            ax.plot(polyethylene, star, "*", ms=13, color="#f2c14e",
                     mec="black", mew=0.8)  # fmt: skip
         ax.set_xscale("log")
         ax.set_xlabel(r"$V_t / (\tau q L)$")
         ax.set_title(f"{load:.3g} × the default weight", fontsize=9, pad=16)
         for x, name in ((ratio[0], "felt"), (polyethylene, "polyethylene"), (ratio[-1], "gelatin")):
-            ax.annotate(name, (x, pressure[-1]), xytext=(0, 3), textcoords="offset points",
+            ax.annotate(name, (x, _HIGHEST), xytext=(0, 3), textcoords="offset points",
                         ha="center", fontsize=FONT["font.size"] - 2)  # fmt: skip
-    axes[0].set_ylabel("peak pressure [kPa]")
+    axes[0].set(ylabel="greatest height / L", ylim=(0, _HIGHEST))
     figure.colorbar(
         ScalarMappable(norm, colours),
         ax=axes,
