@@ -26,7 +26,7 @@ reach: .venv/ready
 	$(PY) benchmarks/reach.py
 
 auto: .venv/ready
-	$(PY) benchmarks/auto.py
+	$(PY) benchmarks/auto.py check
 
 loop: .venv/ready
 	$(PY) benchmarks/loop.py
@@ -56,7 +56,7 @@ figures: .venv/ready
 
 # speed against accuracy: what is not yet in docs/accuracy.csv, and the figures
 chart: .venv/ready
-	$(PY) -m mjsim.studies.accuracy --auto mjsim/scene/auto.csv
+	$(PY) -m mjsim.studies.accuracy
 
 # where methods fail
 maps: .venv/ready

@@ -1,64 +1,162 @@
-"""Print whether auto keeps its word on random scenes: `make auto`.
+"""What body auto rests on, and whether it keeps its word.
 
-Against the same walk of 16 links a segment, 32 where it touches between the ends, at 2 ms, so that
-inertia is in both. Scenes of benchmarks/reach.py, ramps of 0.5 to 4 s.
+    python benchmarks/auto.py design [count]   measure mjsim/scene/auto.csv
+    python benchmarks/auto.py check [count]    on scenes that it knows nothing of: `make auto`
+
+Scenes of benchmarks/reach.py under constant bounds, ramps of 0.5 to 4 s; every second one has its
+friction at the ends alone. The truth is the same scene at 16 links a segment, 32 where it touches
+between the ends, and 2 ms, so that inertia is in both. What was measured is kept in build/.
 """
 
+import csv
+import json
 import sys
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 from reach import draw
 
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.checked import walk_checked
+from mjsim.scene.auto import TABLE, Rung
+from mjsim.simulation import checked
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
+from mjsim.simulation.trajectory import Trajectory
 
-COUNT = 120
-TOLERANCES = (0.02,)
-
-
-def scene_of(seed: int) -> Scene:
-    rng = np.random.default_rng([77, seed])
-    scene, _ = draw(1000 + seed)
-    ramp = float(np.exp(rng.uniform(np.log(0.5), np.log(4.0))))
-    ground = scene.ground.scaled(3.0) if hasattr(scene.ground, "scaled") else scene.ground
-    return replace(scene, gait=replace(scene.gait, ramp_time=ramp), ground=ground,
-                   friction="constant")  # fmt: skip
+TOLERANCES = (0.1, 0.02, 0.005)
+SHORT = 1e-3  # of L
+LADDER = {"ends": ((4, 0.02), (4, 0.01), (6, 0.005), (12, 0.002)),
+          "all": ((8, 0.005), (16, 0.005), (24, 0.002))}  # fmt: skip
+FAST = {"ends": ((4, 0.05), (6, 0.05)), "all": ((8, 0.05), (8, 0.02), (8, 0.01))}  # for the record
+KEPT = Path(__file__).resolve().parents[1] / "build"
 
 
-def tried(seed: int) -> tuple[str, float, str, float, bool, int, float, bool]:
-    scene = scene_of(seed)
-    part = 32 if scene.between else 16
-    links = min(384, part * len(scene.robot.segments))
-    exact = simulate(scene, Numerics(links=links, timestep=0.002))
-    found = walk_checked(scene, TOLERANCES[0])
-    value = [getattr(measure(walk), "displacement", np.nan) for walk in (exact, found.walk)]
-    cost = sum(1 for _ in found.tried)
-    return (str(exact.status), value[0], str(found.walk.status), value[1], found.agreed, cost,
-            found.error, scene.between)  # fmt: skip
+def scene_of(seed: int, kind: int) -> Scene:
+    """A random scene; of kind 0 for the design, 1 for the check."""
+    for more in range(100):
+        rng = np.random.default_rng([77, kind, seed, more])
+        scene, _ = draw(100_000 * (1 + kind) + 100 * seed + more)
+        ramp = float(np.exp(rng.uniform(np.log(0.5), np.log(4.0))))
+        scene = replace(scene, friction="constant", gait=replace(scene.gait, ramp_time=ramp))
+        if scene.between == bool(seed % 2) and (seed % 2 or len(scene.robot.segments) <= 6):
+            return scene
+    raise AssertionError("no such scene")
+
+
+def truth(scene: Scene) -> tuple[float, str]:
+    links = min(384, (32 if scene.between else 16) * len(scene.robot.segments))
+    walk = simulate(scene, Numerics(links=links, timestep=0.002))
+    return distance(walk), str(walk.status)
+
+
+def distance(walk) -> float:
+    numbers = measure(walk)
+    return numbers.displacement if numbers else float("nan")
+
+
+def design_rows(seed: int) -> list[list]:
+    """A row a rung: seed, contacts, links a segment, step, distances and how they ended."""
+    scene = scene_of(seed, 0)
+    contacts, shortest = "all" if scene.between else "ends", min(scene.gait.ramp_times)
+    exact, status = truth(scene)
+    rows = []
+    for part, timestep in FAST[contacts] + LADDER[contacts]:
+        links = max(12, part * len(scene.robot.segments))
+        walk = simulate(scene, Numerics(links=links, timestep=min(timestep, shortest / 40)))
+        rows.append([seed, contacts, part, timestep, exact, status, distance(walk),
+                     str(walk.status), speed([walk])])  # fmt: skip
+    return rows
+
+
+def check_rows(seed: int) -> list[list]:
+    """A row a tolerance: seed, contacts, tolerance, true and found distance, how they end, ..."""
+    scene = scene_of(seed, 1)
+    exact, status = truth(scene)
+    walks: dict[Numerics, Trajectory] = {}
+
+    def once(scene: Scene, numerics: Numerics, progress: object = None) -> Trajectory:
+        if numerics not in walks:
+            walks[numerics] = simulate(scene, numerics)
+        return walks[numerics]
+
+    checked.simulate = once
+    rows = []
+    for tolerance in TOLERANCES:
+        found = checked.walk_checked(scene, tolerance)
+        spent = [walk for walk in walks.values() if walk.numerics in found.tried]
+        rows.append([seed, "all" if scene.between else "ends", tolerance, exact, status,
+                     distance(found.walk), str(found.walk.status), found.agreed, len(found.tried),
+                     speed([found.walk]), speed(spent)])  # fmt: skip
+    return rows
+
+
+def speed(walks: list[Trajectory]) -> float:
+    """Simulated seconds of the last one over the CPU seconds of all."""
+    return len(walks[-1].time) * walks[-1].numerics.timestep / sum(w.cpu_time for w in walks)
+
+
+def measured(work, name: str, count: int) -> list[list]:
+    """Rows of so many scenes; what was measured before is read."""
+    path = KEPT / f"{name}.jsonl"
+    path.parent.mkdir(exist_ok=True)
+    rows = [json.loads(line) for line in path.read_text().splitlines()] if path.is_file() else []
+    done = {row[0] for row in rows}
+    with ProcessPoolExecutor(2) as pool, path.open("a") as file:
+        todo = [pool.submit(work, seed) for seed in range(count) if seed not in done]
+        for found in as_completed(todo):
+            rows += found.result()
+            file.writelines(json.dumps(row) + "\n" for row in found.result())
+            file.flush()
+    return [row for row in rows if row[0] < count]
+
+
+def near(found: float, exact: float, tolerance: float) -> bool:
+    return abs(found - exact) <= max(tolerance * abs(exact), SHORT)
+
+
+def design(count: int) -> None:
+    rows = [row for row in measured(design_rows, "auto-design", count) if row[5] == "ok"]
+    table = []
+    for contacts in LADDER:
+        for part, timestep in FAST[contacts] + LADDER[contacts]:
+            here = [row for row in rows if row[1:4] == [contacts, part, timestep]]
+            parts = [np.mean([near(row[6], row[4], t) for row in here]) for t in TOLERANCES]
+            line = Rung(contacts, part, timestep, len(here), *(round(float(p), 3) for p in parts),
+                        round(float(np.median([row[8] for row in here]))))  # fmt: skip
+            print(*line, "failed", sum(row[7] != "ok" for row in here))
+            if (part, timestep) in LADDER[contacts]:
+                table.append(line)
+    with TABLE.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerows([Rung._fields, *table])
+
+
+def check(count: int) -> None:
+    rows = measured(check_rows, "auto-check", count)
+    for contacts in (*LADDER, None):
+        for tolerance in TOLERANCES:
+            here = [r for r in rows if r[2] == tolerance and contacts in (r[1], None)]
+            walks = [row for row in here if row[4] == "ok"]
+            kept = [row for row in walks if row[6] == "ok"]
+            fine = [near(row[5], row[3], tolerance) for row in kept]
+            said = [ok for ok, row in zip(fine, kept, strict=True) if row[7]]
+            print(f"{contacts or 'both'}, {tolerance:.1%}: {len(walks)} of {len(here)} walk, auto "
+                  f"fails in {len(walks) - len(kept)}; within {np.mean(fine):.1%}, of the "
+                  f"{len(said)} that agreed {np.mean(said):.1%}; the finest walk "
+                  f"{np.median([row[9] for row in kept]):.0f} times real time, all of them "
+                  f"{np.median([row[10] for row in kept]):.0f}; "
+                  f"{np.mean([row[8] for row in kept]):.1f} walks a scene")  # fmt: skip
+    for row in rows:
+        if row[4] == "ok" and not (row[6] == "ok" and near(row[5], row[3], row[2])):
+            print("  ", row)
 
 
 def main() -> None:
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else COUNT
-    with ProcessPoolExecutor(2) as pool:
-        rows = list(pool.map(tried, range(count)))
-    walks = [row for row in rows if row[0] == "ok"]
-    lost = [row for row in walks if row[2] != "ok"]
-    print(f"{len(walks)} of {count} walk; auto fails in {len(lost)} of them")
-    kept = [row for row in walks if row[2] == "ok"]
-    off = np.array([abs(row[1] - row[3]) for row in kept])
-    near = off <= np.maximum(TOLERANCES[0] * np.abs([row[1] for row in kept]), 1e-3)
-    print(f"within {TOLERANCES[0]:.0%} or 0.001 L: {near.mean():.1%}")
-    between = np.array([row[7] for row in kept])
-    print(f"on two ends {near[~between].mean():.1%} of {(~between).sum()}")
-    print(f"of those that say so: {near[[row[4] for row in kept]].mean():.1%}")
-    print(f"walks tried, mean {np.mean([row[5] for row in kept]):.1f}")
-    for row, fine in zip(kept, near, strict=True):
-        if not fine:
-            print("  ", row)
+    word = sys.argv[1] if len(sys.argv) > 1 else "check"
+    count = int(sys.argv[2]) if len(sys.argv) > 2 else 120
+    {"design": design, "check": check}[word](count)
 
 
 if __name__ == "__main__":

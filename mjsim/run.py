@@ -14,7 +14,7 @@ from analytic.surface import SURFACES
 from mjsim.io.cli import FAILED, bar, fail, parse, say, strict_json
 from mjsim.io.files import check_folder
 from mjsim.scene import Numerics, Scene
-from mjsim.scene.auto import cheapest
+from mjsim.scene.auto import rungs
 from mjsim.scene.options import SceneOptions, tables_of
 from mjsim.scene.tables import Tables, build
 
@@ -61,9 +61,9 @@ class Options(SceneOptions):
     """
 
     tolerance: float | None = None
-    """of body auto, which walks the scene ever finer, from the cheapest numerics measured to meet
-    it on, until two walks agree within it: relative error of the displacement that the numerics may
-    make, or 0.001 L, beside what inertia does; 0.02 if not given"""
+    """of body auto, which walks the planar body ever finer, along numerics that were measured on
+    many scenes, until two walks agree within it: relative error of the displacement that the
+    numerics may make, or 0.001 L, beside what inertia does; from 0.005; 0.02 if not given"""
     out: Path = Path("videos")
     """folder for the video and the trajectory, made if need be"""
     json: bool = False
@@ -108,7 +108,7 @@ def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables]
             raise ValueError(f"tolerance is for body {AUTO}, got body {body!r}")
         return tables, None
     tolerance = _TOLERANCE if tolerance is None else tolerance
-    choice = cheapest(tolerance)
+    rungs("ends", tolerance)  # says whether it was measured
     for table in tables:
         numerics = table["numerics"]
         both: list[str] = [key for key in ("links", "timestep") if key in numerics]
@@ -118,7 +118,7 @@ def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables]
             raise ValueError(
                 f"body {AUTO} picks links and timestep under constant friction, got {both[0]}"
             )
-        table["numerics"] = {**numerics, "body": choice.body}
+        table["numerics"] = {**numerics, "body": Scene.body}
     return tables, tolerance
 
 

@@ -1,26 +1,25 @@
 """Numerics that check themselves: a scene walked ever finer, until two walks agree.
 
-The first pair is the cheapest that was measured to meet the tolerance, see mjsim.scene.auto, made
-finer for robots of more segments and for short ramps. A failure counts as the robot's only if the
-two finest walks fail alike.
+The rungs and how often each is right are measured, see mjsim.scene.auto; steps are made shorter
+where a ramp needs it. A failure counts as the robot's only if two fine walks fail alike.
 """
 
 import math
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
+import numpy as np
+
 from mjsim.scene import Numerics, Scene
-from mjsim.scene.auto import cheapest
+from mjsim.scene.auto import rungs
 from mjsim.scene.numerics import MAX_LINKS
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
+from mjsim.simulation.status import Status
 from mjsim.simulation.trajectory import Trajectory
 
-# links of a robot of three segments and time step [s], each finer than the one before; chosen
-_FINER = ((24, 0.020), (24, 0.005), (48, 0.005), (48, 0.001))
-# links a segment of other robots; contacts between the ends need them finer from the start
-_PARTS, _PARTS_BETWEEN = (6, 12, 12, 24, 24), (8, 16, 24, 24, 32)
-_STEPS_A_RAMP = 40
+_STEPS_A_RAMP = 40  # chosen
+_FINE = 0.005  # s: at longer steps a strip may fall by the numerics alone
 _SHORT = 1e-3  # of the length: less is as good as the same, whatever the tolerance
 
 
@@ -30,7 +29,7 @@ class Checked(NamedTuple):
     Attributes:
         walk: the finest.
         error: the last change of its displacement per cycle over L; NaN if it has none.
-        agreed: whether that is within the tolerance.
+        agreed: whether that is within the tolerance, or two fine walks failed alike.
         tried: numerics of all walks, coarsest first.
     """
 
@@ -46,7 +45,7 @@ def walk_checked(
     """Walk until two walks agree within a tolerance on displacement, relative or 0.001 L.
 
     Raises:
-        ValueError: nothing was measured to be that accurate, or the body cannot do the scene.
+        ValueError: no tolerance that was measured, or the body cannot do the scene.
     """
     before: Trajectory | None = None
     tried, error, agreed = [], math.nan, False
@@ -55,24 +54,26 @@ def walk_checked(
         tried.append(walk.numerics)
         if before is not None:
             error, agreed = _agreement(before, walk, tolerance)
-            if agreed and (walk.status == "ok" or numerics.timestep <= _FINER[1][1]):
+            if agreed:
                 break
         before = walk
     return Checked(walk, error, agreed, tried)
 
 
 def ladder(scene: Scene, tolerance: float) -> Iterator[Numerics]:
-    """Numerics for a scene, each finer than the one before."""
-    first = cheapest(tolerance)
-    segments, shortest = len(scene.robot.segments), min(scene.gait.ramp_times)
-    parts = _PARTS_BETWEEN if scene.between else _PARTS
+    """Numerics for a scene, each finer than the one before.
+
+    Raises:
+        ValueError: no tolerance that was measured.
+    """
+    longest = min(scene.gait.ramp_times) / _STEPS_A_RAMP
+    borders = np.asarray(scene.robot.borders)
+    segments = math.ceil(borders[-1] / np.diff(borders).min() - 1e-9)  # as short as the shortest
     last: tuple[int, float] | None = None
-    rungs = ((first.links, first.timestep), *_FINER)
-    for part, (links, timestep) in zip(parts, rungs, strict=True):
-        if segments > 3 or scene.between:
-            links = min(MAX_LINKS, part * segments)
-        pair = (links, min(timestep, shortest / _STEPS_A_RAMP))
-        if last is None or (pair[0] >= last[0] and pair[1] <= last[1] and pair != last):
+    for rung in rungs("all" if scene.between else "ends", tolerance):
+        links = min(MAX_LINKS, max(12, rung.links_per_segment * segments))
+        pair = (links, min(rung.timestep, longest))
+        if pair != last:
             last = pair
             yield Numerics(links=pair[0], timestep=pair[1])
 
@@ -80,6 +81,7 @@ def ladder(scene: Scene, tolerance: float) -> Iterator[Numerics]:
 def _agreement(before: Trajectory, walk: Trajectory, tolerance: float) -> tuple[float, bool]:
     one, two = measure(before), measure(walk)
     if one is None or two is None:
-        return math.nan, before.status == walk.status
+        alike = before.status == walk.status is not Status.UNSETTLED
+        return math.nan, alike and before.numerics.timestep <= _FINE
     error = abs(one.displacement - two.displacement)
     return error, error <= max(tolerance * abs(two.displacement), _SHORT)

@@ -18,7 +18,6 @@ from mjsim.studies.accuracy import (
     heavy_cantilever,
     walking,
 )
-from mjsim.studies.accuracy.choices import write_choices
 from mjsim.studies.accuracy.rows import MEASURED, Row, append, read
 from mjsim.studies.accuracy.setting import Setting
 
@@ -46,8 +45,6 @@ class Options:
     rows: Path | None = None
     """the table: CSV that measurements are read from and appended to; accuracy.csv in the folder
     of the figures if not given"""
-    auto: Path | None = None
-    """also write the table that body auto picks from, mjsim/scene/auto.csv of a checkout"""
     fresh: bool = False
     """measure everything anew"""
     quick: bool = False
@@ -75,8 +72,6 @@ def main(argv: Sequence[str] | None = None) -> int:
         ):
             known.append(row)
             advance(1)
-    if options.auto:
-        write_choices(known, options.auto)
     for case in cases:
         figure.save(figure.draw(known, case), options.out / f"{case}.png")
         print(figure.table(known, case))
