@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from analytic.friction import LAWS, Friction, TractionLaw
     from analytic.gait import GAITS, Gait
     from analytic.ground import Patches
+    from analytic.lifted import solve_lifted
     from analytic.locomotion import Direction, Locomotion, direction, displacements
     from analytic.modes import solve_modes
     from analytic.obstacle import solve_obstacle
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
         REFERENCE,
         SOLVERS,
         Elastica,
+        Lifted,
         Modes,
         Obstacle,
         Prediction,
@@ -42,7 +44,8 @@ _HOMES = {
     "locomotion": ("Direction", "Locomotion", "direction", "displacements"),
     "modes": ("solve_modes",),
     "obstacle": ("solve_obstacle",),
-    "prediction": ("REFERENCE", "SOLVERS", "Elastica", "Modes", "Obstacle", "Prediction",
+    "lifted": ("solve_lifted",),
+    "prediction": ("REFERENCE", "SOLVERS", "Elastica", "Lifted", "Modes", "Obstacle", "Prediction",
                    "Solver", "predict"),
     "robot": ("Robot",),
     "surface": ("SURFACES", "Ground", "Surface"),
@@ -61,6 +64,7 @@ __all__ = [
     "Friction",
     "Gait",
     "Ground",
+    "Lifted",
     "Locomotion",
     "Mode",
     "Modes",
@@ -77,6 +81,7 @@ __all__ = [
     "displacements",
     "predict",
     "solve_elastica",
+    "solve_lifted",
     "solve_modes",
     "solve_obstacle",
 ]

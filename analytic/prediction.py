@@ -66,6 +66,27 @@ class Modes:
 
 
 @dataclass(frozen=True)
+class Lifted:
+    """The contact modes with finite rotations: one flat end or none, robots of any segments."""
+
+    name: ClassVar[str] = "lifted"
+
+    def solve(
+        self,
+        robot: Robot,
+        pressures: Array,
+        ground: Ground,
+        friction: Friction,
+        times: Array | None,
+    ) -> Shapes:
+        """See Solver.solve."""
+        from analytic.lifted import solve_lifted
+
+        _refuse_bending(self.name, friction, ground)
+        return solve_lifted(robot, pressures)
+
+
+@dataclass(frozen=True)
 class Obstacle:
     """Small slopes, exact contact."""
 
@@ -114,7 +135,7 @@ class Elastica:
         return solve_elastica(robot, pressures, self.links, self.chamber, ground, friction, times)
 
 
-SOLVERS: dict[str, type[Solver]] = {kind.name: kind for kind in (Modes, Obstacle, Elastica)}
+SOLVERS: dict[str, type[Solver]] = {kind.name: kind for kind in (Modes, Lifted, Obstacle, Elastica)}
 REFERENCE = Elastica.name
 
 

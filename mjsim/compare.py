@@ -1,5 +1,6 @@
 """Every model on the same scenes in one table: `python -m mjsim.compare`."""
 
+import math
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -12,6 +13,7 @@ from analytic.locomotion import direction
 from analytic.prediction import REFERENCE, SOLVERS, Elastica, predict
 from analytic.robot import Robot
 from analytic.surface import SURFACES, Ground
+from analytic.uncertainty import modes_error
 from mjsim import registry
 from mjsim.io.cli import bar, choose, fail, parse, say, strict_json
 from mjsim.scene import Scene
@@ -26,8 +28,9 @@ class Options:
     """Compare the quasi-static solvers and MuJoCo on one cycle of each gait on each surface.
 
     The reference is elastica. Columns: Δ/L, displacement of the left end per cycle over the length;
-    +-, what is known of its error: of elastica, what half the links and states change; of MuJoCo,
-    the part that the anchor rule does not explain; - ref, difference from the reference; height/L,
+    +-, what is known of its error: of modes and lifted, what the contacts that they assume may be
+    off exact contact, a bound; of elastica, what half the links and states change; of MuJoCo, the
+    part that the anchor rule does not explain; - ref, difference from the reference; height/L,
     the greatest height; status, ok or what limits the answer. Lists are comma-separated. Exit code
     0: done, also where a model has no answer (its status says why); 2: bad input.
 
@@ -39,7 +42,7 @@ class Options:
     gait: str = "all"
     """wave, full-wave, pulse, or all"""
     model: str = "all"
-    """modes, obstacle, elastica, planar, cable, rod, or all"""
+    """modes, lifted, obstacle, elastica, planar, cable, rod, or all"""
     reverse: bool = False
     """run the gaits backwards too"""
     pressure: float = Robot().peak_pressure
@@ -85,14 +88,14 @@ def compare(robot: Robot, gait: Gait, ground: Ground, models: Sequence[str]) -> 
 def _quasi_static(robot: Robot, gait: Gait, ground: Ground, model: str) -> Row:
     walk = predict(robot, gait, ground, model)
     shift = walk.locomotion.per_cycle / robot.length
-    known = bool(np.isfinite(shift))
+    known, assumed = bool(np.isfinite(shift)), modes_error(walk) / robot.length
     flags = "+".join(flag.name.lower() for flag in walk.flags if flag.name) or "ok"
     return Row(
         ground.name,
         gait.name,
         model,
         displacement_over_L=shift if known else None,
-        uncertainty_over_L=None,
+        uncertainty_over_L=assumed if math.isfinite(assumed) and assumed > 0 else None,
         difference_over_L=None,
         direction=direction(shift, 1.0) if known else None,
         amplitude_over_L=float(walk.shapes.amplitude.max()) / robot.length if known else None,

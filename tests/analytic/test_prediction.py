@@ -23,9 +23,10 @@ def test_felt_and_gelatin_are_equal_and_opposite_by_every_solver(solver):
 
 
 def test_the_solvers_agree_on_the_distance_as_far_as_small_slopes_go():
-    modes, obstacle, elastica = (distance(solver) for solver in SOLVERS)
+    modes, lifted, obstacle, elastica = (distance(solver) for solver in SOLVERS)
     assert modes == pytest.approx(obstacle, abs=2e-4)
     assert modes == pytest.approx(elastica, rel=0.05)
+    assert lifted == pytest.approx(elastica, rel=0.005)
 
 
 def test_flags_tell_what_was_met_on_the_way():
@@ -36,5 +37,5 @@ def test_flags_tell_what_was_met_on_the_way():
 
 
 def test_an_unknown_solver_is_refused_by_name():
-    with pytest.raises(ValueError, match="modes, obstacle, elastica"):
+    with pytest.raises(ValueError, match="modes, lifted, obstacle, elastica"):
         predict(Robot(), GAITS["wave"], SURFACES["felt"], "ladder")

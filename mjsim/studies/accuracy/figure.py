@@ -17,7 +17,7 @@ GOALS = (0.10, 0.02, 0.005)  # relative errors that a table names the cheapest w
 _LEAST = 1e-5  # errors below are drawn there: the reference is no better
 _COLOUR = {
     "planar": "#d1495b", "cable": "#edae49", "rod": "#66a182", "stock cable": "#8b5e34",
-    "modes": "#8d99ae", "obstacle": "#3a7ca5", "elastica": "black",
+    "modes": "#8d99ae", "lifted": "#52796f", "obstacle": "#3a7ca5", "elastica": "black",
     "Drake": "#5e548e", "PyElastica": "#00798c", "PyBullet": "#b56576",
 }  # fmt: skip
 _FAILED = {"diverged": "x", "toppled": "1", "drifting": "2", "turned": "3"}

@@ -35,10 +35,11 @@ more than about 25 % (Gamma = 4: a plateau from 0.23 on). Differs: there is no p
 increments the distance is the shortening 1 - Lambda/L at the instant when both ends become tips;
 from then on both slide alike and give back what they take. So it rises until the branch ends, or,
 for a robot so light that one inflated segment lifts both ends, it stays. Small slopes are not the
-reason: modes, obstacle, elastica and MuJoCo agree on it. Coarse increments make peaks, as each step
-over that instant counts a part too much: saw-teeth whose place is set by the number of increments
-(0.13 with two a ramp, 0.20 with three, 0.27 with five). A peak at 25 % can come from such
-increments, or from the gait of the lost Figure 3; of the three gaits here none has it.
+reason: modes, the same with finite rotations (lifted), obstacle, elastica and MuJoCo agree on it.
+Coarse increments make peaks, as each step over that instant counts a part too much: saw-teeth whose
+place is set by the number of increments (0.13 with two a ramp, 0.20 with three, 0.27 with five). A
+peak at 25 % can come from such increments, or from the gait of the lost Figure 3; of the three
+gaits here none has it.
 """
 
 _PRESSURES = np.linspace(4e3, 77e3, 74)

@@ -10,7 +10,13 @@ Array = NDArray[np.float64]
 
 PASSIVE, INFLATED = "0.68", "black"  # as the shading of Figure 4
 SIMULATED = "#d1495b"
-SOLVER = {"modes": "#8d99ae", "obstacle": "#3a7ca5", "elastica": "black", "planar": SIMULATED}
+SOLVER = {
+    "modes": "#8d99ae",
+    "lifted": "#52796f",
+    "obstacle": "#3a7ca5",
+    "elastica": "black",
+    "planar": SIMULATED,
+}
 FONT: dict[Any, Any] = {"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False}
 
 
