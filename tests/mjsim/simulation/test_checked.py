@@ -42,7 +42,7 @@ def test_a_robot_that_falls_is_said_to_fall_by_two_fine_walks():
 def test_each_walk_is_finer_than_the_one_before_and_steps_follow_the_ramps():
     for scene in (HIGH, FAST, FOUR):
         steps = list(ladder(scene, 0.02))
-        assert len(steps) > 2
+        assert len(steps) >= 2
         for one, two in itertools.pairwise(steps):
             assert two.links >= one.links
             assert two.timestep <= one.timestep
