@@ -102,9 +102,9 @@ def solve_lifted(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
     status[~done & (status == 0)] |= int(Status.NOT_CONVERGED)
 
     lifted = _Lifted(beam, mirrored, xi, slope, flat)
+    # an end that lies flat has slope 0 there, so this looks at the ends in point contact only
     sinking = np.maximum(-slope[:, 0, 0], slope[:, -1, -1]) > 100 * _TOLERANCE
-    status[sinking & ~flat & ~lies] |= int(Status.BOTH_FLAT)
-    status[lies & (slope[:, -1, -1] > 100 * _TOLERANCE)] |= int(Status.BOTH_FLAT)
+    status[sinking & ~flat] |= int(Status.BOTH_FLAT)
     status[~flat & (lifted.height.min(axis=(1, 2)) < -10 * _TOLERANCE)] |= int(Status.PENETRATES)
     status[lies & lifted.held()] |= int(Status.HELD_FLAT)
 
@@ -170,11 +170,9 @@ def _one_flat(beam: _Beam, mirrored: Mask) -> tuple[Array, Array, Mask, Mask]:
     borders = np.where(mirrored[:, None], 1.0 - beam.borders[::-1], beam.borders)
     count, segments = beam.curvature.shape
 
-    def spans_of(rows: NDArray[np.int_], xi: Array) -> Array:
-        return np.maximum(borders[rows, 1:] - np.maximum(borders[rows, :-1], xi[:, None]), 0.0)
-
     def end_height(rows: NDArray[np.int_], xi: Array) -> Array:
-        spans = spans_of(rows, xi)
+        ends = np.maximum(borders[rows], xi[:, None])  # what lies flat has no span
+        spans = np.diff(ends)
         for _ in range(_BETWEEN):
             slope[rows] = _bent(beam.rows(rows), spans, slope[rows])
         return np.asarray(_cumulative(np.sin(slope[rows]), spans)[:, -1, -1])
@@ -183,7 +181,7 @@ def _one_flat(beam: _Beam, mirrored: Mask) -> tuple[Array, Array, Mask, Mask]:
     xi, found = _first_guess(beam, borders)
     before = np.clip(xi - 0.002, 0.0, 1.0)
     everything = np.arange(count)
-    end_height(everything, before)
+    end_height(everything, before)  # twice, as the first passes begin from a straight strip
     height_before, height = end_height(everything, before), end_height(everything, xi)
     moved = np.where(found, np.inf, 0.0)
     for _ in range(_SECANTS):

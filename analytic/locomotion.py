@@ -140,13 +140,13 @@ def _ends(shapes: Shapes, law: str) -> tuple[tuple[Array, Array], tuple[Array, A
 def undecided(shapes: Shapes, surface: Surface, law: str = "coulomb", alike: float = 0.0) -> float:
     """How much of the displacement along a sequence the law leaves open, either way [m].
 
-    Args:
-        shapes, surface, law: the walk.
-        alike: part of the larger bound by which two may differ and count as a tie [1].
-
     Where both ends resist alike, by nothing or to the last digit, Coulomb's law does not say which
     one slides: the whole change of separation may be the left end's or the right end's, and
     `displacements` takes half. The constant bounds of [Majidi13] decide so by rule.
+
+    Args:
+        shapes, surface, law: the walk.
+        alike: part of the larger bound by which two may differ and count as a tie [1].
     """
     left, right = bounds(shapes, surface, law)
     near = np.abs(left - right) <= alike * np.maximum(left, right)

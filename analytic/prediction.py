@@ -1,5 +1,6 @@
 """How far a robot goes in a cycle, by any solver, with the changes of anchor resolved."""
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple, Protocol
 
@@ -44,67 +45,70 @@ class Solver(Protocol):
         ...
 
 
+class _Unbent(ABC):
+    """A solver whose shapes no friction bends: its `shapes` depend on pressures alone."""
+
+    name: ClassVar[str]
+
+    def solve(
+        self,
+        robot: Robot,
+        pressures: Array,
+        ground: Ground,
+        friction: Friction,
+        times: Array | None,
+    ) -> Shapes:
+        """See Solver.solve."""
+        if ground.at(0.0).adhesion:
+            raise ValueError(f"{REFERENCE} alone knows adhesive ground, got solver {self.name!r}")
+        if friction.tension:
+            raise ValueError(
+                f"{REFERENCE} alone lets friction bend the strip, got solver {self.name!r}"
+            )
+        return self.shapes(robot, pressures)
+
+    @abstractmethod
+    def shapes(self, robot: Robot, pressures: Array) -> Shapes:
+        """Equilibria at pressures of shape (B, S) [Pa]."""
+
+
 @dataclass(frozen=True)
-class Modes:
+class Modes(_Unbent):
     """The contact modes of [Majidi13], Appendix A: small slopes, one flat end, closed form."""
 
     name: ClassVar[str] = "modes"
 
-    def solve(
-        self,
-        robot: Robot,
-        pressures: Array,
-        ground: Ground,
-        friction: Friction,
-        times: Array | None,
-    ) -> Shapes:
-        """See Solver.solve."""
+    def shapes(self, robot: Robot, pressures: Array) -> Shapes:
+        """Equilibria at pressures of shape (B, S) [Pa]."""
         from analytic.modes import solve_modes
 
-        _refuse_bending(self.name, friction, ground)
         return solve_modes(robot, pressures)
 
 
 @dataclass(frozen=True)
-class Lifted:
+class Lifted(_Unbent):
     """The contact modes with finite rotations: one flat end or none, robots of any segments."""
 
     name: ClassVar[str] = "lifted"
 
-    def solve(
-        self,
-        robot: Robot,
-        pressures: Array,
-        ground: Ground,
-        friction: Friction,
-        times: Array | None,
-    ) -> Shapes:
-        """See Solver.solve."""
+    def shapes(self, robot: Robot, pressures: Array) -> Shapes:
+        """Equilibria at pressures of shape (B, S) [Pa]."""
         from analytic.lifted import solve_lifted
 
-        _refuse_bending(self.name, friction, ground)
         return solve_lifted(robot, pressures)
 
 
 @dataclass(frozen=True)
-class Obstacle:
+class Obstacle(_Unbent):
     """Small slopes, exact contact."""
 
     name: ClassVar[str] = "obstacle"
     elements: int = 60
 
-    def solve(
-        self,
-        robot: Robot,
-        pressures: Array,
-        ground: Ground,
-        friction: Friction,
-        times: Array | None,
-    ) -> Shapes:
-        """See Solver.solve."""
+    def shapes(self, robot: Robot, pressures: Array) -> Shapes:
+        """Equilibria at pressures of shape (B, S) [Pa]."""
         from analytic.obstacle import solve_obstacle
 
-        _refuse_bending(self.name, friction, ground)
         return solve_obstacle(robot, pressures, self.elements)
 
 
@@ -243,10 +247,3 @@ def _anchor_changes(shapes: Shapes, ground: Ground, friction: Friction) -> NDArr
     slip = mean_slip(shapes, ground, friction)
     change = np.diff(state_slip(shapes, ground, friction.law)) != 0
     return np.asarray(change | (np.abs(slip - np.round(2 * slip) / 2) > 0))
-
-
-def _refuse_bending(name: str, friction: Friction, ground: Ground) -> None:
-    if ground.at(0.0).adhesion:
-        raise ValueError(f"{REFERENCE} alone knows adhesive ground, got solver {name!r}")
-    if friction.tension:
-        raise ValueError(f"{REFERENCE} alone lets friction bend the strip, got solver {name!r}")

@@ -26,7 +26,6 @@ from mjsim.simulation.simulation import simulate
 from mjsim.simulation.trajectory import Trajectory
 
 TOLERANCES = (0.1, 0.02, 0.005)
-SHORT = 1e-3  # of L
 LADDER = {"ends": ((4, 0.02), (4, 0.01), (6, 0.005), (12, 0.002)),
           "all": ((8, 0.005), (16, 0.005), (24, 0.002))}  # fmt: skip
 FAST = {"ends": ((4, 0.05), (6, 0.05)), "all": ((8, 0.05), (8, 0.02), (8, 0.01))}  # for the record
@@ -112,17 +111,15 @@ def measured(work, name: str, count: int) -> list[list]:
     return [row for row in rows if row[0] < count]
 
 
-def near(found: float, exact: float, tolerance: float) -> bool:
-    return abs(found - exact) <= max(tolerance * abs(exact), SHORT)
-
-
 def design(count: int) -> None:
     rows = [row for row in measured(design_rows, "auto-design", count) if row[5] == "ok"]
     table = []
     for contacts in LADDER:
         for part, timestep in FAST[contacts] + LADDER[contacts]:
             here = [row for row in rows if row[1:4] == [contacts, part, timestep]]
-            parts = [np.mean([near(row[6], row[4], t) for row in here]) for t in TOLERANCES]
+            parts = [
+                np.mean([checked.within(row[6], row[4], t) for row in here]) for t in TOLERANCES
+            ]
             line = Rung(contacts, part, timestep, len(here), *(round(float(p), 3) for p in parts),
                         round(float(np.median([row[8] for row in here]))))  # fmt: skip
             print(*line, "failed", sum(row[7] != "ok" for row in here))
@@ -140,7 +137,7 @@ def check(count: int) -> None:
             here = [r for r in rows if r[2] == tolerance and contacts in (r[1], None)]
             walks = [row for row in here if row[4] == "ok"]
             kept = [row for row in walks if row[6] == "ok"]
-            fine = [near(row[5], row[3], tolerance) for row in kept]
+            fine = [checked.within(row[5], row[3], tolerance) for row in kept]
             said = [ok for ok, row in zip(fine, kept, strict=True) if row[7]]
             print(f"{contacts or 'both'}, {tolerance:.1%}: {len(walks)} of {len(here)} walk, auto "
                   f"fails in {len(walks) - len(kept)}; within {np.mean(fine):.1%}, of the "
@@ -149,7 +146,7 @@ def check(count: int) -> None:
                   f"{np.median([row[10] for row in kept]):.0f}; "
                   f"{np.mean([row[8] for row in kept]):.1f} walks a scene")  # fmt: skip
     for row in rows:
-        if row[4] == "ok" and not (row[6] == "ok" and near(row[5], row[3], row[2])):
+        if row[4] == "ok" and not (row[6] == "ok" and checked.within(row[5], row[3], row[2])):
             print("  ", row)
 
 

@@ -141,7 +141,8 @@ def _line(row: dict[str, Any]) -> str:
     return (
         f"{row['surface']:<14}{row['direction'] or '-':<11}"
         f"{_signed(row['displacement_over_L'])}{_signed(row['predicted_displacement_over_L'])}"
-        f"{_bar(row['prediction_uncertainty_over_L'])}{_signed(row['error_over_L'])}{_signed(row['unexplained_over_L'])}"
+        f"{_bar(row['prediction_uncertainty_over_L'])}{_signed(row['error_over_L'])}"
+        f"{_signed(row['unexplained_over_L'])}"
         f"{_plain(row['amplitude_over_L'])}{row['sim_time_s']:>8.1f}{row['wall_time_s']:>8.2f}"
         f"{row['realtime_factor']:>8.0f}  {row['status']}{_remarks(row)}"
     )

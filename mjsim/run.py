@@ -14,7 +14,7 @@ from analytic.surface import SURFACES
 from mjsim.io.cli import FAILED, bar, fail, parse, say, strict_json
 from mjsim.io.files import check_folder
 from mjsim.scene import Numerics, Scene
-from mjsim.scene.auto import rungs
+from mjsim.scene.auto import check_tolerance
 from mjsim.scene.options import SceneOptions, tables_of
 from mjsim.scene.tables import Tables, build
 
@@ -108,7 +108,7 @@ def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables]
             raise ValueError(f"tolerance is for body {AUTO}, got body {body!r}")
         return tables, None
     tolerance = _TOLERANCE if tolerance is None else tolerance
-    rungs("ends", tolerance)  # says whether it was measured
+    check_tolerance(tolerance)
     for table in tables:
         numerics = table["numerics"]
         both: list[str] = [key for key in ("links", "timestep") if key in numerics]

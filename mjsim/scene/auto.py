@@ -38,6 +38,12 @@ class Rung(NamedTuple):
     realtime: float
 
 
+def check_tolerance(tolerance: float) -> None:
+    """Raise ValueError for a tolerance that is none, or tighter than what was measured."""
+    if not is_number(tolerance) or not _TIGHTEST <= tolerance <= 1:
+        raise ValueError(f"tolerance must lie between {_TIGHTEST} and 1, got {tolerance!r}")
+
+
 def rungs(contacts: str, tolerance: float, path: Path = TABLE) -> list[Rung]:
     """Those to walk, coarsest first; the second is the cheapest that is right often enough.
 
@@ -49,8 +55,7 @@ def rungs(contacts: str, tolerance: float, path: Path = TABLE) -> list[Rung]:
     Raises:
         ValueError: the tolerance is none, or tighter than what was measured.
     """
-    if not is_number(tolerance) or not _TIGHTEST <= tolerance <= 1:
-        raise ValueError(f"tolerance must lie between {_TIGHTEST} and 1, got {tolerance!r}")
+    check_tolerance(tolerance)
     kind = "within_10" if tolerance >= 0.1 else "within_2" if tolerance >= 0.02 else "within_half"
     with path.open(newline="", encoding="utf-8") as file:
         rows = [

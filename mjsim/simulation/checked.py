@@ -61,7 +61,7 @@ def walk_checked(
 
 
 def ladder(scene: Scene, tolerance: float) -> Iterator[Numerics]:
-    """Numerics for a scene, each finer than the one before.
+    """Numerics for a scene, each finer than the one before; the last for want of agreement alone.
 
     Raises:
         ValueError: no tolerance that was measured.
@@ -76,6 +76,8 @@ def ladder(scene: Scene, tolerance: float) -> Iterator[Numerics]:
         if pair != last:
             last = pair
             yield Numerics(links=pair[0], timestep=pair[1])
+    assert last is not None
+    yield Numerics(links=min(MAX_LINKS, 2 * last[0]), timestep=0.5 * last[1])
 
 
 def _agreement(before: Trajectory, walk: Trajectory, tolerance: float) -> tuple[float, bool]:
@@ -84,4 +86,9 @@ def _agreement(before: Trajectory, walk: Trajectory, tolerance: float) -> tuple[
         alike = before.status == walk.status is not Status.UNSETTLED
         return math.nan, alike and before.numerics.timestep <= _FINE
     error = abs(one.displacement - two.displacement)
-    return error, error <= max(tolerance * abs(two.displacement), _SHORT)
+    return error, within(one.displacement, two.displacement, tolerance)
+
+
+def within(found: float, exact: float, tolerance: float) -> bool:
+    """Whether a displacement over L is another one within a relative tolerance or 0.001."""
+    return abs(found - exact) <= max(tolerance * abs(exact), _SHORT)

@@ -52,16 +52,16 @@ def measure(walk: Trajectory) -> Measures | None:
     ends = _ends_of_cycles(walk)
     by_cycle = np.diff(x[ends, 0]) / length
     uniform = isinstance(scene.ground, Surface)
-    ends = ends[-2:] if uniform else ends[[0, -1]]
-    travel = float(x[ends[1], 0] - x[ends[0], 0])
-    change = np.diff((x[:, -1] - x[:, 0])[ends[0] : ends[1] + 1])
-    ruled = -float(walk.left_slip_fraction[ends[0] + 1 : ends[1] + 1] @ change)
+    counted = 1 if uniform else scene.cycles  # how many cycles the displacement is the mean of
+    first, last = ends[-1 - counted], ends[-1]
+    travel = float(x[last, 0] - x[first, 0])
+    steps = slice(first + 1, last + 1)
+    change = np.diff(x[:, -1] - x[:, 0])[first:last]
+    ruled = -float(walk.left_slip_fraction[steps] @ change)
     if math.isnan(ruled):
-        drift = walk.drift[ends[0] + 1 : ends[1] + 1]
-        ruled = travel - float(drift.sum()) * walk.numerics.timestep
+        ruled = travel - float(walk.drift[steps].sum()) * walk.numerics.timestep
     if depends_on_speed(scene.ground):
         ruled = math.nan  # both ends slide, by their viscous resistance
-    counted = 1 if uniform else scene.cycles
     shift = travel / (counted * length)
     along, aside, _ = walk.position[-1, -1] - walk.position[-1, 0]
     return Measures(

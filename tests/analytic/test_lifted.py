@@ -53,6 +53,14 @@ def test_the_distance_is_the_elastica_s_within_a_percent_beyond_its_bound():
     assert farther_than_its_bound(15, 7)[0] == []
 
 
+@pytest.mark.slow
+def test_it_is_on_two_hundred_random_robots_and_most_are_exact():
+    off, sharp, known = farther_than_its_bound(200, 8)
+    assert off == []
+    assert known > 150
+    assert sharp > 0.6 * known
+
+
 def test_sound_shapes_are_the_elastica_s():
     for robot, gait in random_robots(6, seed=3):
         pressures = robot.peak_pressure * gait.pressures(12)

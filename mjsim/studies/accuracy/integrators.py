@@ -6,11 +6,9 @@ they are, how soft under a steep end, and how flat an end must be to lie on its 
 """
 
 import itertools
-import logging
 import math
 import sys
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -24,6 +22,7 @@ from mjsim.scene.numerics import Integrator
 from mjsim.scene.provenance import signature
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
+from mjsim.studies import workers
 from mjsim.studies.accuracy.rows import HERE, append, read
 
 PROGRAM = "python -m mjsim.studies.accuracy.integrators"
@@ -162,18 +161,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     seen = {row.key for row in known}
     todo = [Best(name, dt) for name in INTEGRATORS for dt in TIMESTEPS]
     todo = [row for row in todo if row.key not in seen]
-    with ProcessPoolExecutor(initializer=_quiet) as pool, bar("searching", len(todo)) as advance:
+    with workers.pool() as pool, bar("searching", len(todo)) as advance:
         found = (replace(row, **signature()) for row in pool.map(Best.done, todo))
         for row in append(found, options.rows):
             known.append(row)
             advance(1)
     print(table(known))
     return 0
-
-
-def _quiet() -> None:
-    """Divergence is an outcome here, not a warning."""
-    logging.getLogger("absl").setLevel(logging.ERROR)
 
 
 if __name__ == "__main__":

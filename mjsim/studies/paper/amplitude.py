@@ -107,7 +107,7 @@ def draw(data: xr.Dataset) -> Figure:
             x = data["height"].sel(part).values
             y = data["displacement"].sel(part).values
             known = np.isfinite(y)
-            name = f"{solver}, Γ = {gamma:.3g}"
+            name = str(solver) if gamma == data["gamma"].values[0] else None  # dashes are labelled
             line = {"dashes": dashes} if dashes[0] else {}
             left.plot(x[known], y[known], color=SOLVER[str(solver)], label=name, **line)
             if not known.all():
@@ -115,7 +115,9 @@ def draw(data: xr.Dataset) -> Figure:
         y, x = data["planar"].sel(gamma=gamma).values
         left.plot(x, y, "o", color=SIMULATED, markersize=4,
                   fillstyle="full" if not dashes[0] else "none",
-                  label=f"MuJoCo, Γ = {gamma:.3g}")  # fmt: skip
+                  label="MuJoCo" if not dashes[0] else None)  # fmt: skip
+        left.annotate(f"Γ = {gamma:.3g}", (x[-1], y[-1]), xytext=(6, -14), fontsize=8,
+                      textcoords="offset points")  # fmt: skip
     left.set_title("(a) every model, fine increments", loc="left", fontsize=9)
     left.legend(frameon=False, fontsize=7.5)
     shades = np.linspace(0.8, 0.0, len(data["increments"]))

@@ -2,7 +2,6 @@
 
 import itertools
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 
 from analytic import SURFACES, Gait, Robot, pneunet, predict
 from analytic.trapezoid import trapezoid
+from mjsim.studies import workers
 from mjsim.studies.paper.style import SOLVER
 
 Array = NDArray[np.float64]
@@ -122,7 +122,7 @@ def read(rows: Array) -> Reading | None:
     return Reading(float(loss), float(other[at] / far[at]), plateau and loss < _LOSS)
 
 
-def _tried(gait: Gait) -> list[tuple[str, str, float, str, Reading, Array]]:
+def _tried(gait: Gait) -> list[tuple[str, float, str, Reading, Array]]:
     """Readings by the modes, and by elastica where they say anything."""
     found = []
     for gamma in _GAMMAS:
@@ -130,31 +130,31 @@ def _tried(gait: Gait) -> list[tuple[str, str, float, str, Reading, Array]]:
         reading = read(rows)
         if reading is None:
             continue
-        found.append((gait.name, str(gait.stages), gamma, "modes", reading, rows))
+        found.append((gait.name, gamma, "modes", reading, rows))
         if reading.loss > _LOSS or reading.plateau or abs(reading.ratio) < _STILL:
             exact = sweep(gait, gamma, "elastica", _PRESSURES[: len(rows) + 2 : 2])
             reading = read(exact)
             if reading is not None:
-                found.append((gait.name, str(gait.stages), gamma, "elastica", reading, exact))
+                found.append((gait.name, gamma, "elastica", reading, exact))
     return found
 
 
 def make() -> xr.Dataset:
     """Every reading, and the sweep of the clearest peak by each solver."""
-    with ProcessPoolExecutor() as pool:
+    with workers.pool() as pool:
         found = [row for rows in pool.map(_tried, gaits(), chunksize=4) for row in rows]
-    exact = [row for row in found if row[3] == "elastica"]
-    best = max(exact, key=lambda row: row[4].loss)
+    exact = [row for row in found if row[2] == "elastica"]
+    best = max(exact, key=lambda row: row[3].loss)
     data = xr.Dataset(
-        {name: ("reading", [getattr(row[4], name) for row in found]) for name in Reading._fields},
+        {name: ("reading", [getattr(row[3], name) for row in found]) for name in Reading._fields},
         coords={"gait": ("reading", [row[0] for row in found]),
-                "gamma": ("reading", [row[2] for row in found]),
-                "solver": ("reading", [row[3] for row in found])},
-        attrs={"units": "1; sweeps over L", "best": best[0], "best_gamma": best[2]},
+                "gamma": ("reading", [row[1] for row in found]),
+                "solver": ("reading", [row[2] for row in found])},
+        attrs={"units": "1; sweeps over L", "best": best[0], "best_gamma": best[1]},
     )  # fmt: skip
     for row in found:
-        if (row[0], row[2]) == (best[0], best[2]):
-            data[f"sweep_{row[3]}"] = (f"pressure_{row[3]}", "quantity"), row[5]
+        if row[:2] == best[:2]:
+            data[f"sweep_{row[2]}"] = (f"pressure_{row[2]}", "quantity"), row[4]
     return data.assign_coords(quantity=["height", "felt", "polyethylene"])
 
 
@@ -167,7 +167,7 @@ def draw(data: xr.Dataset) -> Figure:
         left.scatter(part["ratio"].clip(-1.5, 1.5), part["loss"], s=size, color=SOLVER[solver],
                      alpha=0.35 if solver == "modes" else 0.8, linewidths=0,
                      label=f"{solver}, {part.sizes['reading']} readings")  # fmt: skip
-    left.axvspan(-_STILL, _STILL, _LOSS / 1.1 * 0.95, color="0.85", zorder=0)
+    left.fill_between([-_STILL, _STILL], _LOSS, 1.05, color="0.85", linewidth=0, zorder=0)
     left.text(0, 0.6, "the paper's\ncorner", ha="center", fontsize=8)
     left.set(
         xlabel="distance on polyethylene over that on felt, at 0.25",

@@ -1,11 +1,7 @@
 """Map where methods fail: `python -m mjsim.studies.stability`."""
 
-import logging
-import multiprocessing
-import os
 import sys
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -13,6 +9,7 @@ from typing import Any
 from mjsim import registry
 from mjsim.io.cli import bar, choose, fail, parse
 from mjsim.scene.provenance import signature
+from mjsim.studies import workers
 from mjsim.studies.accuracy.figure import save
 from mjsim.studies.accuracy.rows import append, read
 from mjsim.studies.stability import figure, maps, parameters
@@ -61,7 +58,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         rows = known[name]
         seen = {row.key for row in rows}
         todo = [row for row in _grid(options, name) if row.key not in seen]
-        with _pool() as pool, bar(name, len(todo)) as advance:
+        with workers.pool() as pool, bar(name, len(todo)) as advance:
             outcomes = pool.map(KINDS[name].done, todo, chunksize=2)
             signed = (replace(row, **signature()) for row in outcomes)
             for row in append(signed, _table(options, name)):
@@ -89,16 +86,6 @@ def _grid(options: Options, name: str) -> list[Any]:
     if name == "parameters":
         return list(parameters.variations(options.quick))
     return list(dict.fromkeys(maps.integrators(name, options.quick)))
-
-
-def _pool() -> ProcessPoolExecutor:
-    context = multiprocessing.get_context("forkserver")
-    return ProcessPoolExecutor(os.cpu_count(), mp_context=context, initializer=_quiet)
-
-
-def _quiet() -> None:
-    """Divergence is an outcome here, not a warning."""
-    logging.getLogger("absl").setLevel(logging.ERROR)
 
 
 if __name__ == "__main__":
