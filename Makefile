@@ -1,6 +1,6 @@
 PY := .venv/bin/python
 
-.PHONY: run test check numbers scenes reach auto loop startup bench regression identify models gallery figures \
+.PHONY: run test check numbers scenes reach auto promises loop startup bench regression identify models gallery figures \
 	chart maps reference architecture clean
 
 run: .venv/ready
@@ -27,6 +27,10 @@ reach: .venv/ready
 
 auto: .venv/ready
 	$(PY) benchmarks/auto.py check
+
+# whether error bars and what is said of inertia hold on random scenes
+promises: .venv/ready
+	$(PY) benchmarks/promises.py
 
 loop: .venv/ready
 	$(PY) benchmarks/loop.py

@@ -27,9 +27,7 @@ def record(walk: Trajectory) -> dict[str, Any]:
     by_cycle = (prediction.by_cycle / scene.robot.length).tolist()
     predicted = _of_cycle(scene, prediction)
     known = math.isfinite(predicted)
-    bar = (
-        abs(_of_cycle(scene, reference(walk, coarser=2)) - predicted) + _RESOLVED if known else None
-    )
+    bar = abs(_of_cycle(scene, reference(walk, 0.5)) - predicted) + _RESOLVED if known else None
     numbers = measure(walk)
     simulated = float(len(walk.time) * numerics.timestep)
     shift = numbers.displacement if numbers else None
@@ -69,7 +67,7 @@ def record(walk: Trajectory) -> dict[str, Any]:
     }
 
 
-def reference(walk: Trajectory, coarser: int = 1) -> Prediction:
+def reference(walk: Trajectory, finer: float = 1) -> Prediction:
     """What the quasi-static reference makes of the same scene.
 
     Chambers that lag behind their valves take the strip along another path than the gait's: then it
@@ -78,9 +76,9 @@ def reference(walk: Trajectory, coarser: int = 1) -> Prediction:
 
     Args:
         walk: whose scene it is.
-        coarser: divides links and states; 2 says how well the reference is resolved.
+        finer: multiplies links and states; 0.5 says how well the reference is resolved.
     """
-    scene, states = walk.scene, _STATES // coarser
+    scene, states = walk.scene, round(_STATES * finer)
     own = scene.lag and walk.time[-1] > 0
     path = times = None
     if own:
@@ -96,9 +94,9 @@ def reference(walk: Trajectory, coarser: int = 1) -> Prediction:
         scene.robot,
         scene.gait,
         scene.ground,
-        Elastica(_links(scene) // coarser, scene.chamber),
+        Elastica(round(_links(scene) * finer), scene.chamber),
         states_per_ramp=states,
-        refinement=(_PARTS_BETWEEN if scene.between else _PARTS) // coarser,
+        refinement=round((_PARTS_BETWEEN if scene.between else _PARTS) * finer),
         friction=scene.reference_friction,
         path=path,
         times=times,

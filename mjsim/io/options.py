@@ -1,8 +1,5 @@
 """Options of a command from the fields of a dataclass: their types, units and help."""
 
-import ast
-import inspect
-import textwrap
 from collections.abc import Iterable, Mapping
 from dataclasses import field, fields, make_dataclass
 from types import NoneType, UnionType
@@ -10,27 +7,12 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_typ
 
 import tyro
 
-
-def field_docs(kind: type[Any]) -> Mapping[str, str]:
-    """What stands below each field of a dataclass as its documentation."""
-    (tree,) = ast.parse(textwrap.dedent(inspect.getsource(kind))).body
-    assert isinstance(tree, ast.ClassDef)
-    docs: dict[str, str] = {}
-    for one, two in zip(tree.body, tree.body[1:], strict=False):
-        if (
-            isinstance(one, ast.AnnAssign)
-            and isinstance(one.target, ast.Name)
-            and isinstance(two, ast.Expr)
-            and isinstance(two.value, ast.Constant)
-            and isinstance(two.value.value, str)
-        ):
-            docs[one.target.id] = " ".join(two.value.value.split())
-    return docs
+from mjsim.io.fields import field_docs
 
 
 def optional(
     name: str,
-    kind: type[Any],
+    kind: type,
     names: Iterable[str],
     aliases: Mapping[str, str] | None = None,
     more: Iterable[tuple[str, Any, Any]] = (),
@@ -66,13 +48,14 @@ def option(kind: Any, text: str, default: Any = None, alias: str | None = None) 
         alias: another name of it.
     """
     words = get_args(kind) if get_origin(kind) is Literal else ()
+    metavar = "{" + ",".join(words) + "}" if words else kind.__name__.upper()
     of = tyro.conf.arg(
         help=text,
         aliases=(alias,) if alias else None,
-        metavar="{" + ",".join(words) + "}" if words else kind.__name__.upper(),
+        metavar=metavar,
         help_behavior_hint="" if default is None else f"(default: {_shown(default)})",
     )
-    return Annotated[kind | None, of]
+    return Annotated[(str if kind is float else kind) | None, of]  # it may carry its unit
 
 
 def given(options: Any) -> dict[str, Any]:
@@ -80,16 +63,10 @@ def given(options: Any) -> dict[str, Any]:
     return {key: value for key, value in vars(options).items() if value is not None}
 
 
-def numbers(name: str, text: str) -> tuple[float, ...]:
-    """Numbers from a text with commas between.
-
-    Raises:
-        ValueError: a word is no number.
-    """
-    try:
-        return tuple(float(word) for word in text.split(","))
-    except ValueError:
-        raise ValueError(f"{name} must be numbers with commas between, got {text!r}") from None
+def parts(text: str) -> tuple[str, ...] | str:
+    """A list written with commas between, or the one word that it is."""
+    words = tuple(word.strip() for word in text.split(","))
+    return words if len(words) > 1 else text
 
 
 def _shown(default: Any) -> str:

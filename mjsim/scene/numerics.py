@@ -43,7 +43,7 @@ class Numerics:
     steep_contact_time: float | None = None
     """that of an end steeper than steep_angle [timestep]; 2 with discrete, 4 for the cable"""
     steep_angle: float = 0.3
-    """rad; chosen"""
+    """[rad]; chosen"""
     pad_radius: float | None = None
     """of the contact pads, centred on the neutral line [m]; 1e-3, under Coulomb friction 1e-5,
     since that acts at a pad's lowest point"""

@@ -9,7 +9,8 @@ import tyro
 from analytic.robot import Robot
 from analytic.surface import SURFACES, Surface
 from mjsim.io.cli import ALL
-from mjsim.io.options import field_docs, given, numbers, option, optional
+from mjsim.io.fields import field_docs
+from mjsim.io.options import given, option, optional, parts
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene
 from mjsim.scene.tables import SCENE_FIELDS, SURFACE_FIELDS, Tables, merged, read_tables
@@ -108,10 +109,10 @@ def tables_of(options: SceneOptions) -> list[Tables]:
     ground: dict[str, Any] = {**given(options.surface_), **given(options.ground_)}
     robot, gait = given(options.robot_), given(options.gait_)
     if "segments" in robot:
-        robot["segments"] = numbers("segments", robot["segments"])
+        words = parts(robot["segments"])
+        robot["segments"] = words if isinstance(words, tuple) else (words,)
     if "ramp_time" in gait:
-        times = numbers("gait.ramp-time", gait["ramp_time"])
-        gait["ramp_time"] = times if len(times) > 1 else times[0]
+        gait["ramp_time"] = parts(gait["ramp_time"])
     if "stages" in gait:
         gait["stages"] = _stages(gait["stages"])
     if options.gait is not None:

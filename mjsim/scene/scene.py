@@ -55,7 +55,7 @@ class Scene:
     lag: float = 0.0
     """time constant with which chambers follow their valves [s]"""
     gravity: float = GRAVITY
-    """m/s^2; only the mass w/g that the weight w per length has depends on it"""
+    """[m/s^2]; only the mass w/g that the weight w per length has depends on it"""
     settle_time: float = 0.5
     """at rest before the first cycle [s]; chosen"""
 

@@ -7,7 +7,8 @@
                 other, [[ground.patches]] with `from` [m] and a surface
     [numerics]  body, friction, cycles, ... of mjsim.Scene, and fields of mjsim.Numerics
 
-Every table and every key is optional over the defaults.
+Every table and every key is optional over the defaults. A number may be a text with its unit, as in
+length = "90 mm"; in tables all are SI once they are built.
 """
 
 import math
@@ -19,12 +20,14 @@ from pathlib import Path
 from types import NoneType, UnionType
 from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from analytic.checks import is_number, one_of
+from analytic.checks import one_of
 from analytic.gait import GAITS, Gait
 from analytic.ground import Patches
 from analytic.robot import Robot
 from analytic.surface import SURFACES, Ground, Surface
 from analytic.trapezoid import trapezoid
+from mjsim.io.fields import units
+from mjsim.io.units import in_unit
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene
 
@@ -37,6 +40,7 @@ SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation"
                 "settle_time")  # fmt: skip
 SURFACE_FIELDS = tuple(field.name for field in fields(Surface) if field.name != "name")
 TRAPEZOID = ("lag", "duty", "ramp")
+_UNITS = {"ramp_time": "s", "period": "s"}  # of gaits; other fields say it themselves
 _KEYS: dict[str, tuple[str, ...]] = {
     "robot": tuple(field.name for field in fields(Robot)),
     "gait": ("name", "stages", "ramp_time", *TRAPEZOID, "period", "reverse", "file"),
@@ -96,9 +100,7 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
     robot = make(Robot, tables.get("robot", {}), f"{where}[robot] ")
     gait = build_gait(tables.get("gait", {}), f"{where}[gait] ", len(robot.segments))
     ground = tables.get("ground", {})
-    slope = ground.get("slope_deg", 0.0)
-    if not is_number(slope):
-        raise ValueError(f"{where}[ground] slope_deg must be a number, got {slope!r}")
+    slope = _as(float, ground.get("slope_deg", 0.0), f"{where}[ground] slope_deg", "deg")
     values = tables.get("numerics", {})
     scene_values = {key: value for key, value in values.items() if key in SCENE_FIELDS}
     scene = make(
@@ -130,7 +132,7 @@ def build_ground(table: Table, where: str = "") -> Ground:
         if (number > 0) != ("from" in patch):
             raise ValueError(f"{here}every patch but the first must say `from` where it begins [m]")
         if number > 0:
-            borders.append(patch["from"])
+            borders.append(_as(float, patch["from"], f"{here}from", "m"))
         surfaces.append(build_surface(patch, here))
     try:
         return Patches("-".join(surface.name for surface in surfaces), tuple(borders),
@@ -193,7 +195,8 @@ def _trapezoid(table: Table, where: str, segments: int) -> Gait:
     if missing:
         raise ValueError(f"{where}{missing[0]} is missing; a gait has lag, duty and ramp")
     try:
-        gait = trapezoid(**table, segments=segments)
+        numbers = {k: _as(float, v, f"{where}{k}", _UNITS.get(k)) for k, v in table.items()}
+        gait = trapezoid(**numbers, segments=segments)
         return gait if name is None else replace(gait, name=name)
     except ValueError as error:
         raise ValueError(f"{where}{error}") from error
@@ -222,14 +225,15 @@ def _checked(kind: type[Any], table: Mapping[str, Any], where: str) -> Table:
     for key, value in table.items():
         if key not in hints:
             raise ValueError(f"{where}key {key!r} is unknown; known are {', '.join(hints)}")
-        values[key] = _as(hints[key], value, f"{where}{key}")
+        unit = _UNITS.get(key) or units(kind).get(key)
+        values[key] = _as(hints[key], value, f"{where}{key}", unit)
     return values
 
 
-def _as(hint: Any, value: Any, name: str) -> Any:
+def _as(hint: Any, value: Any, name: str, unit: str | None = None) -> Any:
     """The value as its type has it.
 
-    Lists become tuples and whole numbers floats.
+    Lists become tuples and whole numbers floats, and numbers with a unit are turned into the SI.
 
     Raises:
         ValueError: it is not of that type.
@@ -250,7 +254,9 @@ def _as(hint: Any, value: Any, name: str) -> Any:
             return value
         if get_origin(option) is tuple and isinstance(value, list | tuple):
             inner = get_args(option)[0]
-            return tuple(_as(inner, item, f"{name}'s parts") for item in value)
+            return tuple(_as(inner, item, f"{name}'s parts", unit) for item in value)
+    if isinstance(value, str) and float in options:
+        return in_unit(name, value, unit)
     raise ValueError(f"{name} must be {_described(options)}, got {value!r}")
 
 

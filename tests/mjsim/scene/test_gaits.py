@@ -76,7 +76,7 @@ def test_a_bad_file_gets_one_line_that_names_the_key(tmp_path, capsys, text, key
 @pytest.mark.parametrize(
     ("words", "named"),
     [(["--gait", "missing.toml"], "missing.toml"), (["--gait", "gallop"], "wave"),
-     (["--segments", "1,x"], "1,x"), (["--segments", "1,0,1"], "0"),
+     (["--segments", "1,x"], "'x'"), (["--segments", "1,0,1"], "0"),
      (["--segments", "1,1"], "has 2"), (["--slope", "90"], "90"), (["--lag", "-1"], "-1"),
      (["--chamber", "helium"], "sealed"), (["--actuation", "wind"], "actuators"),
      (["--links", "10", "--actuation", "actuators"], "10"),
