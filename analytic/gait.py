@@ -11,6 +11,8 @@ from analytic.checks import file_word, is_number, positive
 
 Array = NDArray[np.float64]
 
+_ROUNDING = 1e-9
+
 
 @dataclass(frozen=True)
 class Gait:
@@ -22,6 +24,8 @@ class Gait:
             equal the first, so that cycles join. Below 0 the pressure is on a segment's other face
             and curls it up.
         ramp_time: duration of the linear ramp between two stages, one for all or one each [s].
+        repeats: whether it is a cycle; one that is not, such as a measured series, need not close,
+            and holds its last stage after its end.
 
     Raises:
         ValueError: fewer than two stages, stages that are not alike many fractions in [-1, 1], a
@@ -32,6 +36,7 @@ class Gait:
     name: str
     stages: tuple[tuple[float, ...], ...]
     ramp_time: float | tuple[float, ...] = 2.0
+    repeats: bool = True
 
     def __post_init__(self) -> None:
         file_word("name of a gait", self.name)
@@ -45,7 +50,7 @@ class Gait:
                 raise ValueError(f"stages must hold a fraction in [-1, 1] a segment, got {stage!r}")
             if len(stage) != self.segments:
                 raise ValueError(f"stages must have {self.segments} fractions each, got {stage!r}")
-        if self.stages[0] != self.stages[-1]:
+        if self.repeats and self.stages[0] != self.stages[-1]:
             raise ValueError(
                 f"stages must close the cycle: first {self.stages[0]!r}, last {self.stages[-1]!r}"
             )
@@ -79,7 +84,7 @@ class Gait:
         """The same stages in reverse order."""
         times = self.ramp_time
         backward = times[::-1] if isinstance(times, tuple) else times
-        return Gait(f"{self.name}-reversed", self.stages[::-1], backward)
+        return Gait(f"{self.name}-reversed", self.stages[::-1], backward, self.repeats)
 
     def dips(self) -> bool:
         """Whether a segment is ever inflated less than one on either side of it.
@@ -109,10 +114,30 @@ class Gait:
         steps = np.arange(cycles * self.ramps * states_per_ramp + 1) / states_per_ramp
         return self._at_ramp(steps)
 
+    def path(self, states: int, cycles: int = 1) -> tuple[Array, Array]:
+        """Fractions of the peak pressure along the gait, as dense as the pressures change.
+
+        Args:
+            states: of a change by the peak pressure, at least 1.
+            cycles: number of cycles, at least 1.
+
+        Returns:
+            Fractions, shape (T, S), and their times, (T,) [s]. A ramp has one state at least.
+        """
+        most = np.abs(np.diff(np.array(self.stages), axis=0)).max(axis=1)
+        counts = np.tile(np.maximum(np.ceil(states * most - _ROUNDING), 1).astype(int), cycles)
+        ramp = np.repeat(np.arange(len(counts)), counts)
+        within = np.arange(1, len(ramp) + 1) - np.repeat(np.cumsum(counts) - counts, counts)
+        steps = np.append(0.0, (ramp * counts[ramp] + within) / counts[ramp])
+        return self._at_ramp(steps), self._time_of(steps, cycles)
+
     def times(self, states_per_ramp: int, cycles: int = 1) -> Array:
         """When `pressures` has its rows, shape (T,) [s]."""
-        ends = np.concatenate([[0.0], np.cumsum(self.ramp_times * cycles)])
         steps = np.arange(cycles * self.ramps * states_per_ramp + 1) / states_per_ramp
+        return self._time_of(steps, cycles)
+
+    def _time_of(self, steps: Array, cycles: int) -> Array:
+        ends = np.concatenate([[0.0], np.cumsum(self.ramp_times * cycles)])
         return np.interp(steps, np.arange(len(ends)), ends)
 
     def fractions(self, time: Array) -> Array:
@@ -120,6 +145,8 @@ class Gait:
 
         Before the start the first stage holds; cycles repeat after it.
         """
+        if not self.repeats:
+            time = np.minimum(time, self.period)
         cycles, within = np.divmod(np.maximum(time, 0.0), self.period)
         ends = np.concatenate([[0.0], np.cumsum(self.ramp_times)])
         ramps = np.interp(within, ends, np.arange(self.ramps + 1.0))
@@ -130,6 +157,9 @@ class Gait:
         index = np.floor(position).astype(int)
         part = (position - index)[:, None]
         start = index % self.ramps
+        if not self.repeats:  # the end is the end of the last ramp, not the start of the first
+            ended = index >= self.ramps
+            start, part = np.where(ended, self.ramps - 1, start), np.where(ended[:, None], 1, part)
         return (1 - part) * stages[start] + part * stages[start + 1]
 
 

@@ -188,7 +188,8 @@ def predict(
     Args:
         robot, gait, ground: the scene.
         solver: a name of SOLVERS, or a solver with its options.
-        states_per_ramp: states per ramp of the gait in the first pass.
+        states_per_ramp: states in the first pass of a ramp from no pressure to the peak; fewer of
+            one that changes less, but where the ground resists by speed.
         refinement: parts of an increment in which the anchor changes.
         friction: law, tension and slope; "coulomb" needs a solver that knows forces, and elastica
             alone lets friction bend the strip.
@@ -205,8 +206,12 @@ def predict(
         one_of("solver", solver, SOLVERS)
         solver = SOLVERS[solver]()
     if path is None:
-        path = robot.peak_pressure * gait.pressures(states_per_ramp, cycles)
-        times = gait.times(states_per_ramp, cycles)
+        if depends_on_speed(ground):  # which may creep while a pressure is held
+            fractions = gait.pressures(states_per_ramp, cycles)
+            times = gait.times(states_per_ramp, cycles)
+        else:
+            fractions, times = gait.path(states_per_ramp, cycles)
+        path = robot.peak_pressure * fractions
     path = np.asarray(path, dtype=float)
     when = None if times is None else np.asarray(times, dtype=float)
     clock = np.arange(float(len(path))) if when is None else when

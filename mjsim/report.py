@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from analytic.locomotion import direction
 from analytic.prediction import REFERENCE, Elastica, Prediction, predict
@@ -13,7 +14,7 @@ from mjsim.scene import Scene
 from mjsim.simulation.measures import Measures, measure, slid_over_length
 from mjsim.simulation.trajectory import Trajectory
 
-_STATES, _TO_A_LAG = 50, 10  # of the reference in a ramp, or in so many times chambers' lag
+_STATES = 50  # of the reference in a ramp from no pressure to the peak
 _RESOLVED = 2e-4  # of the length: what no halving shows; then 51 of 53 random scenes hold
 _OPEN = 1e-4  # of the length: less is a rounding
 _LINKS, _LINKS_A_SEGMENT = 60, 24  # of the reference: contacts between the ends need finer links
@@ -79,17 +80,13 @@ def reference(walk: Trajectory, finer: float = 1) -> Prediction:
         finer: multiplies links and states; 0.5 says how well the reference is resolved.
     """
     scene, states = walk.scene, round(_STATES * finer)
-    own = scene.lag and walk.time[-1] > 0
     path = times = None
-    if own:
-        last = len(walk.time) - 1
-        every = max(1, round(min(*scene.gait.ramp_times, _TO_A_LAG * scene.lag)
-                             / (states * walk.numerics.timestep)))  # fmt: skip
-        rows = np.unique(np.append(np.arange(walk.start, last, every), last))
+    if not scene.valves.ideal and walk.time[-1] > 0:
+        rows = _along(walk, states)
         path, times = walk.pressure[rows], walk.time[rows]
     cycles = scene.cycles
     if path is None and isinstance(scene.ground, Surface):
-        cycles = 2 if scene.rise_time else 1
+        cycles = 2 if scene.rise_time and scene.gait.repeats else 1
     return predict(
         scene.robot,
         scene.gait,
@@ -102,6 +99,16 @@ def reference(walk: Trajectory, finer: float = 1) -> Prediction:
         times=times,
         cycles=cycles,
     )
+
+
+def _along(walk: Trajectory, states: int) -> NDArray[np.int_]:
+    """Rows in which pressures have changed by a part of the peak, or time by a part of a ramp."""
+    since = walk.pressure[walk.start :]
+    changed = np.abs(np.diff(since, axis=0)).max(axis=1) / walk.scene.robot.peak_pressure
+    passed = np.full(len(changed), walk.numerics.timestep / max(walk.scene.gait.ramp_times))
+    parts = np.cumsum(states * np.maximum(changed, passed)).astype(int)
+    rows = walk.start + 1 + np.flatnonzero(np.diff(parts, prepend=0))
+    return np.unique([walk.start, *rows, len(walk.time) - 1])
 
 
 def _notes(scene: Scene, numbers: Measures | None, prediction: Prediction) -> list[str]:

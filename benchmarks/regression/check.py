@@ -14,7 +14,7 @@ import numpy as np
 from cases import Case, cases
 
 from analytic import SOLVERS, Elastica, Friction, Gait, Robot, Surface, predict
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Scene, Valves
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 
@@ -48,7 +48,8 @@ def quasi_static(case: Case, robot: Robot, gait: Gait) -> dict[str, Any]:
 def simulated(case: Case, robot: Robot, gait: Gait) -> dict[str, Any]:
     scene = Scene(
         robot, gait, Surface("any", **case["ground"]), cycles=case["cycles"], body=case["model"],
-        friction=case["friction"], slope=case["slope"], chamber=case["chamber"], lag=case["lag"],
+        friction=case["friction"], slope=case["slope"], chamber=case["chamber"],
+        valves=Valves(case["lag"]),
         actuation={"springs": "rest-angles"}.get(case["actuation"], case["actuation"]),
     )  # fmt: skip
     numerics = Numerics(tie_bound=case["phi"], **case["numerics"])

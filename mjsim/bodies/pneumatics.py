@@ -4,8 +4,9 @@ The moment of a chamber on its hinges, beside that of the layer D0, is p (alpha 
 alpha eta p^2 with curvature k (9), or p alpha D0 at constant pressure. So at constant pressure each
 segment has one actuator, whose control is its pressure; by (9) each hinge has one whose gain is
 affine in its angle and whose control is the pressure, and each segment one for the square. A
-chamber that follows its valve with a lag is a filter on the control; the control of the square is
-what makes its filter follow the square of the pressure.
+chamber that follows its valve by one time constant is a filter on the control; the control of the
+square is what makes its filter follow the square of the pressure. Of valves that do more (see
+mjsim.scene.Valves) the pressure itself is the control.
 """
 
 import mujoco
@@ -19,43 +20,36 @@ from mjsim.scene import Numerics, Scene
 Array = NDArray[np.float64]
 
 
-def chamber_pressure(scene: Scene, numerics: Numerics, valves: Array, before: Array) -> Array:
-    """Pressure at the end of each step.
-
-    Args:
-        scene, numerics: tell the lag and the time step.
-        valves: commanded during each step, (T, S) [Pa].
-        before: in the chambers before the first, (S,) [Pa].
-
-    Returns:
-        Shape (T, S) [Pa].
-    """
-    keep = kept(scene, numerics)
-    if not keep:
-        return valves
-    pressures, pressure = np.empty_like(valves), before
-    for step, command in enumerate(valves):
-        pressure = (1 - keep) * command + keep * pressure
-        pressures[step] = pressure
-    return pressures
-
-
 def controls(
     scene: Scene, numerics: Numerics, valves: Array, before: Array, pressures: Array
 ) -> Array:
-    """The control sequence of a model with actuators, (T, nu); see chamber_pressure."""
+    """The control sequence of a model with actuators.
+
+    Args:
+        scene, numerics: of the model.
+        valves: commanded during each step, (T, S) [Pa].
+        before: pressure in the chambers before the first step, (S,) [Pa].
+        pressures: in the chambers at the end of each step, (T, S) [Pa].
+
+    Returns:
+        Shape (T, nu).
+    """
+    follows = _filtered(scene)
+    inputs = valves if follows else pressures
     if scene.chamber == "constant-pressure":
-        return valves
-    keep = kept(scene, numerics)
+        return inputs
     square = pressures**2
-    earlier = np.concatenate([before[None] ** 2, square[:-1]])
-    hinges = valves @ segment_overlap(scene.robot.borders, numerics.links).T
-    return np.concatenate([hinges, (square - keep * earlier) / (1 - keep)], axis=1)
+    hinges = inputs @ segment_overlap(scene.robot.borders, numerics.links).T
+    if follows:
+        keep = np.exp(-numerics.timestep / follows)
+        earlier = np.concatenate([before[None] ** 2, square[:-1]])
+        square = (square - keep * earlier) / (1 - keep)
+    return np.concatenate([hinges, square], axis=1)
 
 
-def kept(scene: Scene, numerics: Numerics) -> float:
-    """Part of a pressure that is left after a step, the valve being at 0."""
-    return float(np.exp(-numerics.timestep / scene.lag)) if scene.lag else 0.0
+def _filtered(scene: Scene) -> float:
+    """Time constant of the filter that an actuator is, 0 where the pressure itself is its input."""
+    return scene.valves.time_constant or 0.0
 
 
 def add_actuators(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
@@ -89,7 +83,7 @@ def _actuator(spec: mujoco.MjSpec, scene: Scene, name: str, limit: float) -> muj
     actuator = spec.add_actuator(name=name)
     actuator.ctrlrange[:] = 0.0, limit
     actuator.ctrllimited = int(mujoco.mjtLimited.mjLIMITED_FALSE)
-    if scene.lag:
+    if _filtered(scene):
         actuator.dyntype = mujoco.mjtDyn.mjDYN_FILTEREXACT
-        actuator.dynprm[0], actuator.actearly = scene.lag, True
+        actuator.dynprm[0], actuator.actearly = _filtered(scene), True
     return actuator

@@ -2,5 +2,6 @@
 
 from mjsim.scene.numerics import CONES, INTEGRATORS, Numerics
 from mjsim.scene.scene import ACTUATIONS, Scene
+from mjsim.scene.valves import Valves
 
-__all__ = ["ACTUATIONS", "CONES", "INTEGRATORS", "Numerics", "Scene"]
+__all__ = ["ACTUATIONS", "CONES", "INTEGRATORS", "Numerics", "Scene", "Valves"]

@@ -13,7 +13,8 @@ from mjsim.io.fields import field_docs
 from mjsim.io.options import given, option, optional, parts
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene
-from mjsim.scene.tables import SCENE_FIELDS, SURFACE_FIELDS, Tables, merged, read_tables
+from mjsim.scene.tables import FILES, SCENE_FIELDS, SURFACE_FIELDS, Tables, merged, read_tables
+from mjsim.scene.valves import Valves
 
 _RobotOptions = optional(
     "RobotOptions",
@@ -63,6 +64,9 @@ _NumericsOptions = optional(
 )  # fmt: skip
 
 
+_ValveOptions = optional(
+    "ValveOptions", Valves, [item.name for item in fields(Valves)], {"fill_time": "--lag"}
+)
 _bare = tyro.conf.arg(help_behavior_hint="")
 
 
@@ -76,8 +80,9 @@ class SceneOptions:
     """felt, polyethylene, gelatin, several with commas between, or all: the three, and a video of
     them in step; felt if nothing is given"""
     gait: Annotated[str | None, _bare] = None
-    """wave, full-wave, pulse: the order in which the segments inflate; or a .toml file with stages
-    and ramp_time"""
+    """wave, full-wave, pulse: the order in which the segments inflate; a .toml file with stages and
+    ramp_time; or a .csv file of measured pressures, time and one column a segment, units in the
+    heads"""
     reverse: bool = False
     """run the gait's stages backwards"""
     robot_: Annotated[_RobotOptions, tyro.conf.arg(name="robot")] = field(
@@ -86,6 +91,10 @@ class SceneOptions:
     """what its owner measured; the rest is the default robot's"""
     gait_: Annotated[_GaitOptions, tyro.conf.arg(name="gait")] = field(default_factory=_GaitOptions)
     """another order and timing of the stages"""
+    valves_: Annotated[_ValveOptions, tyro.conf.arg(name="valves")] = field(
+        default_factory=_ValveOptions
+    )
+    """how chambers follow their valves; one number, or one a segment with commas between"""
     surface_: Annotated[_SurfaceOptions, tyro.conf.arg(name="surface")] = field(
         default_factory=_SurfaceOptions
     )
@@ -116,12 +125,14 @@ def tables_of(options: SceneOptions) -> list[Tables]:
     if "stages" in gait:
         gait["stages"] = _stages(gait["stages"])
     if options.gait is not None:
-        gait["file" if options.gait.endswith(".toml") else "name"] = options.gait
+        gait["file" if options.gait.endswith(FILES) else "name"] = options.gait
     if options.reverse:
         gait["reverse"] = True
     layers = [read_tables(options.scene)] if options.scene else []
     over: Tables = {
-        "robot": robot, "gait": gait, "ground": ground, "numerics": given(options.numerics_),
+        "robot": robot, "gait": gait, "ground": ground,
+        "valves": {name: parts(text) for name, text in given(options.valves_).items()},
+        "numerics": given(options.numerics_),
     }  # fmt: skip
     if options.surface is None:
         return [merged(*layers, over)]

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from analytic import Gait, Patches, Robot, Surface
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Scene, Valves
 
 DISTRIBUTION = "undulator"
 _PACKAGES = (DISTRIBUTION, "mujoco", "dm_control", "numpy", "scipy")
@@ -43,6 +43,7 @@ def provenance(scene: Scene, numerics: Numerics) -> dict[str, Any]:
     plain = asdict(ground) if is_dataclass(ground) and not isinstance(ground, type) else ground.name
     described = {field.name: getattr(scene, field.name) for field in fields(scene)}
     described |= {"robot": asdict(scene.robot), "gait": asdict(scene.gait), "ground": plain}
+    described["valves"] = asdict(scene.valves)
     return {**origin(), "scene": described, "numerics": asdict(numerics)}
 
 
@@ -58,7 +59,7 @@ def configuration(described: dict[str, Any]) -> tuple[Scene, Numerics]:
         patches = scene["ground"]
         surfaces = tuple(Surface(**surface) for surface in patches["surfaces"])
         scene["ground"] = Patches(patches["name"], tuple(patches["borders"]), surfaces)
-    for name, kind in (("robot", Robot), ("gait", Gait), ("ground", Surface)):
+    for name, kind in (("robot", Robot), ("gait", Gait), ("ground", Surface), ("valves", Valves)):
         if isinstance(scene[name], Patches):
             continue
         if not isinstance(scene[name], dict):

@@ -8,18 +8,20 @@ import numpy as np
 
 from analytic import pneunet
 from analytic.chain import CHAMBER_LAWS
-from analytic.checks import not_negative, one_of, positive, slope, whole
+from analytic.checks import one_of, positive, slope, whole
 from analytic.friction import LAWS, Friction
 from analytic.gait import GAITS, Gait
 from analytic.ground import check_adhesion, depends_on_speed, surfaces_of
 from analytic.robot import GRAVITY, Robot
 from analytic.surface import SURFACES, Ground
 from mjsim import registry
+from mjsim.scene.valves import Valves
 
 Chamber = Literal["linearized", "sealed", "constant-pressure"]
 Actuation = Literal["rest-angles", "actuators"]
 Contacts = Literal["auto", "ends", "all"]
 CONTACTS: tuple[str, ...] = ("auto", "ends", "all")
+_RISE = 2.0  # s; to the start of a gait that does not repeat; chosen
 ACTUATIONS: tuple[str, ...] = ("rest-angles", "actuators")
 
 
@@ -52,8 +54,8 @@ class Scene:
     actuation: Actuation = "rest-angles"
     """what carries the moment of pressure: rest-angles and stiffness of the joints, set at each
     step; or actuators, with pressure as their control"""
-    lag: float = 0.0
-    """time constant with which chambers follow their valves [s]"""
+    valves: Valves = field(default_factory=Valves)
+    """how the pressure in the chambers follows what the valves are commanded"""
     gravity: float = GRAVITY
     """[m/s^2]; only the mass w/g that the weight w per length has depends on it"""
     settle_time: float = 0.5
@@ -69,7 +71,12 @@ class Scene:
         object.__setattr__(self, "cycles", int(self.cycles))
         positive("gravity", self.gravity, "m/s^2")
         positive("settle_time", self.settle_time, "s")
-        not_negative("lag", self.lag, "s")
+        self.valves.check(len(self.robot.segments))
+        if self.cycles > 1 and not self.gait.repeats:
+            raise ValueError(
+                f"cycles must be 1 for gait {self.gait.name!r}, which does not repeat, got "
+                f"{self.cycles}"
+            )
         slope(self.slope)
         if self.gait.segments != len(self.robot.segments):
             raise ValueError(
@@ -119,7 +126,9 @@ class Scene:
     @property
     def rise_time(self) -> float:
         """Time before the first cycle in which a gait that starts inflated is inflated [s]."""
-        return max(self.gait.ramp_times) if any(self.gait.stages[0]) else 0.0
+        if not any(self.gait.stages[0]):
+            return 0.0
+        return max(self.gait.ramp_times) if self.gait.repeats else _RISE
 
     @property
     def duration(self) -> float:

@@ -2,7 +2,8 @@
 
     [robot]     fields of analytic.Robot, in SI units
     [gait]      name of a gait, or stages and ramp_time, or lag, duty, ramp and period of
-                analytic.trapezoid, or file of a TOML table of these
+                analytic.trapezoid, or file: a TOML table of these, or a CSV of measured pressures
+    [valves]    fields of mjsim.scene.Valves: time constants, dead time, flow limit
     [ground]    surface, a name; or fields of analytic.Surface; slope_deg; or patches beside each
                 other, [[ground.patches]] with `from` [m] and a surface
     [numerics]  body, friction, cycles, ... of mjsim.Scene, and fields of mjsim.Numerics
@@ -28,22 +29,26 @@ from analytic.surface import SURFACES, Ground, Surface
 from analytic.trapezoid import trapezoid
 from mjsim.io.fields import units
 from mjsim.io.units import in_unit
+from mjsim.scene.measured import read_gait
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene
+from mjsim.scene.valves import Valves
 
 Table = dict[str, Any]
 Tables = dict[str, Table]
 Kind = TypeVar("Kind")
 
-NAMES = ("robot", "gait", "ground", "numerics")
-SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation", "lag", "gravity",
+NAMES = ("robot", "gait", "valves", "ground", "numerics")
+SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation", "gravity",
                 "settle_time")  # fmt: skip
 SURFACE_FIELDS = tuple(field.name for field in fields(Surface) if field.name != "name")
+FILES = (".toml", ".csv")  # of gaits
 TRAPEZOID = ("lag", "duty", "ramp")
 _UNITS = {"ramp_time": "s", "period": "s"}  # of gaits; other fields say it themselves
 _KEYS: dict[str, tuple[str, ...]] = {
     "robot": tuple(field.name for field in fields(Robot)),
     "gait": ("name", "stages", "ramp_time", *TRAPEZOID, "period", "reverse", "file"),
+    "valves": tuple(field.name for field in fields(Valves)),
     "ground": ("surface", *SURFACE_FIELDS, "slope_deg", "patches"),
     "numerics": (*SCENE_FIELDS, *(field.name for field in fields(Numerics))),
 }
@@ -98,13 +103,16 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
         ValueError: a value cannot be; the message names its table and key.
     """
     robot = make(Robot, tables.get("robot", {}), f"{where}[robot] ")
-    gait = build_gait(tables.get("gait", {}), f"{where}[gait] ", len(robot.segments))
+    gait, highest = _gait_of(tables.get("gait", {}), f"{where}[gait] ", len(robot.segments))
+    if highest is not None:
+        robot = replace(robot, peak_pressure=highest)
     ground = tables.get("ground", {})
     slope = _as(float, ground.get("slope_deg", 0.0), f"{where}[ground] slope_deg", "deg")
     values = tables.get("numerics", {})
     scene_values = {key: value for key, value in values.items() if key in SCENE_FIELDS}
     scene = make(
         Scene, scene_values, f"{where}[numerics] ", robot=robot, gait=gait,
+        valves=make(Valves, tables.get("valves", {}), f"{where}[valves] "),
         ground=build_ground(ground, f"{where}[ground] "), slope=math.radians(slope),
     )  # fmt: skip
     rest = {key: value for key, value in values.items() if key not in SCENE_FIELDS}
@@ -184,6 +192,17 @@ def build_gait(table: Table, where: str = "", segments: int = 3) -> Gait:
         if table:
             gait = replace(gait, **_checked(Gait, table, where))
     return gait.reversed() if backward else gait
+
+
+def _gait_of(table: Table, where: str, segments: int) -> tuple[Gait, float | None]:
+    """The gait, and the highest pressure if it was measured [Pa]."""
+    if not str(table.get("file", "")).endswith(".csv"):
+        return build_gait(table, where, segments), None
+    for key in table:
+        one_of(f"{where}key beside a .csv file", key, ("file", "reverse", "name"))
+    gait, highest = read_gait(Path(str(table["file"])))
+    gait = replace(gait, name=table.get("name", gait.name))
+    return (gait.reversed() if table.get("reverse") else gait), highest
 
 
 def _trapezoid(table: Table, where: str, segments: int) -> Gait:

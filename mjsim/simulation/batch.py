@@ -18,7 +18,8 @@ import numpy as np
 from mujoco import rollout as mujoco_rollout
 from numpy.typing import NDArray
 
-from mjsim.bodies.pneumatics import chamber_pressure, controls
+from mjsim.bodies.chambers import Chambers
+from mjsim.bodies.pneumatics import controls
 from mjsim.mjcf.builder import compile_model
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.judge import judge
@@ -117,7 +118,7 @@ def rollout(
     states = np.array([_first_state(model) for model in models])
     rest = np.zeros(commands[0].shape[1])
     pressures = [
-        chamber_pressure(scene, numerics, command, rest)
+        Chambers(scene.valves, len(rest), numerics.timestep).follow(command)
         for scene, command in zip(scenes, commands, strict=True)
     ]
     sequence = np.array(

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from analytic.contact import may_lie_flat
 from analytic.gait import Gait
 from mjsim import registry
-from mjsim.bodies.pneumatics import chamber_pressure
+from mjsim.bodies.chambers import Chambers
 from mjsim.friction.contact_length import pads_by_node
 from mjsim.friction.laws import traction
 from mjsim.mjcf.builder import compile_model
@@ -92,7 +92,8 @@ class Simulation:
         self._joints = registry.find(scene.body).bind(model, self.data, scene, numerics)
         self._traction = traction(scene, numerics, model, self.data)
         self._pads = pads_by_node(model)
-        self._pressure = np.zeros(len(scene.robot.segments))
+        self._chambers = Chambers(scene.valves, len(scene.robot.segments), numerics.timestep)
+        self._pressure = self._chambers.pressure
         self._coordinates: list[Array] = []
         self._ends: list[tuple[float, float, float, float]] = []
         self._pressures: list[Array] = []
@@ -207,7 +208,7 @@ class Simulation:
     def _play(self, valves: Array) -> None:
         """Do as many steps as there are commands, (T, S) [Pa], or up to a failure."""
         scene, numerics, model, data = self.scene, self.numerics, self.model, self.data
-        pressures = chamber_pressure(scene, numerics, valves, self._pressure)
+        pressures = self._chambers.follow(valves)
         joints, law = self._joints, self._traction
         loads = joints.loads(valves, self._pressure, pressures)
         sticky = scene.ground.at(0.0).adhesion > 0  # which may hold an inflated end flat

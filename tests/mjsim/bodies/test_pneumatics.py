@@ -12,9 +12,10 @@ from walks import HEAVIER
 from analytic import SURFACES, Elastica, Friction, pneunet, predict
 from analytic.chain import joint_springs, segment_overlap
 from analytic.surface import from_ratios
-from mjsim.bodies.pneumatics import chamber_pressure, controls
+from mjsim.bodies.chambers import Chambers
+from mjsim.bodies.pneumatics import controls
 from mjsim.mjcf.builder import compile_model
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Scene, Valves
 from mjsim.simulation.batch import rollout, simulate_all
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
@@ -31,7 +32,7 @@ def displacement(scene, numerics=None):
 @pytest.mark.parametrize("lag", [0.0, 0.1])
 @pytest.mark.parametrize("friction", ["constant", "coulomb"])
 def test_actuators_walk_as_springs_do_to_a_millionth(chamber, lag, friction):
-    scene = replace(BASE, chamber=chamber, lag=lag, friction=friction)
+    scene = replace(BASE, chamber=chamber, valves=Valves(lag), friction=friction)
     springs, actuators = (
         displacement(replace(scene, actuation=d)) for d in ("rest-angles", "actuators")
     )
@@ -61,21 +62,21 @@ def test_the_moment_of_gain_and_input_is_that_of_the_law(pressure, turn, chamber
 
 
 def test_chambers_follow_a_step_of_the_valve_exponentially():
-    scene, numerics = replace(BASE, lag=0.3), Numerics(timestep=0.01)
+    scene, numerics = replace(BASE, valves=Valves(0.3)), Numerics(timestep=0.01)
     step = np.ones((200, 3)) * 5e4
-    found = chamber_pressure(scene, numerics, step, np.zeros(3))
+    found = Chambers(scene.valves, 3, numerics.timestep).follow(step)
     time = 0.01 * np.arange(1, 201)
     assert found[:, 0] == pytest.approx(5e4 * (1 - np.exp(-time / 0.3)), rel=1e-9)
 
 
 def test_mujoco_s_filters_hold_the_pressure_and_its_square():
-    scene = replace(BASE, lag=0.2, actuation="actuators", friction="coulomb")
+    scene = replace(BASE, valves=Valves(0.2), actuation="actuators", friction="coulomb")
     numerics = Numerics(links=6).resolved("planar", "coulomb")
     model = compile_model(scene, numerics)
     data = mujoco.MjData(model)
     rest, time = np.zeros(3), np.arange(1, 401) * numerics.timestep
     command = scene.robot.peak_pressure * scene.gait.fractions(time)
-    pressure = chamber_pressure(scene, numerics, command, rest)
+    pressure = Chambers(scene.valves, 3, numerics.timestep).follow(command)
     for step, control in enumerate(controls(scene, numerics, command, rest, pressure)):
         data.ctrl[:] = control
         mujoco.mj_step(model, data)
@@ -103,7 +104,7 @@ def test_open_valves_bend_less_against_the_weight_than_closed_ones():
 def test_chambers_that_lag_are_compared_along_their_own_path():
     from mjsim.report import record
 
-    row = record(simulate(replace(BASE, ground=SURFACES["felt"], lag=0.2)))
+    row = record(simulate(replace(BASE, ground=SURFACES["felt"], valves=Valves(0.2))))
     assert row["error_over_L"] == pytest.approx(0, abs=0.001)
 
 

@@ -115,7 +115,7 @@ BAD = [
     ("[robot]\nlength = 'long'", "length", "a number"),
     ("[robot]\nlength = -1", "length", "positive"),
     ("[robot]\nsegments = 3", "segments", "a list"),
-    ("[robots]\nlength = 1", "'robots'", "robot, gait, ground, numerics"),
+    ("[robots]\nlength = 1", "'robots'", "robot, gait, valves, ground, numerics"),
     ("robot = 1", "robot", "table"),
     ("[ground]\nsurface = 'ice'", "'ice'", "felt"),
     ("[ground]\nsurface = 'felt'\nfriction = 1", "'felt'", "not both"),

@@ -1,0 +1,64 @@
+"""The pressure in the chambers, which follows the valves."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mjsim.scene.valves import Valves
+
+Array = NDArray[np.float64]
+
+
+class Chambers:
+    """Chambers at rest, without pressure, and what their valves were commanded of late.
+
+    Args:
+        valves: how they follow.
+        segments: how many there are.
+        timestep: between commands [s].
+
+    Attributes:
+        pressure: at the end of the last step, (S,) [Pa].
+    """
+
+    def __init__(self, valves: Valves, segments: int, timestep: float) -> None:
+        self.pressure: Array = np.zeros(segments)
+        self._ideal = valves.ideal
+        self._keep_filling = _kept(valves.of("fill_time", segments), timestep)
+        self._keep_venting = _kept(valves.of("vent_time", segments), timestep)
+        self._most = np.array(valves.of("flow_limit", segments)) * timestep
+        self._late = np.rint(np.array(valves.of("dead_time", segments)) / timestep).astype(int)
+        self._commands: Array = np.zeros((int(self._late.max()), segments))
+
+    def follow(self, valves: Array) -> Array:
+        """Pressure at the end of each step, (T, S) [Pa], of commands during each, (T, S) [Pa]."""
+        if self._ideal or not len(valves):
+            if len(valves):
+                self.pressure = valves[-1]
+            return valves
+        commands = self._delayed(valves)
+        pressures, pressure = np.empty_like(commands), self.pressure
+        for step, command in enumerate(commands):
+            fills = np.abs(command) > np.abs(pressure)
+            keep = np.where(fills, self._keep_filling, self._keep_venting)
+            change = (1 - keep) * (command - pressure)
+            pressure = pressure + np.clip(change, -self._most, self._most)
+            pressures[step] = pressure
+        self.pressure = pressure
+        return pressures
+
+    def _delayed(self, valves: Array) -> Array:
+        """The commands that act during each step."""
+        most = len(self._commands)
+        if not most:
+            return valves
+        known = np.concatenate([self._commands, valves])
+        rows = np.arange(len(valves))[:, None] + most - self._late
+        self._commands = known[-most:]
+        return np.asarray(known[rows, np.arange(valves.shape[1])])
+
+
+def _kept(times: tuple[float, ...], timestep: float) -> Array:
+    """Part of a difference from the command that is left after a step."""
+    constants = np.array(times)
+    safe = np.where(constants > 0, constants, 1.0)
+    return np.where(constants > 0, np.exp(-timestep / safe), 0.0)

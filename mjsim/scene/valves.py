@@ -1,0 +1,82 @@
+"""Valves and chambers as people have them: they fill and vent late, slowly and not alike."""
+
+import math
+from dataclasses import dataclass, fields
+
+from analytic.checks import not_negative
+
+Each = float | tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Valves:
+    """How the pressure in the chambers follows what the valves are commanded.
+
+    A command acts after the dead time; then the chamber's pressure approaches it exponentially, by
+    one time constant while it fills and by another while it vents, and never faster than the flow
+    limit. Each may be one number, or one a segment, left first.
+
+    Raises:
+        ValueError: a number is negative, or a flow limit is not positive.
+    """
+
+    fill_time: Each = 0.0
+    """time constant with which chambers fill [s]"""
+    vent_time: Each | None = None
+    """time constant with which they vent [s]; as they fill if not given"""
+    dead_time: Each = 0.0
+    """from a command to its first effect [s]"""
+    flow_limit: Each | None = None
+    """fastest change of pressure that the supply and the tubes let through [Pa/s]; none if not
+    given"""
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if value is None:
+                continue
+            unit = "Pa/s" if field.name == "flow_limit" else "s"
+            each = tuple(value) if isinstance(value, tuple | list) else (value,)
+            for part in each:
+                not_negative(field.name, part, unit)
+                if field.name == "flow_limit" and part == 0:
+                    raise ValueError(f"flow_limit must be above 0 Pa/s, got {value!r}")
+            numbers = tuple(float(part) for part in each)
+            object.__setattr__(self, field.name, numbers if len(numbers) > 1 else numbers[0])
+
+    def of(self, name: str, segments: int) -> tuple[float, ...]:
+        """One number a segment of that field; infinity where there is no flow limit."""
+        value = getattr(self, name)
+        if value is None:
+            value = self.fill_time if name == "vent_time" else math.inf
+        return value if isinstance(value, tuple) else (value,) * segments
+
+    def check(self, segments: int) -> None:
+        """Raise ValueError where numbers are given for another number of segments."""
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if isinstance(value, tuple) and len(value) != segments:
+                raise ValueError(f"{field.name} must be one number or {segments}, got {value!r}")
+
+    @property
+    def ideal(self) -> bool:
+        """Whether the pressure in the chambers is what the valves are commanded."""
+        return not (self.lags or self.flow_limit or self.dead)
+
+    @property
+    def lags(self) -> bool:
+        """Whether chambers fill or vent in time."""
+        return any(self.of("fill_time", 1)) or any(self.of("vent_time", 1))
+
+    @property
+    def dead(self) -> bool:
+        """Whether a command acts later."""
+        return any(self.of("dead_time", 1))
+
+    @property
+    def time_constant(self) -> float | None:
+        """The one of a first-order filter that they all are, or None if they are more than that."""
+        if self.dead or self.flow_limit:
+            return None
+        times = {*self.of("fill_time", 1), *self.of("vent_time", 1)}
+        return times.pop() if len(times) == 1 else None
