@@ -40,7 +40,7 @@ class Scene:
     """number of cycles"""
     body: str = "planar"
     """model of the strip: planar, a chain of hinged links; cable, links with ball joints in space;
-    rod, point masses in space"""
+    rod, point masses in space that are held in a plane: for bending out of it take the cable"""
     friction: str = "constant"
     """friction law: constant, V_t at a tip and tau by area on a side; coulomb, by load"""
     contacts: Contacts = "auto"
