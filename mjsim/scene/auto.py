@@ -3,7 +3,7 @@
 Measured on random robots of 3 to 10 segments, gaits, grounds and ramps of 0.5 to 4 s, by
 `python benchmarks/auto.py design`: on how many of them the displacement per cycle is within a
 tolerance, or 0.001 L, of that of 16 links a segment (32 with contacts between the ends) at 2 ms.
-mjsim.simulation.checked walks them until two agree.
+mjsim.simulation.checked walks them, coarsest first, until two in a row agree closely.
 """
 
 import csv
@@ -13,7 +13,6 @@ from typing import NamedTuple
 from analytic.checks import is_number
 
 TABLE = Path(__file__).with_name("auto.csv")
-_KEPT = 0.95  # of the scenes that the second of them must be within the tolerance on
 _TIGHTEST = 0.005  # tolerance that was measured
 
 
@@ -44,25 +43,16 @@ def check_tolerance(tolerance: float) -> None:
         raise ValueError(f"tolerance must lie between {_TIGHTEST} and 1, got {tolerance!r}")
 
 
-def rungs(contacts: str, tolerance: float, path: Path = TABLE) -> list[Rung]:
-    """Those to walk, coarsest first; the second is the cheapest that is right often enough.
+def rungs(contacts: str, path: Path = TABLE) -> list[Rung]:
+    """Those to walk, coarsest first.
 
     Args:
         contacts: "ends" or "all".
-        tolerance: relative, on displacement.
         path: of the table.
-
-    Raises:
-        ValueError: the tolerance is none, or tighter than what was measured.
     """
-    check_tolerance(tolerance)
-    kind = "within_10" if tolerance >= 0.1 else "within_2" if tolerance >= 0.02 else "within_half"
     with path.open(newline="", encoding="utf-8") as file:
-        rows = [
+        return [
             Rung(row["contacts"], int(row["links_per_segment"]), float(row["timestep"]),
                  int(row["scenes"]), *(float(row[name]) for name in Rung._fields[4:]))
             for row in csv.DictReader(file) if row["contacts"] == contacts
         ]  # fmt: skip
-    right = [i for i, row in enumerate(rows) if getattr(row, kind) >= _KEPT]
-    second = max(1, right[0] if right else len(rows) - 1)
-    return rows[second - 1 :]

@@ -6,9 +6,7 @@ or start at rest. They become straight ramps between few corners, as many as the
 visible, so that what is computed from them grows with what changes and not with the samples.
 """
 
-import csv
 import math
-import re
 from pathlib import Path
 from typing import NamedTuple
 
@@ -17,12 +15,10 @@ from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
 
 from analytic.gait import Gait
-from mjsim.io.units import in_unit
+from mjsim.io.csv_table import factor, number_in, read_csv
 
 Array = NDArray[np.float64]
 
-_UNIT = re.compile(r"^(.*?)\s*(?:[\[(]\s*(.+?)\s*[\])]|_([A-Za-z]+))\s*$")
-_PRESSURES = "Pa, kPa, psi, bar"
 _NOISES = 1.5  # that a corner must stand out by, of the largest of so many samples; chosen
 _FEW = 16  # samples that tell nothing of their noise; chosen
 _LEAST = 0.005  # of the highest pressure: what is flatter is flat; chosen
@@ -47,20 +43,24 @@ def read_series(path: Path) -> Series:
     Raises:
         ValueError: the file cannot be read or is no such table; the message names line and column.
     """
-    where = f"pressures {str(path)!r}"
-    lines = _lines(path, where)
-    head, rows = lines[0][1], lines[1:]
-    if len(head) < 2:
-        raise ValueError(f"{where}: needs a column of time and one a segment, got {head}")
-    factors = [_factor(where, text, column) for column, text in enumerate(head)]
+    table = read_csv(path, "pressures")
+    where, heads, rows = table
+    if len(heads) < 2:
+        raise ValueError(f"{where}: needs a column of time and one a segment, got {heads}")
+    factors = [factor(table, heads[0], "s", "s or ms")]
+    factors += [factor(table, head, "Pa", "Pa, kPa, psi, bar") for head in heads[1:]]
     if len(rows) < 2:
         raise ValueError(f"{where}: needs two samples at least, got {len(rows)}")
-    values = np.array([_numbers(where, number, row, head) for number, row in rows]) * factors
+    cells = [
+        [number_in(table, line, head, cell) for head, cell in zip(heads, row, strict=True)]
+        for line, row in rows
+    ]
+    values = np.array(cells) * factors
     time = values[:, 0] - values[0, 0]
     late = np.flatnonzero(np.diff(time) <= 0)
     if len(late):
-        number, row = rows[late[0] + 1]
-        raise ValueError(f"{where}: line {number}: time must increase, got {row[0]!r}")
+        line, row = rows[late[0] + 1]
+        raise ValueError(f"{where}: line {line}: time must increase, got {row[0]!r}")
     return Series(time, values[:, 1:])
 
 
@@ -143,55 +143,3 @@ def _through(time: Array, pressure: Array, kept: NDArray[np.int_]) -> Array:
          for p in pressure.T], axis=1,
     )  # fmt: skip
     return np.asarray(solveh_banded(normal, sums, lower=True))
-
-
-def _lines(path: Path, where: str) -> list[tuple[int, list[str]]]:
-    """Numbers and cells of the lines that are neither empty nor comments."""
-    try:
-        text = path.read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        raise ValueError(f"{where} cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise ValueError(f"{where} is no text: {error}") from error
-    lines = [
-        (number, line)
-        for number, line in enumerate(text.splitlines(), start=1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
-    if not lines:
-        raise ValueError(f"{where} is empty")
-    comma = max(";\t,", key=lambda mark: (mark in lines[0][1], -";\t,".index(mark)))
-    cells = csv.reader([line for _, line in lines], delimiter=comma)
-    decimal = comma == ";"  # where the comma is the decimal mark
-    return [
-        (number, [cell.strip().replace(",", ".") if decimal else cell.strip() for cell in row])
-        for (number, _), row in zip(lines, cells, strict=True)
-    ]
-
-
-def _factor(where: str, text: str, column: int) -> float:
-    """What a column's numbers are to be multiplied with."""
-    found = _UNIT.match(text)
-    unit = found and (found.group(2) or found.group(3))
-    wanted = "Pa" if column else "s"
-    known = f"such as {_PRESSURES}" if column else "such as s or ms"
-    if unit is None:
-        raise ValueError(f"{where}: column {text!r} must name its unit, {known}, in brackets")
-    try:
-        return in_unit(text, f"1 {unit}", wanted)
-    except ValueError:
-        raise ValueError(f"{where}: column {text!r} must have a unit {known}") from None
-
-
-def _numbers(where: str, number: int, row: list[str], head: list[str]) -> list[float]:
-    if len(row) != len(head):
-        raise ValueError(f"{where}: line {number}: needs {len(head)} numbers, got {len(row)}")
-    values = []
-    for text, name in zip(row, head, strict=True):
-        try:
-            values.append(float(text))
-        except ValueError:
-            values.append(math.nan)
-        if not math.isfinite(values[-1]):
-            raise ValueError(f"{where}: line {number}: {name} must be a number, got {text!r}")
-    return values

@@ -47,7 +47,7 @@ TRAPEZOID = ("lag", "duty", "ramp")
 _UNITS = {"ramp_time": "s", "period": "s"}  # of gaits; other fields say it themselves
 _KEYS: dict[str, tuple[str, ...]] = {
     "robot": tuple(field.name for field in fields(Robot)),
-    "gait": ("name", "stages", "ramp_time", *TRAPEZOID, "period", "reverse", "file"),
+    "gait": ("name", "stages", "ramp_time", *TRAPEZOID, "period", "reverse", "file", "repeats"),
     "valves": tuple(field.name for field in fields(Valves)),
     "ground": ("surface", *SURFACE_FIELDS, "slope_deg", "patches"),
     "numerics": (*SCENE_FIELDS, *(field.name for field in fields(Numerics))),
@@ -269,7 +269,7 @@ def _as(hint: Any, value: Any, name: str, unit: str | None = None) -> Any:
             return float(value)  # whether it is finite is asked where it is used
         if option is int and real and not isinstance(value, float):
             return value
-        if option is str and isinstance(value, str):
+        if option in (str, bool) and isinstance(value, option):
             return value
         if get_origin(option) is tuple and isinstance(value, list | tuple):
             inner = get_args(option)[0]
@@ -280,7 +280,7 @@ def _as(hint: Any, value: Any, name: str, unit: str | None = None) -> Any:
 
 
 def _described(options: tuple[Any, ...]) -> str:
-    words = {float: "a number", int: "a whole number", str: "a word"}
+    words = {float: "a number", int: "a whole number", str: "a word", bool: "true or false"}
     return " or ".join(words.get(o, "a list") for o in options if o is not NoneType)
 
 

@@ -1,0 +1,117 @@
+"""What the data do not determine: directions in which parameters may change unseen.
+
+The walk of a strip on constant bounds depends on dimensionless groups alone; what leaves them all
+as they are cannot be seen in any shape or distance over the length.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic import pneunet
+from analytic.friction import friction_number
+from mjsim.fitting.estimate import Estimate
+from mjsim.fitting.parameters import with_values
+from mjsim.scene.tables import Tables, build
+
+Array = NDArray[np.float64]
+
+_WIDE = math.log(2.0) / 1.96  # error of a logarithm: a factor of 2 either way; chosen
+_PART = 0.1  # of the largest exponent: less is left out
+_MOVES = 0.05  # of a group's logarithm, for a unit step: less leaves it as it is
+_STEP = 1e-3
+
+
+class Direction(NamedTuple):
+    """A product of powers of parameters that the data leave open.
+
+    Attributes:
+        exponents: by parameter.
+        factor: 95 % half-width of the product, as a factor.
+        changed, same: groups that change along it, and that stay as they are.
+    """
+
+    exponents: dict[str, float]
+    factor: float
+    changed: tuple[str, ...]
+    same: tuple[str, ...]
+
+    def __str__(self) -> str:
+        """In one line."""
+        product = " ".join(
+            name if abs(power - 1) < 0.005 else f"{name}^{power:.2g}"
+            for name, power in self.exponents.items()
+        )
+        known = f"within a factor of {self.factor:.2g}" if self.factor < 1e3 else "at all"
+        kept = f" (leaves {', '.join(self.same)} as they are)" if self.same else ""
+        return f"the data do not determine {product} {known}{kept}"
+
+
+def undetermined(estimate: Estimate, base: Tables) -> list[Direction]:
+    """Directions in which the estimate is open by a factor of 2 or more, the most open first.
+
+    Args:
+        estimate: of a fit.
+        base: tables of the scene that was fitted.
+    """
+    values, vectors = np.linalg.eigh(estimate.covariance)
+    slopes = _group_slopes(estimate, base)
+    found = []
+    for variance, vector in sorted(zip(values, vectors.T, strict=True), key=lambda pair: -pair[0]):
+        error = math.sqrt(max(variance, 0.0))
+        if error <= _WIDE:
+            break
+        vector = vector / vector[np.argmax(np.abs(vector))]
+        exponents = {
+            p.name: round(float(power), 2)
+            for p, power in zip(estimate.parameters, vector, strict=True)
+            if abs(power) > _PART
+        }
+        moved = {name: abs(float(slope @ vector)) > _MOVES for name, slope in slopes.items()}
+        found.append(
+            Direction(
+                exponents,
+                math.exp(min(1.96 * error, 700.0)),
+                tuple(name for name, moves in moved.items() if moves),
+                tuple(name for name, moves in moved.items() if not moves),
+            )
+        )
+    return found
+
+
+def at_bounds(estimate: Estimate) -> list[str]:
+    """Names of parameters that ended at a bound, where intervals mean nothing."""
+    return [
+        p.name
+        for p, value in zip(estimate.parameters, estimate.value, strict=True)
+        if not 1.001 * p.low < value < p.high / 1.001
+    ]
+
+
+def groups(base: Tables, values: dict[str, float]) -> dict[str, float]:
+    """The dimensionless groups of a scene: load, turn, friction number, ratio of the bounds."""
+    scene, _ = build(with_values(base, values))
+    robot, surface = scene.robot, scene.ground.at(0.0)
+    side = surface.shear_strength * robot.width * robot.length / len(robot.segments)
+    rigidity = pneunet.base_rigidity(robot)
+    return {
+        "Gamma = w L^3/D0": pneunet.load_number(robot),
+        "alpha p L": pneunet.turn_number(robot),
+        "Phi = V L^2/D0": friction_number(surface, robot, rigidity),
+        "V_t/(tau q L/S)": surface.tip_force / side if side else math.inf,
+    }
+
+
+def _group_slopes(estimate: Estimate, base: Tables) -> dict[str, Array]:
+    """Exponent of each parameter in each group."""
+    names = [p.name for p in estimate.parameters]
+    at = groups(base, estimate.values)
+    rows: dict[str, list[float]] = {group: [] for group in at}
+    for name in names:
+        moved = groups(base, {**estimate.values, name: estimate.values[name] * math.exp(_STEP)})
+        for group, value in moved.items():
+            usable = 0 < value < math.inf and 0 < at[group] < math.inf
+            rows[group].append(math.log(value / at[group]) / _STEP if usable else 0.0)
+    return {group: np.array(row) for group, row in rows.items()}

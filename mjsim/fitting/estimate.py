@@ -1,0 +1,157 @@
+"""Least squares that bear outliers, with noise that is estimated and intervals that hold.
+
+Parameters are fitted on a logarithmic scale. Residuals are over the noise of their kind; beyond
+Huber's bend they count by their size and no longer by its square (Huber 1964). The noise is found
+anew from what the fit leaves (Huber's proposal 2), and standard errors are those of such an
+estimate, of errors that are independent of each other.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from mjsim.fitting.observations import Series
+from mjsim.fitting.parameters import Parameter
+from mjsim.fitting.problem import BEND, Problem, by_name
+from mjsim.fitting.walks import Predictor
+
+Array = NDArray[np.float64]
+
+_LOST = 1e-5  # of the largest: information below it is an error of the sensitivities, 0.1 %
+_NOTHING = 1e-9  # deviations of the data for a unit of a logarithm, likewise
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Where a fit ended, and how sure it is.
+
+    Attributes:
+        parameters: that were free.
+        value: of them, (P,).
+        error: standard error of their logarithms, (P,): relative.
+        low, high: of the 95 % intervals, (P,).
+        covariance: of the logarithms, (P, P).
+        sensitivity: of residuals over noise to the logarithms, (n, P).
+        noise: standard deviation by kind [m, rad or m/s].
+        offset: data of x, by number [m].
+        series: what was fitted.
+        model: what the model says of it, offsets included.
+        count: numbers that were fitted.
+    """
+
+    parameters: tuple[Parameter, ...]
+    value: Array
+    error: Array
+    low: Array
+    high: Array
+    covariance: Array
+    sensitivity: Array
+    noise: dict[str, float]
+    offset: dict[int, float]
+    series: tuple[Series, ...]
+    model: tuple[Array, ...]
+    count: int
+
+    @property
+    def values(self) -> dict[str, float]:
+        """By name."""
+        return by_name(self.parameters, np.log(self.value))
+
+    def residuals(self) -> list[Array]:
+        """Data less model, of each series."""
+        return [s.value - model for s, model in zip(self.series, self.model, strict=True)]
+
+    @property
+    def correlation(self) -> Array:
+        """Of the logarithms, (P, P)."""
+        return np.asarray(self.covariance / np.outer(self.error, self.error))
+
+    def autocorrelation(self) -> float:
+        """Of neighbours along time or pressure, in the series where it is largest."""
+        found = [0.0]
+        for series, left in zip(self.series, self.residuals(), strict=True):
+            if len(left) > 8 and len(series.runs) == 1:
+                left = np.clip(left / self.noise[series.noise], -3, 3)
+                left = left[np.argsort(series.at)]
+                found.append(float(left[1:] @ left[:-1] / (left @ left)))
+        return max(found)
+
+
+def estimate(
+    predictor: Predictor,
+    parameters: Sequence[Parameter],
+    refined: Predictor | None = None,
+) -> Estimate:
+    """Fit the parameters to the predictor's series.
+
+    Args:
+        predictor: the model, walked often.
+        parameters: those that are free.
+        refined: a dearer model in which the fit ends; its sensitivities are taken to be the same.
+
+    Raises:
+        ValueError: there are fewer numbers than unknowns, or the walk at the start fails.
+    """
+    problem = Problem(predictor, tuple(parameters))
+    if problem.count + len(problem.priors) <= problem.unknowns:
+        raise ValueError(
+            f"data must be more than the {problem.unknowns} unknowns, got {problem.count} numbers"
+        )
+    point = problem.start()
+    first = problem.differences(point)
+    if not np.isfinite(first).all():
+        raise ValueError(
+            "the walk at the start fails in " + ", ".join(problem.failed(first))
+            + ": give another --start"
+        )  # fmt: skip
+    problem.set_noise(first, spread=True)
+    point = problem.settle(point)
+    sensitivity = problem.sensitivity(point)
+    if refined is not None:
+        problem.predictor = refined
+        point = problem.settle(point, sensitivity)
+    return _judged(problem, point, sensitivity)
+
+
+def _judged(problem: Problem, point: Array, sensitivity: Array) -> Estimate:
+    """Errors of an estimate with a bent loss (Huber, Robust Statistics, section 7.6)."""
+    count, free = len(problem.parameters), max(problem.count - problem.unknowns, 1)
+    differences = problem.differences(point)
+    left = differences / problem.noise
+    inside = max(float(np.mean(np.abs(left) <= BEND)), 1 / problem.count)
+    variance = max(float(np.sum(np.clip(left, -BEND, BEND) ** 2)) / free, _NOTHING)
+    jacobian = problem.jacobian(sensitivity)
+    data, prior = jacobian[: problem.count], jacobian[problem.count :]
+    whole = _inverse(data.T @ data * inside**2 / variance + prior.T @ prior)
+    covariance = whole[:count, :count]
+    error = np.sqrt(np.diag(covariance))
+    logs, wide = point[:count], float(stats.t.ppf(0.975, free)) * error
+    with np.errstate(over="ignore"):
+        low, high = np.exp(logs - wide), np.exp(logs + wide)
+    ends = np.cumsum([len(s.value) for s in problem.series])[:-1]
+    shifts = (point[count:] * problem.scale).tolist()
+    return Estimate(
+        parameters=problem.parameters,
+        value=np.exp(logs),
+        error=error,
+        low=low,
+        high=high,
+        covariance=covariance,
+        sensitivity=jacobian[:, :count],
+        noise=problem.noise_by_kind(),
+        offset=dict(zip(problem.offsets, shifts, strict=True)),
+        series=problem.series,
+        model=tuple(np.split(problem.data + differences, ends)),
+        count=problem.count,
+    )
+
+
+def _inverse(information: Array) -> Array:
+    """Of a symmetric matrix; what it does not determine has an error that is all but endless."""
+    scale = np.maximum(np.sqrt(np.diag(information)), _NOTHING)
+    values, vectors = np.linalg.eigh(information / np.outer(scale, scale))
+    inverse = vectors @ np.diag(1 / np.where(values > _LOST, values, _NOTHING**3)) @ vectors.T
+    return np.asarray(inverse / np.outer(scale, scale))

@@ -1,0 +1,213 @@
+"""What is free in a fit: fields of the scene, with a start, bounds and perhaps a prior."""
+
+import copy
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from analytic.robot import Robot
+from analytic.surface import SURFACES, Surface
+from mjsim.io.fields import units
+from mjsim.io.units import in_unit
+from mjsim.scene.scene import Scene
+from mjsim.scene.tables import SURFACE_FIELDS, Tables, build, check_keys
+from mjsim.scene.valves import Valves
+
+_FACTOR = 100.0  # from the start to a bound that is not given
+_HOMES: Mapping[str, type] = {"robot": Robot, "valves": Valves}
+OWN_GROUND = "surface"  # the scene's, as its options are called
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A field that is fitted, on a logarithmic scale: it is positive.
+
+    Attributes:
+        name: table and field, as robot.modulus, surface.tip_force, felt.shear_strength.
+        start: where the search begins, in the unit of the field.
+        low, high: bounds.
+        prior: mean and standard deviation of what is known beside the data, or None.
+    """
+
+    name: str
+    start: float
+    low: float
+    high: float
+    prior: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        if not 0 < self.low <= self.start <= self.high < math.inf:
+            raise ValueError(
+                f"{self.name} must start above 0 and within its bounds, got {self.start:g} in "
+                f"{self.low:g}..{self.high:g}"
+            )
+        if self.prior and not (self.prior[0] > 0 and self.prior[1] > 0):
+            raise ValueError(f"prior of {self.name} must be above 0, got {self.prior}")
+
+    @property
+    def unit(self) -> str:
+        """The unit of the field."""
+        return unit_of(self.name)
+
+
+def parameters(
+    base: Tables, free: str, start: str = "", bounds: str = "", prior: str = ""
+) -> list[Parameter]:
+    """Parameters from what was written: lists with commas between.
+
+    Args:
+        base: tables of the scene, where they start if nothing else is said.
+        free: names.
+        start: name=value; with units.
+        bounds: name=low..high.
+        prior: name=mean+-deviation.
+
+    Raises:
+        ValueError: a name is no field that can be fitted, or a value is none.
+    """
+    names = [name.strip() for name in free.split(",") if name.strip()]
+    if not names:
+        raise ValueError("free must name fields of the scene, such as robot.modulus; got none")
+    if len(set(names)) < len(names):
+        raise ValueError(f"free must name each field once, got {free!r}")
+    for name in names:
+        _check(name)
+    starts = _assigned("start", start, names)
+    limits, known = _assigned("bounds", bounds, names), _assigned("prior", prior, names)
+    found = []
+    for name in names:
+        mean, deviation = None, 0.0
+        if name in known:
+            mean, deviation = (_number(name, part) for part in _two("prior", known[name], "+-"))
+        if name in starts:
+            first = _number(name, starts[name])
+        else:
+            first = mean if mean is not None else nominal(base, name)
+        low, high = first / _FACTOR, first * _FACTOR
+        if name in limits:
+            low, high = (_number(name, part) for part in _two("bounds", limits[name], ".."))
+        known_to = None if mean is None else (mean, deviation)
+        found.append(Parameter(name, first, low, high, known_to))
+    return found
+
+
+def nominal(base: Tables, name: str) -> float:
+    """The value of a field in the scene.
+
+    Raises:
+        ValueError: it is 0 or not given.
+    """
+    table, _, key = name.partition(".")
+    scene, _ = build(base)
+    owner: Any = {"robot": scene.robot, "valves": scene.valves, OWN_GROUND: scene.ground}.get(table)
+    if owner is None:
+        owner = SURFACES.get(table, scene.ground)
+    value = getattr(owner, key, None)
+    if key == "mass" and value is None:
+        value = scene.robot.weight / 9.81
+    if not (isinstance(value, float) and value > 0):
+        raise ValueError(
+            f"{name} is not above 0 in the scene: give it a start, --start {name}=VALUE"
+        )
+    return value
+
+
+def with_values(
+    base: Tables,
+    values: Mapping[str, float],
+    overrides: Mapping[str, Any] | None = None,
+    surface: str | None = None,
+) -> Tables:
+    """Tables of a scene in which fields have other values.
+
+    Args:
+        base: of the scene.
+        values: of parameters; those of another surface than that of the run do not matter.
+        overrides: other fields, by table and name.
+        surface: the run's, by name, in place of the scene's.
+    """
+    tables = copy.deepcopy(base)
+    ground = _ground(tables, surface)
+    for name, value in {**(overrides or {}), **values}.items():
+        table, _, key = name.partition(".")
+        if table in (OWN_GROUND, surface):
+            ground[key] = value
+        elif table in ("robot", "valves", "gait", "numerics"):
+            tables.setdefault(table, {})[key] = value
+    if ground.get("surface") in SURFACES and set(ground) - {"surface", "slope_deg"}:
+        known = SURFACES[ground["surface"]]
+        own = {key: getattr(known, key) for key in SURFACE_FIELDS}
+        ground = {**own, **ground, "surface": f"{known.name}-fitted"}
+    tables["ground"] = ground
+    return tables
+
+
+def _ground(tables: Tables, surface: str | None) -> dict[str, Any]:
+    ground = dict(tables.get("ground", {}))
+    if surface is None:
+        return ground if ground else {"surface": "felt"}
+    if surface in SURFACES:
+        kept = {key: value for key, value in ground.items() if key == "slope_deg"}
+        return {**kept, "surface": surface}
+    own = {key: value for key, value in ground.items() if key != "surface"}
+    if ground.get("surface") in SURFACES:
+        known = SURFACES[ground["surface"]]
+        own = {**{key: getattr(known, key) for key in SURFACE_FIELDS}, **own}
+    return {**own, "surface": surface}
+
+
+def _check(name: str) -> None:
+    table, dot, key = name.partition(".")
+    if not dot:
+        raise ValueError(f"free must name tables and fields, such as robot.modulus; got {name!r}")
+    if table in _HOMES:
+        check_keys(table, {key: None})
+    elif table in ("gait", "numerics", "ground"):
+        raise ValueError(
+            f"free must be of robot, valves, surface or a surface's name; got {name!r}"
+        )
+    elif key not in SURFACE_FIELDS:
+        raise ValueError(
+            f"key {key!r} of {name!r} is unknown; known are {', '.join(SURFACE_FIELDS)}"
+        )
+    if key == "segments":
+        raise ValueError("robot.segments cannot be fitted")
+
+
+def unit_of(name: str) -> str:
+    """The unit of a field of the scene, "1" if it has none.
+
+    Raises:
+        ValueError: there is no such field.
+    """
+    table, _, key = name.partition(".")
+    if table in _HOMES or table in ("gait", "numerics"):
+        check_keys(table, {key: None})
+    if table == "gait":
+        return "s" if key in ("ramp_time", "period") else "1"
+    found: Mapping[str, str] = units({**_HOMES, "numerics": Scene}.get(table, Surface))
+    return found.get(key, "1")
+
+
+def _number(name: str, text: str) -> float:
+    return in_unit(name, text.strip(), unit_of(name))
+
+
+def _assigned(option: str, text: str, names: Sequence[str]) -> dict[str, str]:
+    found = {}
+    for part in text.split(","):
+        if not part.strip():
+            continue
+        name, sign, value = part.partition("=")
+        if not sign or name.strip() not in names:
+            raise ValueError(f"{option} must be name=value of {', '.join(names)}; got {part!r}")
+        found[name.strip()] = value
+    return found
+
+
+def _two(option: str, text: str, mark: str) -> list[str]:
+    parts = text.split(mark)
+    if len(parts) != 2:
+        raise ValueError(f"{option} must be two numbers with {mark} between, got {text!r}")
+    return parts

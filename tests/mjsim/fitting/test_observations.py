@@ -1,0 +1,72 @@
+"""Files of what was measured: three kinds, told by their columns."""
+
+import numpy as np
+import pytest
+
+from mjsim.fitting.observations import Run, read_observations
+
+
+def read(tmp_path, text):
+    path = tmp_path / "data.csv"
+    path.write_text(text)
+    return read_observations([path])
+
+
+def test_a_track_is_in_metres_and_shares_one_datum_of_x(tmp_path):
+    left, right, mark = read(
+        tmp_path, "time [ms],left [mm],right [cm],z@0.5 [mm]\n0,1,13,2\n500,3,,4\n1000,5,12,nan\n"
+    )
+    assert left.quantity == "left"
+    np.testing.assert_allclose(left.at, [0, 0.5, 1.0])
+    np.testing.assert_allclose(left.value, [1e-3, 3e-3, 5e-3])
+    np.testing.assert_allclose(right.value, [0.13, 0.12])
+    np.testing.assert_allclose(right.at, [0, 1.0])
+    assert (mark.quantity, mark.place, mark.offset) == ("z", 0.5, None)
+    assert left.offset == right.offset == 0
+
+
+def test_tracks_of_two_surfaces_have_a_datum_each(tmp_path):
+    text = "time [s];left [mm];surface\n0;1,5;felt\n1;2,5;felt\n0;7,0;gelatin\n1;6,0;gelatin\n"
+    one, two = read(tmp_path, text)
+    assert (one.runs, two.runs) == ((Run("felt"),), (Run("gelatin"),))
+    assert (one.offset, two.offset) == (0, 1)
+    np.testing.assert_allclose(one.value, [1.5e-3, 2.5e-3])
+
+
+def test_rows_of_runs_carry_their_fields_in_si(tmp_path):
+    (speed,) = read(
+        tmp_path,
+        "surface,robot.peak_pressure [kPa],gait.ramp_time [ms],speed [mm/s]\n"
+        "felt,40,1500,0.25\ngelatin,50,2000,-0.5\n",
+    )
+    assert speed.runs[1] == Run("gelatin", (("robot.peak_pressure", 5e4), ("gait.ramp_time", 2.0)))
+    np.testing.assert_allclose(speed.value, [2.5e-4, -5e-4])
+
+
+def test_angles_are_of_a_segment_of_given_length(tmp_path):
+    (angle,) = read(tmp_path, "pressure [psi],angle [deg],length [mm]\n1,90,50\n2,180,50\n")
+    assert angle.length == pytest.approx(0.05)
+    np.testing.assert_allclose(angle.value, [np.pi / 2, np.pi])
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("time [s],speed [mm/s]\n0,1\n", "column 'speed' is unknown; known beside time are"),
+        ("time [s]\n0\n", "is unknown; known beside time"),
+        ("time [s],left\n0,1\n", "must name its unit, such as mm"),
+        ("time [s],left [kPa]\n0,1\n", "must have a unit such as mm"),
+        ("time [s],left [mm],left [mm]\n0,1,2\n", "column 'left' stands twice"),
+        ("time [s],x@1.5 [mm]\n0,1\n", "a part of the length, 0 to 1"),
+        ("time [s],left [mm]\n0,a\n", "line 2: left [mm] must be a number, got 'a'"),
+        ("time [s],left [mm]\n0,\n", "holds no number to fit"),
+        ("robot.colour [m],speed [mm/s]\n1,2\n", "key 'colour' of [robot] is unknown"),
+        ("pressure [kPa],angle [deg],length [mm]\n1,2,3\n2,3,4\n", "length must be one above 0"),
+        ("", "is empty"),
+    ],
+)
+def test_what_is_wrong_with_a_file_is_said_in_one_line(tmp_path, text, words):
+    with pytest.raises(ValueError, match="data") as error:
+        read(tmp_path, text)
+    assert words in str(error.value)
+    assert "\n" not in str(error.value)
