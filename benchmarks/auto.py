@@ -116,19 +116,20 @@ def speed(walks: list[Trajectory]) -> float:
     return len(walks[-1].time) * walks[-1].numerics.timestep / sum(w.cpu_time for w in walks)
 
 
-def measured(work, name: str, count: int) -> list[list]:
-    """Rows of so many scenes; what was measured before is read."""
+def measured(work, name: str, count: int, only: set[int] | None = None) -> list[list]:
+    """Rows of so many scenes, or only of some; what was measured before is read."""
     path = KEPT / f"{name}.jsonl"
     path.parent.mkdir(exist_ok=True)
     rows = [json.loads(line) for line in path.read_text().splitlines()] if path.is_file() else []
     done = {row[0] for row in rows}
     with ProcessPoolExecutor(2) as pool, path.open("a") as file:
-        todo = [pool.submit(work, seed) for seed in range(count) if seed not in done]
+        seeds = range(count) if only is None else sorted(only)
+        todo = [pool.submit(work, seed) for seed in seeds if seed not in done]
         for found in as_completed(todo):
             rows += found.result()
             file.writelines(json.dumps(row) + "\n" for row in found.result())
             file.flush()
-    return [row for row in rows if row[0] < count]
+    return [row for row in rows if row[0] < count and (only is None or row[0] in only)]
 
 
 def design(count: int) -> None:

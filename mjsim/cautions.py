@@ -1,5 +1,6 @@
 """What makes a distance unsure, from the scene's own numbers: one line each, beside the result."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -18,11 +19,19 @@ _MATTERS = 0.05  # part of the distance that inertia may be without a word; chos
 _LINKS, _STATES = 30, 25  # that tell where the branch ends
 
 
-def cautions(scene: Scene, numbers: Measures | None, prediction: Prediction) -> list[str]:
-    """All of them, of a scene whose prediction is known."""
+def cautions(
+    scene: Scene, numbers: Measures | None, prediction: Prediction, error: float, bar: float
+) -> list[str]:
+    """All of them, of a scene whose prediction is known.
+
+    Args:
+        scene, numbers, prediction: the walk and its reference.
+        error: of the displacement per cycle over L against the reference, NaN if there is none.
+        bar: how sure the reference is, over L.
+    """
     return [
         *_later(scene, prediction),
-        *_inertia(numbers),
+        *inertia(numbers.displacement if numbers else math.nan, error, bar),
         *_near_ties(scene, prediction),
         *_near_end(scene, prediction),
     ]
@@ -60,14 +69,15 @@ def _later(scene: Scene, prediction: Prediction) -> list[str]:
     return [f"from cycle {len(by_cycle)} on {by_cycle[-1]:+.4f} L"]
 
 
-def _inertia(numbers: Measures | None) -> list[str]:
-    """What the anchor rule does not explain, see mjsim.simulation.measures."""
-    if numbers is None:
+def inertia(displacement: float, error: float, bar: float) -> list[str]:
+    """How far the walk is from the reference, which has no inertia, if that is worth a word.
+
+    What the anchor rule does not explain (mjsim.simulation.measures) is a part of it: inertia also
+    moves who is the anchor, and then both ends keep the rule.
+    """
+    if not abs(error) > max(_MATTERS * abs(displacement), APART, bar):
         return []
-    amount = abs(numbers.unexplained)
-    if not amount > max(_MATTERS * abs(numbers.displacement), APART):
-        return []
-    return [f"inertia moves it by about {amount:.3f} L: slower ramps are nearer to theory"]
+    return [f"inertia moves it by about {abs(error):.3f} L: slower ramps are nearer to theory"]
 
 
 def _near_end(scene: Scene, prediction: Prediction) -> list[str]:

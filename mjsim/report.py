@@ -54,7 +54,9 @@ def record(walk: Trajectory) -> dict[str, Any]:
         "predicted_direction": direction(predicted, 1.0) if known else None,
         "prediction_undecided_over_L": tied(scene, prediction) if known else None,
         "prediction_flags": [flag.name for flag in prediction.flags],
-        "prediction_notes": _notes(scene, numbers, prediction) if known else [],
+        "prediction_notes": _notes(scene, numbers, prediction, predicted, bar or 0.0)
+        if known
+        else [],
         "error_over_L": None if shift is None or not known else shift - predicted,
         "unexplained_over_L": _number(numbers and numbers.unexplained),
         "heading_deg": numbers and math.degrees(numbers.heading),
@@ -111,9 +113,12 @@ def _along(walk: Trajectory, states: int) -> NDArray[np.int_]:
     return np.unique([walk.start, *rows, len(walk.time) - 1])
 
 
-def _notes(scene: Scene, numbers: Measures | None, prediction: Prediction) -> list[str]:
+def _notes(
+    scene: Scene, numbers: Measures | None, prediction: Prediction, predicted: float, bar: float
+) -> list[str]:
     notes = elsewhere(scene, _links(scene), _PARTS_BETWEEN)
-    return notes + cautions(scene, numbers, prediction)
+    error = numbers.displacement - predicted if numbers else math.nan
+    return notes + cautions(scene, numbers, prediction, error, bar)
 
 
 def _of_cycle(scene: Scene, prediction: Prediction) -> float:
