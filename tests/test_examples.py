@@ -1,6 +1,7 @@
 """Every example runs as it stands, and says what its text promises."""
 
 import importlib.util
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -21,11 +22,16 @@ def _forget(monkeypatch):
     LAWS.update(before)
 
 
-def example(name):
+def module_of(name):
     spec = importlib.util.spec_from_file_location(name, FOLDER / f"{name}.py")
     module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module  # by which other processes find its functions
     spec.loader.exec_module(module)
-    return module.main
+    return module
+
+
+def example(name):
+    return module_of(name).main
 
 
 def test_a_robot_of_ones_own_walks_forward_on_felt():
@@ -133,6 +139,52 @@ def test_the_piezo_inchworm_goes_as_in_the_simulator_that_others_published():
 @pytest.mark.slow
 def test_many_walks_go_farther_with_more_pressure():
     assert (np.diff(example("many_walks")()) > 0).all()
+
+
+def test_a_fit_gives_back_the_robot_that_made_its_track():
+    off = example("fitted_robot")()
+    assert abs(off["robot.modulus"]) < 0.01
+    assert max(map(abs, off.values())) < 0.05
+
+
+def test_speeds_give_back_the_groups_that_made_them_and_what_runs_left_out_do(monkeypatch):
+    """From the closed form of a table that is smooth, since the fit reads any."""
+    of = module_of("inchworm_speeds")
+    axes = np.log(of.LOADS), of.TURNS, np.log(of.FRICTIONS)
+    load, turn, friction = np.meshgrid(*axes, indexing="ij")
+    far = 0.02 * turn**2 - 0.05 * load * turn / (1 + np.exp(friction))
+    table = {"wave": of.RegularGridInterpolator(axes, far)}
+    rng = np.random.default_rng(0)
+    names, measured = np.array(["cork", "felt"]), np.array([0.5, 1.5])
+    which = np.tile([0, 1], 60)
+    runs = of.Runs(rng.uniform(60, 250, 120), rng.uniform(0.1, 0.5, 120), np.zeros(120),
+                   names[which], measured[which])  # fmt: skip
+    true = np.array([np.log(6.0), np.log(1.6), np.log(90.0), 0.2, -0.2, -0.3, 0.3])
+    speed = of.speeds(table["wave"], ("cork", "felt"), true, runs)
+    runs = runs._replace(speed=speed + rng.normal(0, 0.05, 120))
+    found = of.fit(table, runs.of(slice(0, 80)))
+    assert found.noise == pytest.approx(0.05, rel=0.2)
+    assert (np.abs(found.values - true) < 3 * np.sqrt(np.diag(found.covariance))).all()
+    value, wide = of.predictions(table, found, runs.of(slice(80, None)))
+    assert np.mean(np.abs(value - runs.speed[80:]) < wide) >= 0.9
+
+
+@pytest.mark.slow
+def test_the_table_of_an_inchworm_is_read_by_its_command(tmp_path, monkeypatch, capsys):
+    of = module_of("inchworm_speeds")
+    monkeypatch.setattr(of, "LOADS", np.array([3.0, 9.0]))
+    monkeypatch.setattr(of, "TURNS", np.array([0.0, 2.0, 4.0]))
+    monkeypatch.setattr(of, "FRICTIONS", np.array([0.2, 2.0]))
+    lines = [f"{p},{f},{p * f / 20},{m},{mu}" for p in (50, 100, 150) for f in (0.1, 0.2, 0.3)
+             for m, mu in (("cork", 0.5), ("felt", 1.0))]  # fmt: skip
+    head = "pressure,frequency,speed,material,friction_coefficient\n"
+    (tmp_path / "runs.csv").write_text(head + "\n".join(lines))
+    (tmp_path / "more.csv").write_text(f"{head}120,0.2,,felt,1.0\n120,0.2,,ice,0.1\n")
+    of.main([str(tmp_path / "runs.csv"), "--out", str(tmp_path / "out"), "--predict",
+             str(tmp_path / "more.csv")], gaits=("wave",))  # fmt: skip
+    printed = capsys.readouterr().out.splitlines()
+    assert [line.split(",")[0] for line in printed[-2:]] == ["felt", "ice"]
+    assert (tmp_path / "out" / "inchworm.png").stat().st_size > 5000
 
 
 def test_every_example_is_tested():

@@ -58,7 +58,7 @@ def draw(estimate: Estimate, path: Path) -> None:
             low.plot(x[~far], over[~far], ".", color="C0", ms=3)
             low.plot(x[far], np.clip(over[far], -_FAR, _FAR), "D", color="C3", ms=3)
             low.set_ylim(-1.2 * _FAR, 1.2 * _FAR)
-            low.set_ylabel("residual / noise")
+            low.set_ylabel("residual\n/ noise")
             low.set_xlabel(_LABEL[index])
             low.sharex(top)
         for spare in range(len(series), rows * columns):

@@ -141,7 +141,7 @@ def test_engines_that_share_no_code_agree_with_the_elastica_on_the_distance():
 def test_the_command_picks_a_body(tmp_path, capsys):
     words = ["--body", "auto", "--tolerance", "0.05", "--json", "--no-video"]
     assert run.main([*words, "--surface", "gelatin", "--out", str(tmp_path)]) == 0
-    row, choice = json.loads(capsys.readouterr().out), next(ladder(Scene(), 0.05))
+    row, choice = json.loads(capsys.readouterr().out), next(ladder(Scene()))
     assert row["body"] == "planar"
     assert row["links"] >= choice.links
     assert row["timestep_s"] < choice.timestep  # the second of two that agree
