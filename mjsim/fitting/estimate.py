@@ -21,6 +21,7 @@ from mjsim.fitting.walks import Predictor
 Array = NDArray[np.float64]
 
 _LOST = 1e-5  # of the largest: information below it is an error of the sensitivities, 0.1 %
+_ENDLESS = 1e3  # error of the logarithm of what data do not determine at all
 _NOTHING = 1e-9  # deviations of the data for a unit of a logarithm, likewise
 
 
@@ -150,8 +151,14 @@ def _judged(problem: Problem, point: Array, sensitivity: Array) -> Estimate:
 
 
 def _inverse(information: Array) -> Array:
-    """Of a symmetric matrix; what it does not determine has an error that is all but endless."""
+    """Of a symmetric matrix; what it does not determine has an error that is all but endless.
+
+    But not so great that the errors of the other directions drown in its rounding.
+    """
     scale = np.maximum(np.sqrt(np.diag(information)), _NOTHING)
     values, vectors = np.linalg.eigh(information / np.outer(scale, scale))
-    inverse = vectors @ np.diag(1 / np.where(values > _LOST, values, _NOTHING**3)) @ vectors.T
-    return np.asarray(inverse / np.outer(scale, scale))
+    directions = vectors / scale[:, None]
+    endless = _ENDLESS**2 / (directions**2).sum(axis=0)
+    kept = values > _LOST
+    inverse = np.where(kept, 1 / np.where(kept, values, 1.0), endless)
+    return np.asarray((directions * inverse) @ directions.T)
