@@ -1,4 +1,4 @@
-"""From a saved walk to a picture: the file has units, and opens in xarray or any netCDF reader."""
+"""From a saved walk to a picture: the file opens in plain xarray, with coordinates and units."""
 
 import sys
 from pathlib import Path
@@ -6,25 +6,27 @@ from pathlib import Path
 import xarray as xr
 from matplotlib.figure import Figure
 
-from mjsim import SURFACES, Scene, simulate
-from mjsim.scene.provenance import provenance
+from mjsim import SURFACES, Scene, load, simulate
 
 
 def main(folder: Path = Path()) -> Path:
-    walk = simulate(Scene(ground=SURFACES["gelatin"]))
     path = folder / "gelatin.nc"
-    walk.save(path, provenance(walk.scene, walk.numerics))
+    simulate(Scene(ground=SURFACES["gelatin"]), forces=True).save(path)
 
-    with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as data:
-        figure = Figure(figsize=(6, 5), layout="constrained")
-        upper, lower = figure.subplots(2, 1, sharex=True)
-        for name in ("x_left", "x_right"):
-            upper.plot(data["time"], 1e3 * (data[name] - data[name][0]), label=name)
-        upper.set_ylabel("displacement [mm]")
-        upper.legend()
-        lower.plot(data["time"], 1e-3 * data["pressure"])
-        lower.set(xlabel=f"time [{data['time'].attrs['units']}]", ylabel="pressure [kPa]")
-        figure.savefig(folder / "gelatin.png")
+    figure = Figure(figsize=(7, 9), layout="constrained")
+    shapes, track, contacts, friction = figure.subplots(4, 1)
+    walk = load(path)
+    walk.plot.shapes(shapes)
+    walk.plot.track(track)
+    walk.plot.contacts(contacts)
+    with xr.open_dataset(path) as data:
+        length = float(data.arclength[-1])
+        for end, name in ((0.0, "left end"), (length, "right end")):
+            force = 1e3 * data.friction_force.sel(arclength=end, method="nearest")
+            friction.plot(data.time, force, label=name)
+        friction.set(xlabel="time [s]", ylabel="friction [mN]")
+        friction.legend(frameon=False)
+    figure.savefig(folder / "gelatin.png", dpi=80)
     print(folder / "gelatin.png")
     return folder / "gelatin.png"
 

@@ -158,8 +158,8 @@ def _simulate(
     total = round(scene.duration / numerics.timestep)
     with bar(f"simulating {scene.ground.name}", total) as advance:
         if tolerance is None:
-            return simulate(scene, numerics, advance), []
-        found = walk_checked(scene, tolerance, advance)
+            return simulate(scene, numerics, advance, forces=True), []
+        found = walk_checked(scene, tolerance, advance, forces=True)
     last = found.tried[-1]
     what = f"auto: {last.links} links at {last.timestep:g} s"
     if not math.isfinite(found.error):

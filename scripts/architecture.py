@@ -10,10 +10,14 @@ _COLUMNS = {  # where a package is drawn: column, row
     "analytic": (0, 2), "analytic.modes": (0, 3.3), "analytic.elastica": (0, 0.7),
     "mjsim.io": (1, 3.7), "mjsim.registry": (1, 2.6), "mjsim.scene": (1, 1.4),
     "mjsim.ground": (2, 3.7), "mjsim.bodies": (2, 2.2), "mjsim.mjcf": (3, 3.4),
-    "mjsim.friction": (3, 1.2), "mjsim.simulation": (4, 2.2), "mjsim.video": (5, 3.4),
+    "mjsim.friction": (3, 1.2), "mjsim.results": (4, 0.7),
+    "mjsim.simulation": (4, 2.4), "mjsim.video": (5, 3.4),
     "mjsim": (5, 1.0), "mjsim.studies": (6, 2.2),
 }  # fmt: skip
-_LABEL = {"mjsim": "commands\nrun compare replay\nexport gallery", "analytic": "analytic\n(theory)"}
+_LABEL = {
+    "mjsim": "commands\nrun fit compare replay\nexport gallery",
+    "analytic": "analytic\n(theory)",
+}
 
 
 def package_of(module: str) -> str:

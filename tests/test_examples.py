@@ -191,3 +191,18 @@ def test_every_example_is_tested():
     text = Path(__file__).read_text()
     for path in FOLDER.glob("*.py"):
         assert f'"{path.stem}"' in text
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")  # of the notebook's own machinery
+def test_the_notebook_runs_from_top_to_bottom():
+    nbformat = pytest.importorskip("nbformat")
+    nbclient = pytest.importorskip("nbclient")
+    notebook = nbformat.read(FOLDER / "one_walk.ipynb", as_version=4)
+    client = nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": "."}})
+    client.execute()
+    outputs = [out for cell in notebook.cells if cell.cell_type == "code" for out in cell.outputs]
+    printed = "".join(out.text for out in outputs if out.get("name") == "stdout")
+    pictures = [out for out in outputs if "image/png" in out.get("data", {})]
+    assert "backward: -0.034" in printed
+    assert len(pictures) == 2
+    assert not [out for out in outputs if out.get("name") == "stderr" and "Error" in out.text]

@@ -23,8 +23,9 @@ from mjsim.bodies.pneumatics import controls
 from mjsim.mjcf.builder import compile_model
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.judge import judge
+from mjsim.simulation.kinematics import positions
 from mjsim.simulation.schedule import before_start, check_steps, walking, walking_steps
-from mjsim.simulation.simulation import positions, simulate
+from mjsim.simulation.simulation import simulate
 from mjsim.simulation.status import Status
 from mjsim.simulation.trajectory import Trajectory
 

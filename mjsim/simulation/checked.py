@@ -46,9 +46,17 @@ class Checked(NamedTuple):
 
 
 def walk_checked(
-    scene: Scene, tolerance: float, progress: Callable[[int], None] | None = None
+    scene: Scene,
+    tolerance: float,
+    progress: Callable[[int], None] | None = None,
+    forces: bool = False,
 ) -> Checked:
     """Walk until the displacement is sure to be within a tolerance, relative or 0.001 L.
+
+    Args:
+        scene: the walk.
+        tolerance: of its displacement per cycle.
+        progress, forces: see mjsim.simulation.simulation.simulate.
 
     Raises:
         ValueError: no tolerance that was measured, or the body cannot do the scene.
@@ -57,7 +65,7 @@ def walk_checked(
     tried, error, agreed = [], math.nan, False
     check_tolerance(tolerance)
     for numerics in ladder(scene):
-        walk = simulate(scene, numerics, progress)
+        walk = simulate(scene, numerics, progress, forces)
         tried.append(walk.numerics)
         if before is not None:
             error, agreed = _agreement(before, walk, tolerance)

@@ -19,6 +19,7 @@ class Measures(NamedTuple):
 
     Attributes:
         displacement: of the left end per cycle: in the last one on uniform ground, else their mean.
+        speed: the same in mm a second.
         by_cycle: the same in each cycle; the first may differ where a gait starts inflated.
         direction: of it.
         amplitude: greatest height.
@@ -29,6 +30,7 @@ class Measures(NamedTuple):
     """
 
     displacement: float
+    speed: float
     by_cycle: tuple[float, ...]
     direction: Direction
     amplitude: float
@@ -66,6 +68,7 @@ def measure(walk: Trajectory) -> Measures | None:
     along, aside, _ = walk.position[-1, -1] - walk.position[-1, 0]
     return Measures(
         displacement=shift,
+        speed=1e3 * shift * length / scene.gait.period,
         by_cycle=tuple(by_cycle.tolist()),
         direction=direction(shift, 1.0),
         amplitude=float(z[begin:].max()) / length,

@@ -14,11 +14,13 @@ from mjsim import registry
 from mjsim.bodies.chambers import Chambers
 from mjsim.friction.contact_length import pads_by_node
 from mjsim.friction.laws import traction
+from mjsim.friction.recorder import ContactRecorder
 from mjsim.mjcf.builder import compile_model
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.judge import judge
+from mjsim.simulation.kinematics import ends_may_be, positions
 from mjsim.simulation.schedule import before_start, check_steps, walking, walking_steps
-from mjsim.simulation.status import AT_REST, FALLEN, Status
+from mjsim.simulation.status import AT_REST, Status
 from mjsim.simulation.trajectory import Trajectory
 
 Array = NDArray[np.float64]
@@ -60,6 +62,7 @@ class Simulation:
     Args:
         scene: the walk.
         numerics: how it is discretised; chosen for the scene where not given.
+        forces: whether to record what the ground does to each node, at 10 us a step.
 
     Attributes:
         scene, numerics: what is simulated and how, with a number for everything.
@@ -69,8 +72,10 @@ class Simulation:
         ValueError: the scene and the numerics do not go together.
     """
 
-    def __init__(self, scene: Scene, numerics: Numerics | None = None) -> None:
-        self.scene = scene
+    def __init__(
+        self, scene: Scene, numerics: Numerics | None = None, forces: bool = False
+    ) -> None:
+        self.scene, self._with_forces = scene, forces
         self.numerics = (numerics or Numerics()).resolved(scene.body, scene.friction)
         check_steps(scene, self.numerics)
         self.model = compile_model(scene, self.numerics)
@@ -94,6 +99,7 @@ class Simulation:
         self._pads = pads_by_node(model)
         self._chambers = Chambers(scene.valves, len(scene.robot.segments), numerics.timestep)
         self._pressure = self._chambers.pressure
+        self._recorder = ContactRecorder(scene, model, self.data) if self._with_forces else None
         self._coordinates: list[Array] = []
         self._ends: list[tuple[float, float, float, float]] = []
         self._pressures: list[Array] = []
@@ -202,6 +208,7 @@ class Simulation:
             drift=drift,
             wall_time=self._wall,
             cpu_time=self._cpu,
+            forces=self._recorder.forces(count) if self._recorder else None,
         )
         return judge(walk, stopped=self._stopped, unsettled=self._unsettled)
 
@@ -223,12 +230,15 @@ class Simulation:
         height = data.geom_xpos[:, 2].item
         first, last = int(self._pads[0, 0]), int(self._pads[-1, 0])
         low, high = ends_may_be(scene, numerics)
+        record = self._recorder and self._recorder.record
 
         started, worked = clock.perf_counter(), clock.process_time()
         for step, (load, (left, right_end)) in enumerate(zip(loads, flat, strict=True)):
             apply(load)
             before_step(slopes(), left, right_end)
             step_model(model, data)
+            if record:
+                record()
             excess = after_step(dt)
             if excess:
                 shift(excess)
@@ -260,28 +270,21 @@ class Simulation:
 def simulate(
     scene: Scene,
     numerics: Numerics | None = None,
-    progress: Callable[[int], None] | None = None,
+    progress: Callable[[int], None] | bool | None = None,
+    forces: bool = False,
 ) -> Trajectory:
-    """Walk a scene's gait: `Simulation(scene, numerics).run()`."""
-    return Simulation(scene, numerics).run(progress=progress)
+    """Walk a scene's gait: `Simulation(scene, numerics, forces).run()`.
 
+    Args:
+        scene, numerics, forces: see Simulation.
+        progress: called now and then with the number of steps done since the last call; True for a
+            bar, in a notebook or a terminal.
+    """
+    simulation = Simulation(scene, numerics, forces)
+    if progress is not True:
+        return simulation.run(progress=progress or None)
+    from tqdm.auto import tqdm
 
-def ends_may_be(scene: Scene, numerics: Numerics) -> tuple[float, float]:
-    """Heights between which the pad of an end is while it is still a foot [m]."""
-    assert numerics.pad_radius is not None
-    reach = FALLEN * scene.robot.length
-    return numerics.pad_radius - reach, numerics.pad_radius + reach
-
-
-def positions(model: mujoco.MjModel, numerics: Numerics, coordinates: Array) -> Array:
-    """Vertices of the neutral line at each state, z over flat rest, (T, N + 2, 3) [m]."""
-    data, pads = mujoco.MjData(model), pads_by_node(model)
-    position = np.empty((len(coordinates), *pads.shape, 3))
-    for state, place in zip(coordinates, position, strict=True):
-        data.qpos[:] = state
-        mujoco.mj_kinematics(model, data)
-        place[:] = data.geom_xpos[pads]
-    position = position.mean(axis=2)
-    assert numerics.pad_radius is not None
-    position[..., 2] -= numerics.pad_radius
-    return position
+    total = round(scene.duration / simulation.numerics.timestep)
+    with tqdm(total=total, desc=scene.ground.name, unit="step") as bar:
+        return simulation.run(progress=lambda steps: (bar.update(steps), None)[1])

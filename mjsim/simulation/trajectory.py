@@ -1,26 +1,28 @@
 """What a simulation returns, and its netCDF file."""
 
-import io
 import json
-from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import h5netcdf
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.chain import node_positions
-from mjsim.io.files import whole
+from mjsim.friction.recorder import GroundForces
 from mjsim.scene import Numerics, Scene
-from mjsim.scene.provenance import configuration
+from mjsim.scene.provenance import configuration, provenance
 from mjsim.simulation.status import Status
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from mjsim.results.plots import Plots
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Trajectory:
     """One simulated walk, a row per time step, the settling before the first cycle included.
 
@@ -40,6 +42,7 @@ class Trajectory:
             is, (T,) [m/s].
         wall_time, cpu_time: seconds the loop took, by the clock and of all cores together,
             assembly and compilation excluded.
+        forces: what the ground did to each node; None where it was not recorded.
     """
 
     scene: Scene
@@ -55,6 +58,23 @@ class Trajectory:
     drift: Array
     wall_time: float
     cpu_time: float
+    forces: GroundForces | None = None
+
+    def __repr__(self) -> str:
+        x, scene = self.position[:, 0, 0], self.scene
+        gone = (x[-1] - x[self.start]) / scene.robot.length
+        return (
+            f"<Trajectory on {scene.ground.name}: gait {scene.gait.name}, {scene.cycles} cycles, "
+            f"body {scene.body} of {self.numerics.links} links, {len(self.time)} states "
+            f"{self.numerics.timestep:g} s apart, status {self.status}, left end {gone:+.4f} L>"
+        )
+
+    @property
+    def plot(self) -> "Plots":
+        """Plotting methods: matplotlib axes in, axes out."""
+        from mjsim.results.plots import Plots
+
+        return Plots(self)
 
     @property
     def start(self) -> int:
@@ -77,54 +97,42 @@ class Trajectory:
             for field in fields(self)
             if isinstance(getattr(self, field.name), np.ndarray)
         }
-        return replace(self, **rows)
+        cut = self.forces and GroundForces(*(part[:count] for part in self.forces))
+        return replace(self, forces=cut, **rows)
 
-    def columns(self) -> Iterator[tuple[str, tuple[str, ...], Array, str, str]]:
-        """Name, dimensions, values, unit and meaning of each variable of the file."""
-        x, z = self.nodes()
-        yield "time", ("time",), self.time, "s", "since the first cycle began"
-        yield "pressure", ("time", "segment"), self.pressure, "Pa", "in the chambers, left first"
-        yield "x_left", ("time",), x[:, 0], "m", "position of the left end"
-        yield "x_right", ("time",), x[:, -1], "m", "position of the right end"
-        yield "contact_left", ("time",), self.contact_left, "m", "side contact, 0 for a tip"
-        yield "contact_right", ("time",), self.contact_right, "m", "side contact, 0 for a tip"
-        yield ("left_slip_fraction", ("time",), self.left_slip_fraction, "1",
-               "left end's part of a change of separation, by the anchor rule")  # fmt: skip
-        yield "drift", ("time",), self.drift, "m s-1", "of what friction should have held"
-        yield "x", ("time", "node"), x, "m", "position of the vertices along the ground"
-        yield "height", ("time", "node"), z, "m", "height of the vertices over flat rest"
-        yield "y", ("time", "node"), self.position[..., 1], "m", "out of the plane of the gait"
-        yield ("arclength", ("node",), node_positions(self.scene.robot, self.numerics.links), "m",
-               "of the vertices from the left end")  # fmt: skip
-        yield "coordinates", ("time", "dof"), self.coordinates, "m, rad, 1", "of MuJoCo"
-        for name in ("wall_time", "cpu_time"):
-            yield name, (), np.array(getattr(self, name)), "s", "that the stepping took"
+    def dataset(self) -> "xr.Dataset":
+        """Everything that the file holds, as xarray: coordinates, units, derived quantities."""
+        import xarray as xr
 
-    def save(self, path: Path | str, provenance: dict[str, Any]) -> None:
+        from mjsim.results.netcdf import variables
+
+        rows = [
+            (name, (dims, values, {"units": units, "long_name": text}))
+            for name, dims, values, units, text in variables(self)
+        ]
+        return xr.Dataset(
+            {name: row for name, row in rows if row[0] != (name,)},
+            {name: row for name, row in rows if row[0] == (name,)},
+        )
+
+    def save(self, path: Path | str, origin: dict[str, Any] | None = None) -> None:
         """Write netCDF with units; the file appears under its name only when it is whole.
 
         Args:
             path: of the file.
-            provenance: kept as JSON in the attributes.
+            origin: kept as JSON in the attributes; versions, commit and scene if None.
 
         Raises:
             OSError: the file cannot be written.
         """
-        content = io.BytesIO()  # HDF5 does not survive a disk that is full
-        with h5netcdf.File(content, "w") as file:
-            file.attrs["status"] = str(self.status)
-            file.attrs["provenance"] = json.dumps(provenance)
-            for name, dimensions, values, units, text in self.columns():
-                for dimension, size in zip(dimensions, values.shape, strict=True):
-                    if dimension not in file.dimensions:
-                        file.dimensions[dimension] = size
-                variable = file.create_variable(name, dimensions, data=values)
-                variable.attrs["units"], variable.attrs["long_name"] = units, text
-        with whole(Path(path)) as part:
-            part.write_bytes(content.getvalue())
+        from mjsim.results.netcdf import variables, write
+
+        origin = provenance(self.scene, self.numerics) if origin is None else origin
+        title = f"{self.scene.gait.name} on {self.scene.ground.name}, {self.scene.cycles} cycles"
+        write(Path(path), variables(self), title, str(self.status), origin)
 
 
-def load(path: Path) -> Trajectory:
+def load(path: Path | str) -> Trajectory:
     """Read a trajectory that `Trajectory.save` wrote.
 
     Raises:
@@ -135,6 +143,9 @@ def load(path: Path) -> Trajectory:
         scene, numerics = configuration(json.loads(file.attrs["provenance"]))
         names = ("time", "pressure", "coordinates", "contact_left", "contact_right",
                  "left_slip_fraction", "drift")  # fmt: skip
+        forces = None
+        if "normal_force" in file:
+            forces = GroundForces(*(file[f"{n}_force"][...] for n in ("normal", "friction")))
         return Trajectory(
             scene=scene,
             numerics=numerics,
@@ -142,5 +153,6 @@ def load(path: Path) -> Trajectory:
             position=np.stack([file[name][...] for name in ("x", "y", "height")], axis=-1),
             wall_time=float(file["wall_time"][...]),
             cpu_time=float(file["cpu_time"][...]),
+            forces=forces,
             **{name: file[name][...] for name in names},
         )

@@ -28,6 +28,7 @@ def walk(
     robot: Robot | None = None,
     body: str = "planar",
     friction: str = "constant",
+    forces: bool = False,
     **changes: float | str,
 ) -> Trajectory:
     stages = GAITS[gait].reversed() if reverse else GAITS[gait]
@@ -39,7 +40,7 @@ def walk(
         body=body,
         friction=friction,
     )
-    return simulate(scene, Numerics(**changes))
+    return simulate(scene, Numerics(**changes), forces=forces)
 
 
 def measured(*args, **kwargs) -> Measures:

@@ -1,0 +1,1 @@
+"""What is made of a walk: mechanics, files, plots."""

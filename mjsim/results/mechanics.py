@@ -1,0 +1,125 @@
+"""Curvature, moment, tension and energy along a walk, from its shapes and its ground forces.
+
+By the pneu-net laws of the robot alone: what a body of one's own adds to the strip is not in it.
+"""
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.chain import joint_springs, link_lengths, sealed_springs
+
+if TYPE_CHECKING:
+    from mjsim.simulation.trajectory import Trajectory
+
+Array = NDArray[np.float64]
+
+
+class Bending(NamedTuple):
+    """At each of N hinges after each step.
+
+    Attributes:
+        curvature: positive where the strip arches, (T, N) [1/m].
+        moment: inner bending moment, positive where it flattens an arch, (T, N) [N m].
+        energy: of the springs that chambers and layer make, (T,) [J].
+        work: that the chambers have done by changing their pressure, (T,) [J].
+        damped: that has gone into the damping of the joints, (T,) [J].
+    """
+
+    curvature: Array
+    moment: Array
+    energy: Array
+    work: Array
+    damped: Array
+
+
+class Balance(NamedTuple):
+    """Inner forces and energies after each step, needs the ground's forces.
+
+    Attributes:
+        tension: along each of N + 1 links, by statics, (T, N + 1) [N].
+        potential: energy of height, and of place on a slope, (T,) [J].
+        kinetic: energy of motion, (T,) [J].
+        rubbed: that friction has taken since the first state, (T,) [J].
+    """
+
+    tension: Array
+    potential: Array
+    kinetic: Array
+    rubbed: Array
+
+
+def bending(walk: "Trajectory") -> Bending:
+    """Of every state, from the directions of the links."""
+    robot, links = walk.scene.robot, walk.numerics.links
+    element = robot.length / links
+    turn = turns(walk)
+    stiffness, rest = _springs(walk, turn)
+    energy = 0.5 * (stiffness * (turn - rest) ** 2).sum(axis=1)
+    # pressure changes first, then the strip moves: the order in which a step is done
+    renewed = 0.5 * (stiffness[1:] * (turn[:-1] - rest[1:]) ** 2).sum(axis=1)
+    relaxed, _ = joint_springs(robot, links, np.zeros((1, len(robot.segments))))
+    constant = walk.numerics.damping_time * relaxed[0] / walk.numerics.timestep
+    return Bending(
+        curvature=-turn / element,
+        moment=-stiffness * (turn - rest),
+        energy=energy,
+        work=_since_start(renewed - energy[:-1]),
+        damped=_since_start((constant * np.diff(turn, axis=0) ** 2).sum(axis=1)),
+    )
+
+
+def balance(walk: "Trajectory") -> Balance | None:
+    """Of every state; None where the ground's forces were not recorded."""
+    if walk.forces is None:
+        return None
+    scene, dt = walk.scene, walk.numerics.timestep
+    weights = scene.robot.weight_per_length * link_lengths(scene.robot, walk.numerics.links)
+    along, down = np.sin(scene.slope), np.cos(scene.slope)
+    x, z = walk.nodes()
+    tangent = np.arctan2(np.diff(z), np.diff(x))
+    # on the part left of each link's middle, half of its own weight included
+    carried = np.cumsum(weights) - 0.5 * weights
+    pulled = np.cumsum(walk.forces.friction, axis=1)[:, :-1] - along * carried
+    pushed = np.cumsum(walk.forces.normal, axis=1)[:, :-1] - down * carried
+    velocity = np.diff(walk.position, axis=0, prepend=walk.position[:1]) / dt
+    one, two = velocity[:, :-1], velocity[:, 1:]
+    squares = (one * one + one * two + two * two).sum(axis=2) / 3  # of a thin rod
+    middle = 0.5 * (walk.position[:, :-1] + walk.position[:, 1:])
+    slipped = np.diff(x, axis=0)
+    return Balance(
+        tension=-(pulled * np.cos(tangent) + pushed * np.sin(tangent)),
+        potential=(middle[..., 2] * down + middle[..., 0] * along) @ weights,
+        kinetic=0.5 * squares @ weights / scene.gravity,
+        rubbed=_since_start(-(walk.forces.friction[1:] * slipped).sum(axis=1)),
+    )
+
+
+def slip(walk: "Trajectory") -> Array | None:
+    """Speed along the ground of each node that touches it, NaN of the others, (T, N + 2) [m/s]."""
+    if walk.forces is None:
+        return None
+    x, _ = walk.nodes()
+    speed = np.diff(x, axis=0, prepend=x[:1]) / walk.numerics.timestep
+    return np.where(walk.forces.normal > 0, speed, np.nan)
+
+
+def turns(walk: "Trajectory") -> Array:
+    """Angle by which each link is steeper than the one before it, (T, N) [rad]."""
+    x, z = walk.nodes()
+    slopes = np.unwrap(np.arctan2(np.diff(z), np.diff(x)), axis=1)
+    return np.diff(slopes, axis=1)
+
+
+def _springs(walk: "Trajectory", turn: Array) -> tuple[Array, Array]:
+    robot, links, chamber = walk.scene.robot, walk.numerics.links, walk.scene.chamber
+    if chamber != "sealed":
+        return joint_springs(robot, links, walk.pressure, chamber)
+    pairs = [sealed_springs(robot, links, p, t) for p, t in zip(walk.pressure, turn, strict=True)]
+    stiffness, rest = (np.array(part) for part in zip(*pairs, strict=True))
+    return stiffness, rest
+
+
+def _since_start(steps: Array) -> Array:
+    return np.concatenate([[0.0], np.cumsum(steps)])

@@ -1,0 +1,152 @@
+"""A walk as netCDF: variables with coordinates and units, by the CF conventions where they apply.
+
+Dimensions are coordinates too, so that xarray picks by them: `data.height.sel(arclength=0.05,
+method="nearest")`, `data.pressure.sel(segment="left")`.
+"""
+
+import io
+import json
+from collections.abc import Iterable, Iterator
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import h5netcdf
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.chain import link_lengths, node_positions
+from mjsim.io.files import whole
+from mjsim.results.mechanics import balance, bending, slip
+
+if TYPE_CHECKING:
+    from mjsim.simulation.trajectory import Trajectory
+
+CONVENTIONS = "CF-1.11"
+_THREE = ("left", "middle", "right")
+_REFERENCE = (
+    "Majidi, Shepherd, Kramer, Whitesides and Wood (2013), "
+    "Influence of surface traction on soft robot undulation"
+)
+
+
+class Variable(NamedTuple):
+    """One of the file; a coordinate where its name is its only dimension."""
+
+    name: str
+    dimensions: tuple[str, ...]
+    values: NDArray[Any]
+    units: str
+    meaning: str
+
+
+def segment_names(count: int) -> list[str]:
+    """Left, middle and right of three; else numbers, from the left."""
+    return list(_THREE) if count == 3 else [f"{number}" for number in range(1, count + 1)]
+
+
+def variables(walk: "Trajectory") -> Iterator[Variable]:
+    """Coordinates, what was simulated, then what follows from it."""
+    yield from _coordinates(walk)
+    yield from _simulated(walk)
+    yield from _mechanics(walk)
+
+
+def _coordinates(walk: "Trajectory") -> Iterator[Variable]:
+    robot, links = walk.scene.robot, walk.numerics.links
+    nodes, lengths = node_positions(robot, links), link_lengths(robot, links)
+    names = np.array(segment_names(len(robot.segments)), dtype=object)
+    for name, values, units, meaning in (
+        ("time", walk.time, "s", "since the first cycle began"),
+        ("segment", names, "1", "of the strip, from the left"),
+        ("arclength", nodes, "m", "of the vertices from the left end"),
+        ("hinge", nodes[1:-1], "m", "arclength of the hinges from the left end"),
+        ("link", nodes[:-1] + 0.5 * lengths, "m", "arclength of the links' middles"),
+    ):
+        yield Variable(name, (name,), values, units, meaning)
+
+
+def _simulated(walk: "Trajectory") -> Iterator[Variable]:
+    x, z = walk.nodes()
+    time, nodes = ("time",), ("time", "arclength")
+    lying = "length over which the {} end lies on its side, 0 for a tip"
+    yield Variable("pressure", ("time", "segment"), walk.pressure, "Pa", "gauge, in the chambers")
+    yield Variable("x_left", time, x[:, 0], "m", "position of the left end")
+    yield Variable("x_right", time, x[:, -1], "m", "position of the right end")
+    for side, values in (("left", walk.contact_left), ("right", walk.contact_right)):
+        yield Variable(f"contact_{side}", time, values, "m", lying.format(side))
+    yield Variable("left_slip_fraction", time, walk.left_slip_fraction, "1",
+                   "left end's part of a change of separation, by the anchor rule")  # fmt: skip
+    yield Variable("drift", time, walk.drift, "m s-1", "of what friction should have held")
+    yield Variable("x", nodes, x, "m", "position of the vertices along the ground")
+    yield Variable("y", nodes, walk.position[..., 1], "m", "out of the plane of the gait")
+    yield Variable("height", nodes, z, "m", "height of the vertices over flat rest")
+    yield Variable("coordinates", ("time", "dof"), walk.coordinates, "1",
+                   "generalised coordinates of MuJoCo, in m and rad")  # fmt: skip
+    for name in ("wall_time", "cpu_time"):
+        yield Variable(name, (), np.array(getattr(walk, name)), "s", "that the stepping took")
+
+
+def _mechanics(walk: "Trajectory") -> Iterator[Variable]:
+    time, nodes, hinges = ("time",), ("time", "arclength"), ("time", "hinge")
+    bent = bending(walk)
+    yield Variable("curvature", hinges, bent.curvature, "m-1", "positive where the strip arches")
+    yield Variable("moment", hinges, bent.moment, "N m",
+                   "bending moment in the strip, positive where it flattens an arch")  # fmt: skip
+    yield Variable("elastic_energy", time, bent.energy, "J", "of the springs of bending")
+    yield Variable("pressure_work", time, bent.work, "J",
+                   "that changes of pressure have done on the strip")  # fmt: skip
+    yield Variable("damping_dissipation", time, bent.damped, "J", "lost in the joints so far")
+    balanced, forces = balance(walk), walk.forces
+    if forces is None or balanced is None:
+        return
+    slipped = slip(walk)
+    assert slipped is not None
+    yield Variable("normal_force", nodes, forces.normal, "N", "push of the ground on the vertices")
+    yield Variable("friction_force", nodes, forces.friction, "N",
+                   "of the ground on the vertices, along x")  # fmt: skip
+    yield Variable("slip_speed", nodes, slipped, "m s-1",
+                   "along x of the vertices that touch the ground")  # fmt: skip
+    yield Variable("tension", ("time", "link"), balanced.tension, "N",
+                   "along the links, by statics of what is left of them")  # fmt: skip
+    yield Variable("potential_energy", time, balanced.potential, "J", "of weight")
+    yield Variable("kinetic_energy", time, balanced.kinetic, "J", "of the links")
+    yield Variable("friction_dissipation", time, balanced.rubbed, "J",
+                   "lost between strip and ground so far")  # fmt: skip
+
+
+def write(
+    path: Path, rows: Iterable[Variable], title: str, status: str, provenance: dict[str, Any]
+) -> None:
+    """Write a file that appears under its name only when it is whole.
+
+    Args:
+        path: of the file.
+        rows: its variables.
+        title: of what is in it.
+        status: how the walk ended.
+        provenance: kept as JSON in the attributes.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
+    content = io.BytesIO()  # HDF5 does not survive a disk that is full
+    versions = provenance.get("versions", {})
+    with h5netcdf.File(content, "w") as file:
+        file.attrs["Conventions"] = CONVENTIONS
+        file.attrs["title"] = title
+        file.attrs["source"] = " ".join(f"{name} {number}" for name, number in versions.items())
+        file.attrs["history"] = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} simulated"
+        file.attrs["references"] = _REFERENCE
+        file.attrs["status"] = status
+        file.attrs["provenance"] = json.dumps(provenance)
+        for name, dimensions, values, units, text in rows:
+            for dimension, size in zip(dimensions, values.shape, strict=True):
+                if dimension not in file.dimensions:
+                    file.dimensions[dimension] = size
+            kind = h5py.string_dtype() if values.dtype == object else None
+            variable = file.create_variable(name, dimensions, dtype=kind, data=values)
+            variable.attrs["units"], variable.attrs["long_name"] = units, text
+    with whole(path) as part:
+        part.write_bytes(content.getvalue())

@@ -1,0 +1,32 @@
+"""Where the strip is, from MuJoCo's coordinates."""
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from mjsim.friction.contact_length import pads_by_node
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.status import FALLEN
+
+Array = NDArray[np.float64]
+
+
+def ends_may_be(scene: Scene, numerics: Numerics) -> tuple[float, float]:
+    """Heights between which the pad of an end is while it is still a foot [m]."""
+    assert numerics.pad_radius is not None
+    reach = FALLEN * scene.robot.length
+    return numerics.pad_radius - reach, numerics.pad_radius + reach
+
+
+def positions(model: mujoco.MjModel, numerics: Numerics, coordinates: Array) -> Array:
+    """Vertices of the neutral line at each state, z over flat rest, (T, N + 2, 3) [m]."""
+    data, pads = mujoco.MjData(model), pads_by_node(model)
+    position = np.empty((len(coordinates), *pads.shape, 3))
+    for state, place in zip(coordinates, position, strict=True):
+        data.qpos[:] = state
+        mujoco.mj_kinematics(model, data)
+        place[:] = data.geom_xpos[pads]
+    position = position.mean(axis=2)
+    assert numerics.pad_radius is not None
+    position[..., 2] -= numerics.pad_radius
+    return position
