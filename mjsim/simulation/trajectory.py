@@ -85,11 +85,6 @@ class Trajectory:
         """(x, z) of the vertices, left end first, each (T, N + 2) [m]."""
         return self.position[..., 0], self.position[..., 2]
 
-    def slopes(self, step: int) -> Array:
-        """Direction of each link in the x-z plane after a step, (N + 1,) [rad]."""
-        x, _, z = np.diff(self.position[step], axis=0).T
-        return np.unwrap(np.arctan2(z, x))
-
     def up_to(self, count: int) -> "Trajectory":
         """The first so many states."""
         rows = {
