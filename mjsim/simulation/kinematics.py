@@ -26,7 +26,15 @@ def positions(model: mujoco.MjModel, numerics: Numerics, coordinates: Array) -> 
         data.qpos[:] = state
         mujoco.mj_kinematics(model, data)
         place[:] = data.geom_xpos[pads]
-    position = position.mean(axis=2)
+    return _above_rest(position.mean(axis=2), numerics)
+
+
+def nodes_of(data: mujoco.MjData, pads: NDArray[np.int_], numerics: Numerics) -> Array:
+    """The same of one state whose kinematics are done, (N + 2, 3) [m]."""
+    return _above_rest(data.geom_xpos[pads].mean(axis=1), numerics)
+
+
+def _above_rest(position: Array, numerics: Numerics) -> Array:
     assert numerics.pad_radius is not None
     position[..., 2] -= numerics.pad_radius
     return position

@@ -18,7 +18,7 @@ from mjsim.friction.recorder import ContactRecorder
 from mjsim.mjcf.builder import compile_model
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.judge import judge
-from mjsim.simulation.kinematics import ends_may_be, positions
+from mjsim.simulation.kinematics import ends_may_be, nodes_of, positions
 from mjsim.simulation.schedule import before_start, check_steps, walking, walking_steps
 from mjsim.simulation.status import AT_REST, Status
 from mjsim.simulation.trajectory import Trajectory
@@ -63,6 +63,7 @@ class Simulation:
         scene: the walk.
         numerics: how it is discretised; chosen for the scene where not given.
         forces: whether to record what the ground does to each node, at 10 us a step.
+        history: whether to keep all states, or the last one only, without forces.
 
     Attributes:
         scene, numerics: what is simulated and how, with a number for everything.
@@ -73,9 +74,13 @@ class Simulation:
     """
 
     def __init__(
-        self, scene: Scene, numerics: Numerics | None = None, forces: bool = False
+        self,
+        scene: Scene,
+        numerics: Numerics | None = None,
+        forces: bool = False,
+        history: bool = True,
     ) -> None:
-        self.scene, self._with_forces = scene, forces
+        self.scene, self._with_forces, self._history = scene, forces and history, history
         self.numerics = (numerics or Numerics()).resolved(scene.body, scene.friction)
         check_steps(scene, self.numerics)
         self.model = compile_model(scene, self.numerics)
@@ -104,9 +109,9 @@ class Simulation:
         self._ends: list[tuple[float, float, float, float]] = []
         self._pressures: list[Array] = []
         self._wall = self._cpu = 0.0
-        self._stopped = False
+        self._stopped, self._dropped = False, 0
         self._unsettled = not self._settle()
-        self._first = 1 - len(self._ends)
+        self._first = 1 - len(self._ends) - self._dropped
         return self.observe()
 
     def _settle(self) -> bool:
@@ -180,7 +185,7 @@ class Simulation:
         kind = self._traction
         left, right = self._x_of_ends()
         return Observation(
-            time=(self._first + len(self._ends) - 1) * self.numerics.timestep,
+            time=(self._first + self._dropped + len(self._ends) - 1) * self.numerics.timestep,
             pressure=self._pressure.copy(),
             left=left,
             right=right,
@@ -190,15 +195,15 @@ class Simulation:
         )
 
     def trajectory(self) -> Trajectory:
-        """Everything since the last reset."""
-        count = len(self._ends)
+        """Everything since the last reset, or the last state where no history is kept."""
+        count, first = len(self._ends), self._first + self._dropped
         contact_left, contact_right, left_slip, drift = np.array(self._ends).T
         coordinates = np.concatenate(self._coordinates)[:count]
         walk = Trajectory(
             scene=self.scene,
             numerics=self.numerics,
             status=Status.OK,
-            time=self.numerics.timestep * np.arange(self._first, self._first + count, dtype=float),
+            time=self.numerics.timestep * np.arange(first, first + count, dtype=float),
             pressure=np.concatenate(self._pressures)[:count],
             coordinates=coordinates,
             position=positions(self.model, self.numerics, coordinates),
@@ -254,6 +259,16 @@ class Simulation:
         self._coordinates.append(coordinates[: len(ends)])
         self._pressures.append(pressures[: len(ends)])
         self._ends += ends
+        if not self._history:
+            self._dropped += len(self._ends) - 1
+            del self._ends[:-1], self._coordinates[:-1], self._pressures[:-1]
+            self._coordinates[0] = self._coordinates[0][-1:]
+            self._pressures[0] = self._pressures[0][-1:]
+
+    def nodes(self) -> Array:
+        """Vertices of the neutral line now, z over flat rest, (N + 2, 3) [m]."""
+        mujoco.mj_kinematics(self.model, self.data)
+        return nodes_of(self.data, self._pads, self.numerics)
 
     def _x_of_ends(self) -> tuple[float, float]:
         """Where the ends are after the last step."""

@@ -1,0 +1,1 @@
+"""A scene played live: by its gait or by hand."""

@@ -1,0 +1,104 @@
+"""A walk that goes on until it is stopped, played by its gait or by pressures from outside."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from analytic.surface import Ground
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.simulation import Observation, Simulation
+
+Array = NDArray[np.float64]
+
+
+class Session:
+    """One robot, its valves and what it stands on.
+
+    Args:
+        scene: where it starts.
+        numerics: how it is stepped.
+
+    Attributes:
+        simulation: the stepper.
+        seen: what there was to see after the last step.
+        playing: whether the gait commands the valves.
+        clock: how much of the gait has been played [s].
+        valves: commanded pressures, (S,) [Pa].
+    """
+
+    def __init__(self, scene: Scene, numerics: Numerics) -> None:
+        self.simulation = Simulation(scene, numerics, history=False)
+        self._given = numerics
+        self._begin()
+
+    def _begin(self) -> None:
+        self.seen: Observation = self.simulation.observe()
+        self.start = self.seen.left
+        self.playing, self.clock, self._owed = True, 0.0, 0.0
+        self.valves = self.gait_at(0.0)
+
+    @property
+    def scene(self) -> Scene:
+        """What is being played."""
+        return self.simulation.scene
+
+    @property
+    def displacement(self) -> float:
+        """Of the left end since the start, over L."""
+        return (self.seen.left - self.start) / self.scene.robot.length
+
+    def gait_at(self, time: float) -> Array:
+        """What the gait commands, over and over, (S,) [Pa]."""
+        gait = self.scene.gait
+        (fractions,) = gait.fractions(np.array([time % gait.period]))
+        return np.asarray(self.scene.robot.peak_pressure * fractions)
+
+    def command(self, valves: ArrayLike) -> None:
+        """Take the valves in hand: the gait stops where it is.
+
+        Args:
+            valves: pressures, (S,) [Pa].
+        """
+        self.valves = np.array(valves, dtype=float)
+        self.playing = False
+
+    def advance(self, seconds: float) -> Observation:
+        """Go on for so long, in whole steps; what is left over is made up for later."""
+        dt = self.simulation.numerics.timestep
+        self._owed += seconds
+        for _ in range(int(self._owed / dt + 1e-9)):
+            self._owed -= dt
+            if self.playing:
+                self.clock += dt
+                self.valves = self.gait_at(self.clock)
+            self.seen = self.simulation.step(self.valves)
+        return self.seen
+
+    def restart(self) -> None:
+        """From rest, with the gait."""
+        self.simulation.reset()
+        self._begin()
+
+    def move_to(self, ground: Ground) -> None:
+        """From rest on other ground.
+
+        Raises:
+            ValueError: the scene cannot be had there.
+        """
+        self.simulation = Simulation(replace(self.scene, ground=ground), self._given, history=False)
+        self._begin()
+
+    def words(self) -> Sequence[tuple[str, str]]:
+        """What is to be told, a name and a value a line."""
+        gait = f"{self.scene.gait.name}, {'plays' if self.playing else 'by hand'}"
+        pressures = " ".join(f"{1e-3 * p:.0f}" for p in self.seen.pressure)
+        return (
+            ("ground", self.scene.ground.name),
+            ("gait", gait),
+            ("time", f"{self.seen.time:.1f} s"),
+            ("pressures", f"{pressures} kPa"),
+            ("left end", f"{self.displacement:+.4f} L"),
+            ("status", str(self.seen.status)),
+        )
