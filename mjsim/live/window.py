@@ -4,6 +4,7 @@ Physics and picture are two models: what is shown is posed, and its actuators, w
 are the sliders.
 """
 
+import threading
 import time as clock
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -21,6 +22,7 @@ from mjsim.video.look import Look
 
 SPACE, BACKSPACE = 32, 259  # codes of GLFW
 _FRAME = 1 / 60  # s
+_PATIENCE = 10.0  # s that a window is given to close
 _LATEST = 0.1  # s of real time that are made up for after a hitch
 _REACH = 20.0  # lengths of the robot that the ground is shown to either side
 _MOVED = 1e-3  # of a slider: less is rounding
@@ -68,6 +70,7 @@ class _Window:
         look, session = self._look, self._session
         look.pose(session.simulation.nodes(), self._fractions())
         frames, simulated = 0, 0.0
+        others = set(threading.enumerate())
         with mujoco.viewer.launch_passive(
             look.model, look.data, key_callback=self._keys.append, show_left_ui=False
         ) as viewer:
@@ -88,7 +91,10 @@ class _Window:
                 viewer.sync()
                 frames += 1
                 clock.sleep(max(0.0, _FRAME - (clock.perf_counter() - now)))
-            return Shown(frames, clock.perf_counter() - opened, simulated)
+            shown = Shown(frames, clock.perf_counter() - opened, simulated)
+        for thread in set(threading.enumerate()) - others:
+            thread.join(_PATIENCE)  # while it draws a last frame its window must be there
+        return shown
 
     def _obey(self, viewer: Any) -> None:
         """Keys, then sliders that somebody moved."""
