@@ -32,3 +32,8 @@ if ! found EGL && ! found OSMesa; then
     apt_install libegl1 libgl1-mesa-dri ||
         say "no EGL library, so no videos: as root, apt-get install libegl1 libgl1-mesa-dri"
 fi
+
+# a virtual screen for the test of the viewer, which is left out without one
+if ! command -v Xvfb >/dev/null || ! command -v xdotool >/dev/null; then
+    apt_install xvfb xdotool libgl1 libglx-mesa0 libgl1-mesa-dri || say "no Xvfb and xdotool: the viewer is not tested"
+fi

@@ -1,4 +1,4 @@
-"""MuJoCo's viewer on a virtual screen: the robot moves, by its gait and by a slider."""
+"""MuJoCo's viewer on a virtual screen: the robot moves, and a slider changes the ground."""
 
 import os
 import shutil
@@ -43,14 +43,14 @@ def until(condition, seconds=60):
         time.sleep(0.3)
 
 
-def test_the_robot_moves_and_a_slider_takes_it_in_hand(screen):
+def test_the_robot_moves_and_a_slider_puts_it_on_other_ground(screen):
     environment = {**os.environ, "DISPLAY": screen}
     environment.pop("MUJOCO_GL", None)
 
     def do(*words):
         subprocess.run(["xdotool", *words], env=environment, check=True, capture_output=True)
 
-    words = ["--surface", "gelatin", "--seconds", "12", "--numerics.links", "12"]
+    words = ["--surface", "gelatin", "--seconds", "20", "--numerics.links", "12"]
     words += ["--numerics.timestep", "0.02"]
     program = subprocess.Popen(
         [sys.executable, "-m", "mjsim.view", *words],
@@ -64,7 +64,18 @@ def test_the_robot_moves_and_a_slider_takes_it_in_hand(screen):
         changed = np.abs(first - second).sum(axis=2) > 60
         middle = changed[150:330, 50:430]  # where the strip is, not the words
         assert middle.mean() > 0.02
-        do("key", "space")
+        red, green, _ = second[300:320, 100:300].mean(axis=(0, 1))
+        assert red > 1.3 * green  # gelatin
+        panel = 370  # where it begins; its width is fixed
+        do("mousemove", str(panel + 117), "55", "sleep", "0.3", "click", "1", "sleep", "1")
+        do("mousemove", str(panel + 135), "205", "sleep", "0.3", "mousedown", "1", "sleep", "0.5",
+           "mousemove", str(panel + 187), "205", "sleep", "0.5", "mouseup", "1")  # fmt: skip
+
+        def on_felt():
+            red, green, _ = picture(screen)[300:320, 100:300].mean(axis=(0, 1))
+            return green > 1.3 * red
+
+        until(on_felt, 15)
         out, error = program.communicate(timeout=60)
     finally:
         program.kill()
