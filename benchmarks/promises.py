@@ -17,7 +17,7 @@ from auto import measured
 from reach import draw
 
 from mjsim.cautions import inertia
-from mjsim.report import record, reference
+from mjsim.record import record, reference
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate

@@ -84,7 +84,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         fail(PROGRAM, str(error))
 
     if not options.json:
-        from mjsim.report import table
+        from mjsim.record import table
 
         say(table(records))
         sys.stdout.flush()  # the numbers come before any video is made
@@ -129,7 +129,7 @@ def _walk(
     from mjsim.video import gl
 
     gl.prepare()
-    from mjsim.report import record
+    from mjsim.record import record
     from mjsim.scene.provenance import provenance
 
     records, walks = [], []

@@ -9,7 +9,7 @@ import numpy as np
 
 from analytic import Surface, pneunet
 from analytic.friction import friction_number
-from mjsim.report import reference as quasi_static
+from mjsim.record import reference as quasi_static
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from analytic import SURFACES
 from mjsim.bodies.chambers import Chambers
-from mjsim.report import record
+from mjsim.record import record
 from mjsim.run import main
 from mjsim.scene import Numerics, Scene, Valves
 from mjsim.simulation.measures import measure

@@ -102,7 +102,7 @@ def test_open_valves_bend_less_against_the_weight_than_closed_ones():
 
 
 def test_chambers_that_lag_are_compared_along_their_own_path():
-    from mjsim.report import record
+    from mjsim.record import record
 
     row = record(simulate(replace(BASE, ground=SURFACES["felt"], valves=Valves(0.2))))
     assert row["error_over_L"] == pytest.approx(0, abs=0.001)

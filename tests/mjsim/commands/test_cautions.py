@@ -11,7 +11,7 @@ from analytic.surface import from_ratios
 from analytic.trapezoid import trapezoid
 from mjsim import run
 from mjsim.cautions import cautions, tied
-from mjsim.report import record
+from mjsim.record import record
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate

@@ -15,7 +15,7 @@ from analytic import GAITS, SURFACES, Friction, Gait, Robot, Surface, predict
 from analytic.elastica.cantilever import solve_cantilever
 from mjsim import replay, run
 from mjsim.io import cli, files
-from mjsim.report import reference
+from mjsim.record import reference
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.provenance import provenance
 from mjsim.simulation.batch import Refused, rollout, simulate_all

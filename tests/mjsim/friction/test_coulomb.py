@@ -8,7 +8,7 @@ from analytic import SURFACES, Friction, Gait, Robot, predict
 from analytic.locomotion import undecided
 from analytic.surface import from_ratios
 from mjsim import registry
-from mjsim.report import record, table
+from mjsim.record import record, table
 from mjsim.scene import Scene
 from mjsim.simulation.status import Status
 

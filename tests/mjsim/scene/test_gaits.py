@@ -9,7 +9,7 @@ from analytic import GAITS, SURFACES, Friction, Gait, Robot, predict
 from analytic.surface import from_ratios
 from mjsim import run
 from mjsim.io import cli
-from mjsim.report import reference
+from mjsim.record import reference
 from mjsim.scene import Scene
 from mjsim.scene.tables import build_gait
 from mjsim.simulation.measures import measure

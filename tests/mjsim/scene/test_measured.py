@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from analytic import GAITS, Gait
 from analytic.robot import PSI
-from mjsim.report import record
+from mjsim.record import record
 from mjsim.run import main
 from mjsim.scene import Numerics
 from mjsim.scene.measured import Series, as_gait, read_series

@@ -7,7 +7,7 @@ import pytest
 from walks import HEAVIER, walk
 
 import mjsim.simulation.simulation as simulation
-from mjsim.report import record
+from mjsim.record import record
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.status import Status

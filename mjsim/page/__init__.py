@@ -1,0 +1,1 @@
+"""One page about some walks, in one file."""
