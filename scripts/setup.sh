@@ -33,7 +33,11 @@ if ! found EGL && ! found OSMesa; then
         say "no EGL library, so no videos: as root, apt-get install libegl1 libgl1-mesa-dri"
 fi
 
-# a virtual screen for the test of the viewer, which is left out without one
+# what tests of the viewer and of the report look at; they are left out without
 if ! command -v Xvfb >/dev/null || ! command -v xdotool >/dev/null; then
-    apt_install xvfb xdotool libgl1 libglx-mesa0 libgl1-mesa-dri || say "no Xvfb and xdotool: the viewer is not tested"
+    apt_install xvfb xdotool libgl1 libglx-mesa0 libgl1-mesa-dri ||
+        say "no Xvfb and xdotool, so the viewer is not tested"
+fi
+if ! command -v chromium >/dev/null; then
+    apt_install chromium || say "no chromium, so the report is not opened in a test"
 fi
