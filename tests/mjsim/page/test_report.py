@@ -18,7 +18,8 @@ def commanded(words):
 @pytest.fixture(scope="module")
 def saved(tmp_path_factory):
     folder = tmp_path_factory.mktemp("runs")
-    words = ["--surface", "gelatin", "--no-video", "--links", "12", "--timestep", "0.02"]
+    words = ["--surface", "gelatin", "--no-video", "--links", "12", "--timestep", "0.01",
+             "--gait.ramp-time", "0.5"]  # fmt: skip
     assert run.main([*words, "--out", str(folder)]) == 0
     (path,) = folder.glob("*.nc")
     return path

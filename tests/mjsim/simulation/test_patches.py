@@ -27,7 +27,7 @@ TOML = """
 [[ground.patches]]
 surface = "felt"
 [[ground.patches]]
-from = 0.15
+from = 0.137
 tip_force = 0.034
 """
 
@@ -55,7 +55,7 @@ def test_patches_are_read_from_a_file_and_come_back_from_a_saved_walk(tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text(TOML)
     scene, _ = build(read_tables(path))
-    assert scene.ground.borders == (0.15,)
+    assert scene.ground.borders == (0.137,)
     assert scene.ground.at(0.0) == FELT
     assert scene.ground.at(0.2).tip_force == 0.034
     walk = simulate(scene)
@@ -66,7 +66,7 @@ def test_patches_are_read_from_a_file_and_come_back_from_a_saved_walk(tmp_path):
 @pytest.mark.parametrize(
     ("text", "named"),
     [('[ground]\nsurface = "felt"\n[[ground.patches]]\nsurface = "felt"\n', "not both"),
-     (TOML.replace("from = 0.15\n", ""), "from"), (TOML.replace("0.15", "'far'"), "far"),
+     (TOML.replace("from = 0.137\n", ""), "from"), (TOML.replace("0.137", "'far'"), "far"),
      (TOML.replace("tip_force", "tip"), "'tip'"), ('[ground]\npatches = 3\n', "3")],
 )  # fmt: skip
 def test_bad_patches_get_one_line(tmp_path, capsys, text, named):
@@ -79,7 +79,7 @@ def test_bad_patches_get_one_line(tmp_path, capsys, text, named):
 def test_the_command_walks_over_patches(tmp_path, capsys):
     path = tmp_path / "scene.toml"
     path.write_text(TOML)
-    words = ["--scene", str(path), "--cycles", "6", "--links", "12", "--json", "--no-video"]
+    words = ["--scene", str(path), "--cycles", "3", "--links", "12", "--json", "--no-video"]
     assert run.main([*words, "--out", str(tmp_path)]) == 0
     row = json.loads(capsys.readouterr().out)
     assert row["surface"] == "felt-custom"
