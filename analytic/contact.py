@@ -78,11 +78,11 @@ def _from_left(weight: float, nodes: Array, force: Array, up: NDArray[np.bool_])
     return np.asarray(flat_length(weight, held.sum(axis=1), held @ nodes))
 
 
-def flat_length(weight: float, total: Any, moment: Any) -> Any:
+def flat_length(weight: Any, total: Any, moment: Any) -> Any:
     """xi of a flat end that carries F = w xi + R with the moment M = w xi^2 / 2 + R xi [m].
 
     Args:
-        weight: w [N/m].
+        weight: w [N/m], a float or an array.
         total: F [N], a float or an array.
         moment: M about the end [N m], of the shape of F.
     """
@@ -90,7 +90,7 @@ def flat_length(weight: float, total: Any, moment: Any) -> Any:
     return (total - (0.5 * (square + abs(square))) ** 0.5) / weight
 
 
-def may_lie_flat(pressure: Any, peak_pressure: float) -> Any:
+def may_lie_flat(pressure: Any, peak_pressure: Any) -> Any:
     """Whether an end segment at this pressure [Pa] may lie on its side: with next to none."""
     return abs(pressure) <= PASSIVE * peak_pressure
 

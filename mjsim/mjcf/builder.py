@@ -17,10 +17,19 @@ def scene_spec(scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
     Raises:
         ValueError: the body cannot do what the scene asks for.
     """
-    body = registry.find(scene.body)
-    body.check(scene, numerics)
     spec = stage(scene.ground)
     spec.modelname = scene.ground.name
+    return on_ground(spec, scene, numerics)
+
+
+def on_ground(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
+    """The strip put on a ground that is given as MJCF.
+
+    Raises:
+        ValueError: the body cannot do what the scene asks for.
+    """
+    body = registry.find(scene.body)
+    body.check(scene, numerics)
     set_options(spec, scene, numerics)
     assert numerics.pad_radius is not None
     height = numerics.pad_radius - TOUCH * scene.robot.length
@@ -43,7 +52,15 @@ def compile_model(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
     Raises:
         ValueError: the body cannot do what the scene asks for, or mujoco refuses the model.
     """
-    spec = scene_spec(scene, numerics)
+    return compiled(scene_spec(scene, numerics), scene, numerics)
+
+
+def compiled(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> mujoco.MjModel:
+    """A spec compiled, or why it cannot be.
+
+    Raises:
+        ValueError: mujoco refuses it.
+    """
     try:
         return spec.compile()
     except ValueError as error:
