@@ -1,0 +1,136 @@
+"""Where jobs of a sweep run: processes of this machine, or a Dask cluster."""
+
+import logging
+import multiprocessing
+import os
+import threading
+from collections.abc import Callable
+from concurrent.futures import CancelledError, Executor, Future, ProcessPoolExecutor
+from multiprocessing.connection import wait as wait_for
+from typing import Any, Protocol
+
+_PATIENCE = "10s"  # for a scheduler to answer
+
+
+class LostError(RuntimeError):
+    """The cluster is gone."""
+
+
+class Workers(Protocol):
+    """Runs functions elsewhere."""
+
+    @property
+    def count(self) -> int:
+        """How many at a time."""
+        ...
+
+    def submit(self, work: Callable[[Any], Any], job: Any) -> "Future[Any]":
+        """Start one."""
+        ...
+
+    def check(self) -> None:
+        """Raise LostError if nothing can be had from here any more."""
+        ...
+
+    def restart(self) -> None:
+        """Make good for processes that died."""
+        ...
+
+    def close(self) -> None:
+        """Let go of what still runs."""
+        ...
+
+
+class Processes:
+    """Processes of this machine, one a core if no number is given."""
+
+    def __init__(self, count: int | None = None) -> None:
+        self._count = count or os.cpu_count() or 1
+        self._pool: Executor = self._new()
+
+    @property
+    def count(self) -> int:
+        """See Workers.count."""
+        return self._count
+
+    def _new(self) -> Executor:
+        context = multiprocessing.get_context("forkserver")
+        context.set_forkserver_preload(["mjsim.sweeps.rows"])
+        return ProcessPoolExecutor(self._count, mp_context=context, initializer=_begin)
+
+    def submit(self, work: Callable[[Any], Any], job: Any) -> "Future[Any]":
+        """See Workers.submit."""
+        return self._pool.submit(work, job)
+
+    def check(self) -> None:
+        """See Workers.check: broken ones are told by their futures."""
+
+    def restart(self) -> None:
+        """See Workers.restart."""
+        self._pool.shutdown(wait=False, cancel_futures=True)
+        self._pool = self._new()
+
+    def close(self) -> None:
+        """See Workers.close."""
+        self._pool.shutdown(wait=True, cancel_futures=True)
+
+
+class Cluster:
+    """Workers of a Dask scheduler, which were started by `dask worker`.
+
+    Args:
+        address: of the scheduler, as tcp://host:8786.
+
+    Raises:
+        ValueError: Dask is not installed, or no scheduler answers there.
+    """
+
+    def __init__(self, address: str) -> None:
+        try:
+            from distributed import Client
+        except ImportError as error:
+            raise ValueError("a scheduler needs Dask: pip install 'undulator[cluster]'") from error
+        for name in ("distributed", "distributed.client", "distributed.comm", "tornado"):
+            logging.getLogger(name).setLevel(logging.CRITICAL)  # what is lost is said in one line
+        try:
+            self._client: Any = Client(address, timeout=_PATIENCE, set_as_default=False)
+        except (OSError, ValueError) as error:
+            raise ValueError(f"no scheduler answers at {address!r}: {error}") from error
+        self._executor = self._client.get_executor(pure=False)
+
+    @property
+    def count(self) -> int:
+        """Threads of all workers now; one at least, for those to come."""
+        try:
+            return max(1, sum(self._client.nthreads().values()))
+        except (OSError, RuntimeError, CancelledError):
+            return 1
+
+    def submit(self, work: Callable[[Any], Any], job: Any) -> "Future[Any]":
+        """See Workers.submit."""
+        return self._executor.submit(work, job)
+
+    def check(self) -> None:
+        """See Workers.check."""
+        if self._client.status != "running":
+            raise LostError("the scheduler is gone")
+
+    def restart(self) -> None:
+        """See Workers.restart: Dask's nannies do it."""
+
+    def close(self) -> None:
+        """See Workers.close."""
+        self._client.close(timeout=2)
+
+
+def _begin() -> None:
+    """What a process does first: be quiet about divergence, and end when its driver does."""
+    logging.getLogger("absl").setLevel(logging.ERROR)
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()
+
+
+def _end_with(sentinel: int) -> None:
+    wait_for([sentinel])
+    os._exit(1)

@@ -1,0 +1,167 @@
+"""From points of a plan to rows of results: what a worker does."""
+
+import math
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from analytic.locomotion import direction
+from analytic.prediction import SOLVERS, predict
+from analytic.uncertainty import modes_error
+from mjsim.scene import Numerics, Scene
+from mjsim.scene.quantities import with_fields
+from mjsim.scene.tables import Tables, build
+
+REFUSED, CRASHED = "refused", "crashed"  # a bad scene; one that took its process down
+
+OUTPUTS: dict[str, tuple[str, str, str]] = {  # column: type, unit, what it is
+    "status": ("TEXT", "", "ok, or flags and failures of the model; refused, crashed"),
+    "message": ("TEXT", "", "why there is no result"),
+    "displacement_over_L": ("REAL", "1", "displacement of the left end per cycle over the length"),
+    "uncertainty_over_L": ("REAL", "1", "what is known of its error: of mujoco what inertia does, "
+                           "of auto the last change too, of modes and lifted their assumption"),
+    "displacement_m": ("REAL", "m", "displacement of the left end per cycle"),
+    "speed_m_per_s": ("REAL", "m/s", "the same over the period of the gait"),
+    "direction": ("TEXT", "", "forward, backward, or none below 0.005 of the length"),
+    "amplitude_over_L": ("REAL", "1", "greatest height over the length"),
+    "cpu_s": ("REAL", "s", "time of all cores that the scene took, set-up included"),
+}  # fmt: skip
+
+Row = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Job:
+    """Some scenes to predict.
+
+    Attributes:
+        base: tables of the scene that they start from.
+        model: of mjsim.sweeps.plan.MODELS.
+        points: number of a scene, and its fields in which scenes differ.
+        numerics: of mujoco, in place of the scenes' own.
+        tolerance: of auto.
+        states: of the theory in a ramp.
+        bent: whether friction bends the strip of the theory.
+    """
+
+    base: Tables
+    model: str
+    points: Sequence[tuple[int, Mapping[str, Any]]]
+    numerics: Numerics | None = None
+    tolerance: float = 0.02
+    states: int = 20
+    bent: bool = False
+
+
+def rows_of(job: Job) -> list[Row]:
+    """A row a scene, with its number as `id`; of a bad one the message."""
+    began = time.process_time()
+    rows: dict[int, Row] = {}
+    good: list[tuple[int, Scene, Numerics]] = []
+    for number, values in job.points:
+        try:
+            good.append((number, *build(with_fields(job.base, values))))
+        except ValueError as error:
+            rows[number] = refused(str(error))
+    if job.model == "mujoco":
+        rows |= _simulated(job, good)
+    else:
+        one = _checked if job.model == "auto" else _predicted
+        for number, scene, _ in good:
+            started = time.process_time()
+            try:
+                rows[number] = one(job, scene)
+            except ValueError as error:
+                rows[number] = refused(str(error))
+            rows[number]["cpu_s"] = time.process_time() - started
+    share = (time.process_time() - began) / len(job.points)
+    return [
+        {"id": number, **rows[number], "cpu_s": rows[number].get("cpu_s", share)}
+        for number, _ in job.points
+    ]
+
+
+def refused(message: str, status: str = REFUSED) -> Row:
+    """The row of a scene without a result."""
+    return {"status": status, "message": " ".join(message.split())}
+
+
+def _simulated(job: Job, scenes: Sequence[tuple[int, Scene, Numerics]]) -> dict[int, Row]:
+    from mjsim.batch.simulate import simulate_batch
+    from mjsim.simulation.trajectory import Trajectory
+
+    rows: dict[int, Row] = {}
+    alike: dict[Numerics, list[tuple[int, Scene]]] = {}
+    for number, scene, own in scenes:
+        alike.setdefault(job.numerics or own, []).append((number, scene))
+    for numerics, group in alike.items():
+        walks = simulate_batch([scene for _, scene in group], numerics)
+        for (number, _), walk in zip(group, walks, strict=True):
+            if isinstance(walk, Trajectory):
+                rows[number] = _walked(walk)
+            else:
+                rows[number] = refused(walk.message)
+    return rows
+
+
+def _checked(job: Job, scene: Scene) -> Row:
+    from mjsim.simulation.checked import walk_checked
+
+    found = walk_checked(scene, job.tolerance)
+    row = _walked(found.walk)
+    if not found.agreed:
+        row["status"] = "unconverged" if row["status"] == "ok" else row["status"]
+    elif "uncertainty_over_L" in row and math.isfinite(found.error):
+        row["uncertainty_over_L"] += found.error
+    return row
+
+
+def _walked(walk: Any) -> Row:
+    from mjsim.simulation.measures import measure
+
+    numbers = measure(walk)
+    if numbers is None:
+        return {"status": str(walk.status)}
+    scene = walk.scene
+    shift = numbers.displacement * scene.robot.length
+    known = abs(numbers.unexplained)
+    return {
+        "status": str(walk.status),
+        "displacement_over_L": numbers.displacement,
+        "uncertainty_over_L": None if math.isnan(known) else known,
+        "displacement_m": shift,
+        "speed_m_per_s": shift / scene.gait.period,
+        "direction": numbers.direction,
+        "amplitude_over_L": numbers.amplitude,
+    }
+
+
+def _predicted(job: Job, scene: Scene) -> Row:
+    friction = scene.reference_friction
+    if not job.bent:
+        friction = replace(friction, tension=0.0)
+    solver = SOLVERS[job.model]()
+    if hasattr(solver, "chamber"):
+        solver = replace(solver, chamber=scene.chamber)  # type: ignore[type-var]
+    starts_inflated = scene.rise_time > 0 and scene.gait.repeats
+    walk = predict(
+        scene.robot, scene.gait, scene.ground, solver, job.states, friction=friction,
+        cycles=2 if starts_inflated else 1,
+    )  # fmt: skip
+    length, shift = scene.robot.length, walk.locomotion.per_cycle
+    flags = "+".join(flag.name.lower() for flag in walk.flags if flag.name) or "ok"
+    if not math.isfinite(shift):
+        return {"status": flags}
+    assumed = modes_error(walk) / length
+    return {
+        "status": flags,
+        "displacement_over_L": shift / length,
+        "uncertainty_over_L": assumed if job.model in ("modes", "lifted") else None,
+        "displacement_m": shift,
+        "speed_m_per_s": shift / scene.gait.period,
+        "direction": direction(shift, length),
+        "amplitude_over_L": float(np.nanmax(walk.shapes.amplitude)) / length,
+    }

@@ -1,0 +1,169 @@
+"""Results of a sweep in one SQLite file: a row a scene, with units and provenance beside.
+
+    pandas.read_sql("select * from scenes", sqlite3.connect("results.sqlite"))
+
+Tables: `scenes`, a row a scene, numbers in the units of `columns`; `plan`, what the sweep is of;
+`sessions`, who worked on it when; `confirmations`, walks of some scenes again, finer. One driver
+writes, whole chunks in one transaction each: whatever dies leaves whole rows behind.
+"""
+
+import fcntl
+import json
+import sqlite3
+from collections.abc import Iterable, Mapping, Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from mjsim.scene.provenance import machine, origin
+from mjsim.scene.quantities import field_text, field_unit
+from mjsim.sweeps.plan import Plan
+from mjsim.sweeps.rows import OUTPUTS, Row
+
+KIND = "undulator sweep 1"  # of file; the number is that of its layout
+_TIES = ("python", "commit")  # what may differ between sessions of one sweep
+
+
+class Store:
+    """The file of a sweep, open for its one writer.
+
+    Args:
+        path: of the file; made if there is none.
+        plan: of the sweep.
+
+    Raises:
+        ValueError: the file is of another plan, another version, no such file, in use, or cannot
+            be written.
+    """
+
+    def __init__(self, path: Path, plan: Plan) -> None:
+        self.path, self._inputs = path, plan.fields
+        self._columns = [*plan.fields, *OUTPUTS]
+        try:
+            self._lock = path.open("ab")
+        except OSError as error:
+            raise ValueError(f"out {str(path)!r} cannot be written: {error.strerror}") from error
+        try:
+            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            self._lock.close()
+            raise ValueError(f"out {str(path)!r} is being written by another sweep") from error
+        self._base = sqlite3.connect(path)
+        try:
+            self._open(plan)
+        except (sqlite3.DatabaseError, ValueError) as error:
+            self.close()
+            raise ValueError(f"out {str(path)!r} {_why(error)}") from error
+
+    def _open(self, plan: Plan) -> None:
+        tables = {name for (name,) in self._base.execute("select name from sqlite_master")}
+        if tables:
+            if "plan" not in tables:
+                raise ValueError("is no file of a sweep")
+            said = dict(self._base.execute("select key, value from plan"))
+            if said.get("kind") != KIND:
+                raise ValueError("is no file of a sweep")
+            if said["digest"] != plan.digest:
+                raise ValueError(
+                    f"holds another plan, {said['digest']}: give another file for {plan.digest}"
+                )
+            mine, its = _versions(origin()), json.loads(said["versions"])
+            if mine != its:
+                name = next(key for key in mine if mine[key] != its.get(key))
+                raise ValueError(
+                    f"was made with {name} {its.get(name)}, here is {mine[name]}: give another file"
+                )
+        with self._base:
+            if not tables:
+                self._create(plan)
+            now = datetime.now(UTC).isoformat(timespec="seconds")
+            where = json.dumps(origin())
+            self._base.execute("insert into sessions values (?, ?, ?)", (now, where, machine()))
+
+    def _create(self, plan: Plan) -> None:
+        kinds = {name: _kind(plan, name) for name in plan.fields}
+        kinds |= {name: kind for name, (kind, _, _) in OUTPUTS.items()}
+        columns = ", ".join(f'"{name}" {kind}' for name, kind in kinds.items())
+        run = self._base.execute
+        run(f"create table scenes (id integer primary key, {columns})")
+        run("create table confirmations (id integer primary key, status, displacement_over_L)")
+        run("create table plan (key text primary key, value text)")
+        run("create table columns (name text primary key, role, unit, long_name)")
+        run("create table sessions (began, origin, machine)")
+        said = {
+            "kind": KIND, "digest": plan.digest, "model": plan.model, "scenes": len(plan),
+            "base": json.dumps(plan.base, default=str), "tolerance": plan.tolerance,
+            "versions": json.dumps(_versions(origin())),
+        }  # fmt: skip
+        self._base.executemany("insert into plan values (?, ?)", said.items())
+        described = [(n, "input", field_unit(n), field_text(n)) for n in plan.fields]
+        described += [(n, "output", unit, text) for n, (_, unit, text) in OUTPUTS.items()]
+        self._base.executemany("insert into columns values (?, ?, ?, ?)", described)
+
+    def note(self, key: str, value: str | None = None) -> str | None:
+        """Something said of the plan; written if a value is given."""
+        if value is not None:
+            with self._base:
+                self._base.execute("insert or replace into plan values (?, ?)", (key, value))
+        found = self._base.execute("select value from plan where key = ?", (key,)).fetchone()
+        return found and found[0]
+
+    def missing(self, numbers: range, table: str = "scenes") -> list[int]:
+        """Those of some scenes that have no row yet."""
+        done = self._base.execute(
+            f"select id from {table} where id between ? and ?", (numbers[0], numbers[-1])
+        )
+        return sorted(set(numbers) - {number for (number,) in done})
+
+    def add(self, rows: Iterable[Row], points: Mapping[int, Mapping[str, Any]]) -> None:
+        """Rows of scenes and their fields, all or none of them."""
+        names = ", ".join(f'"{name}"' for name in self._columns)
+        marks = ", ".join("?" * (1 + len(self._columns)))
+        values = [
+            [row["id"], *(_plain({**row, **points[row["id"]]}.get(name)) for name in self._columns)]
+            for row in rows
+        ]
+        with self._base:
+            self._base.executemany(f"insert into scenes (id, {names}) values ({marks})", values)
+
+    def confirm(self, rows: Iterable[Row]) -> None:
+        """The same scenes walked again, finer."""
+        values = [(row["id"], row["status"], row.get("displacement_over_L")) for row in rows]
+        with self._base:
+            self._base.executemany("insert into confirmations values (?, ?, ?)", values)
+
+    def select(self, query: str, values: Sequence[Any] = ()) -> list[tuple[Any, ...]]:
+        """What SQL finds."""
+        return self._base.execute(query, values).fetchall()
+
+    def close(self) -> None:
+        """Close the file; another sweep may write it then."""
+        self._base.close()
+        self._lock.close()
+
+    def __enter__(self) -> "Store":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:  # fmt: skip
+        self.close()
+
+
+def _kind(plan: Plan, name: str) -> str:
+    value = plan.point(0)[name]
+    return "REAL" if isinstance(value, int | float) and not isinstance(value, bool) else "TEXT"
+
+
+def _plain(value: Any) -> Any:
+    return json.dumps(value) if isinstance(value, list | tuple | dict) else value
+
+
+def _versions(source: Mapping[str, Any]) -> dict[str, str]:
+    return {key: value for key, value in source["versions"].items() if key not in _TIES}
+
+
+def _why(error: Exception) -> str:
+    return str(error) if isinstance(error, ValueError) else f"cannot be used: {error}"
