@@ -1,7 +1,8 @@
 """How far a robot goes in a cycle, by any solver, with the changes of anchor resolved."""
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import ClassVar, NamedTuple, Protocol
 
 import numpy as np
@@ -232,6 +233,39 @@ def predict(
     if isinstance(ground, Surface):
         locomotion = locomotion._replace(per_cycle=float(by_cycle[-1]))
     return Prediction(path, shapes, locomotion, flags, by_cycle)
+
+
+def predict_grounds(
+    robot: Robot,
+    gait: Gait,
+    grounds: Sequence[Surface],
+    solver: Solver,
+    states_per_ramp: int,
+    refinement: int = 32,
+    friction: Friction = WEAK,
+) -> list[Prediction]:
+    """The same walk on several grounds, whose friction bends nothing: the shapes are found once.
+
+    Args:
+        robot, gait, solver, states_per_ramp, refinement: see predict.
+        grounds: uniform ones, which neither stick nor resist by speed.
+        friction: law, slope and contacts; its tension is taken as 0.
+
+    Raises:
+        ValueError: see predict.
+    """
+    friction = replace(friction, tension=0.0)
+    path = robot.peak_pressure * gait.path(states_per_ramp)[0]
+    shapes = solver.solve(robot, path, grounds[0], friction, None)
+    changes = np.flatnonzero(
+        np.any([_anchor_changes(shapes, ground, friction) for ground in grounds], axis=0)
+    )
+    if len(changes) and refinement > 1:
+        path = _refined(path, changes, refinement)
+        shapes = solver.solve(robot, path, grounds[0], friction, None)
+    flags = Status(int(np.bitwise_or.reduce(shapes.status)))
+    walks = [displacements(shapes, ground, 1, friction) for ground in grounds]
+    return [Prediction(path, shapes, walk, flags, walk.left[-1:]) for walk in walks]
 
 
 def _refined(values: Array, changes: NDArray[np.int_], parts: int) -> Array:

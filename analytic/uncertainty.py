@@ -12,6 +12,24 @@ from analytic.prediction import Prediction
 UNSOUND = Status.NO_ROOT | Status.PENETRATES | Status.BOTH_FLAT | Status.HELD_FLAT
 
 
+# flags of states of which nothing is sure, of any solver
+DOUBTFUL = UNSOUND | Status.NOT_CONVERGED | Status.BRANCH_END | Status.ROLLED_UP | Status.JUMPED
+
+
+def flagged_change(prediction: Prediction, flags: Status = DOUBTFUL) -> float:
+    """Change of separation per cycle in increments that begin or end in a flagged state [m].
+
+    So much of the displacement rests on states that carry a flag: what is left of it when they do
+    not count is the displacement less this. Without a displacement, infinite.
+    """
+    if math.isnan(prediction.locomotion.per_cycle):
+        return math.inf
+    shapes = prediction.shapes
+    flagged = (shapes.status & int(flags)) != 0
+    change = np.abs(np.diff(shapes.separation))
+    return float(change[flagged[1:] | flagged[:-1]].sum()) / prediction.cycles
+
+
 def modes_error(prediction: Prediction) -> float:
     """Bound on the error that the modes' assumed contacts make in the displacement per cycle [m].
 
@@ -21,9 +39,4 @@ def modes_error(prediction: Prediction) -> float:
     five times the error against exact contact and nowhere less. Without a displacement, infinite.
     Solvers with exact contact raise none of these flags: 0.
     """
-    if math.isnan(prediction.locomotion.per_cycle):
-        return math.inf
-    shapes = prediction.shapes
-    unsound = (shapes.status & int(UNSOUND)) != 0
-    change = np.abs(np.diff(shapes.separation))
-    return float(change[unsound[1:] | unsound[:-1]].sum()) / prediction.cycles
+    return flagged_change(prediction, UNSOUND)

@@ -63,6 +63,15 @@ def workers_of(driver):
     return [p for p in found if p.parent().pid != driver.pid]
 
 
+def end(*processes):
+    for process in processes:
+        if process.poll() is None:
+            for child in psutil.Process(process.pid).children(recursive=True):
+                child.kill()
+            process.kill()
+        process.wait()
+
+
 def check_whole(folder, count=48):
     found = rows(folder)
     assert [number for number, _, _ in found] == list(range(count))
@@ -130,7 +139,7 @@ def test_a_sweep_on_a_cluster_outlives_worker_and_scheduler(folder):
         assert driver.returncode == 3, (out, err)
         assert err.count("\n") == 1
         assert "the scheduler is gone; the same command goes on from there" in err
-        worker.kill()
+        end(scheduler, worker)
         before = len(rows(folder))
         assert before < 160
         scheduler, worker = cluster()
@@ -140,8 +149,4 @@ def test_a_sweep_on_a_cluster_outlives_worker_and_scheduler(folder):
         assert f"{160 - before} of them now" in out
         check_whole(folder, 160)
     finally:
-        for process in (scheduler, worker):
-            for child in psutil.Process(process.pid).children(recursive=True):
-                child.kill()
-            process.kill()
-            process.wait()
+        end(scheduler, worker)

@@ -1,0 +1,80 @@
+"""What a gait is worth, by a model that must not be fooled.
+
+Only what is sure counts: from a displacement everything is taken off that rests on states with a
+flag (see analytic.uncertainty.flagged_change). A model whose assumptions break finds nothing there.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from analytic.air import air_per_cycle
+from analytic.gait import Gait
+from analytic.locomotion import STANDSTILL
+from analytic.prediction import SOLVERS, Elastica, predict_grounds
+from analytic.robot import Robot
+from analytic.surface import Surface
+from analytic.uncertainty import flagged_change
+from mjsim.scene import Scene
+
+Aim = Literal["displacement", "speed", "air", "work"]
+_LINKS = 36  # of the elastica in a search; within 2e-4 L of 60, measured
+
+
+@dataclass(frozen=True)
+class Objective:
+    """What is to be as large as can be.
+
+    Attributes:
+        scene: robot and friction; its gait and ground are replaced.
+        surfaces: on all of them, the worst counts.
+        aim: displacement per cycle over L; speed [mm/s]; or, with a minus, air [l/m] or work [J/m]
+            for each metre.
+        backward: the way that counts.
+        model: of the quasi-static solvers.
+        states: of it, in a ramp from no pressure to the peak.
+    """
+
+    scene: Scene
+    surfaces: tuple[Surface, ...]
+    aim: Aim = "displacement"
+    backward: bool = False
+    model: str = "elastica"
+    states: int = 10
+
+    def __call__(self, gait: Gait) -> float:
+        """Its worth; minus infinity for one that is not sure to go that way at all."""
+        return self.worth(gait, min(self.sure(self.scene.robot, gait, self.surfaces)))
+
+    def worth(self, gait: Gait, shift: float) -> float:
+        """The same, of its displacement the right way over L."""
+        robot = self.scene.robot
+        if self.aim == "displacement":
+            return shift
+        if self.aim == "speed":
+            return 1e3 * shift * robot.length / gait.period
+        if shift < STANDSTILL:
+            return -math.inf
+        air = air_per_cycle(robot, gait)
+        used = 1e3 * air.volume if self.aim == "air" else air.work
+        return -used / (shift * robot.length)
+
+    def sure(self, robot: Robot, gait: Gait, surfaces: Sequence[Surface]) -> list[float]:
+        """Displacement the right way over L that rests on no flagged state, on each surface."""
+        solver = SOLVERS[self.model]()
+        if isinstance(solver, Elastica):
+            solver = Elastica(_LINKS, self.scene.chamber)
+        try:
+            scene = replace(self.scene, robot=robot, gait=gait)
+            walks = predict_grounds(
+                robot, gait, surfaces, solver, self.states, friction=scene.reference_friction
+            )
+        except ValueError:  # a gait at which the strip would close into a circle
+            return [-math.inf] * len(surfaces)
+        sign = -1.0 if self.backward else 1.0
+        return [
+            (sign * walk.locomotion.per_cycle - flagged_change(walk)) / robot.length
+            if math.isfinite(walk.locomotion.per_cycle) else -math.inf
+            for walk in walks
+        ]  # fmt: skip

@@ -1,0 +1,64 @@
+"""Gaits as points of a unit cube: when each segment is pressed, how long, how gently, how far."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.gait import Gait
+from analytic.trapezoid import staggered
+
+Array = NDArray[np.float64]
+
+GRID = 0.01  # of the cycle and of the pressure: what is finer nobody can command; chosen
+_DUTY = (0.1, 0.9)
+_GENTLEST, _LEAST = 1.0, 0.15  # ramps, as part of the longest that the duty leaves room for
+
+
+class Space(NamedTuple):
+    """Of a robot's gaits.
+
+    A point holds S - 1 lags between neighbours (parts of the cycle, periodic), then S duties, one
+    ramp as part of the longest possible, and S fractions of the peak pressure.
+
+    Attributes:
+        segments: S.
+        period: of all gaits [s].
+    """
+
+    segments: int
+    period: float
+
+    @property
+    def size(self) -> int:
+        """Number of variables."""
+        return 3 * self.segments
+
+    @property
+    def lags(self) -> int:
+        """How many of them, from the first on, are periodic."""
+        return self.segments - 1
+
+    def middle(self) -> Array:
+        """A point to begin at: the wave of [Majidi13], at nine tenths of the pressure."""
+        s = self.segments
+        lag, duty = 0.2, (0.4 - _DUTY[0]) / (_DUTY[1] - _DUTY[0])
+        ramp = (0.5 - _LEAST) / (_GENTLEST - _LEAST)
+        return np.array([lag] * (s - 1) + [duty] * s + [ramp] + [0.9] * s)
+
+    def gait(self, point: Array, name: str = "searched") -> Gait:
+        """The gait of a point; all its times and pressures are multiples of GRID."""
+        s = self.segments
+        lags, rest = point[: s - 1] % 1.0, np.clip(point[s - 1 :], 0.0, 1.0)
+        duties = _on_grid(_DUTY[0] + (_DUTY[1] - _DUTY[0]) * rest[:s])
+        room = np.minimum(duties, 1 - duties)
+        ramps = _on_grid((_LEAST + (_GENTLEST - _LEAST) * rest[s]) * room)
+        ramps = np.clip(ramps, GRID, room)
+        starts = _on_grid(np.concatenate([[0.0], np.cumsum(lags)]))
+        fractions = _on_grid(rest[s + 1 :])
+        return staggered(starts.tolist(), duties.tolist(), ramps.tolist(), fractions.tolist(),
+                         self.period, name)  # fmt: skip
+
+
+def _on_grid(values: Array) -> Array:
+    return np.round(np.round(values / GRID) * GRID, 9)
