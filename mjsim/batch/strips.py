@@ -165,6 +165,10 @@ class Strips:
         self.pressure[rows] = pressure[np.arange(len(rows)), np.maximum(done.steps, 1) - 1]
         return done
 
+    def coordinates(self, rows: Rows) -> Array:
+        """Of MuJoCo now, (R, nq)."""
+        return np.array(self._qpos[rows])
+
     def _springs(self, rows: Rows, pressure: Array) -> list[tuple[Array, Array]]:
         """Stiffness and rest angle of the hinges at each step, (R, N) each."""
         each = [

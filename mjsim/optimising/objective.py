@@ -16,9 +16,11 @@ from analytic.prediction import SOLVERS, Elastica, predict_grounds
 from analytic.robot import Robot
 from analytic.surface import Surface
 from analytic.uncertainty import flagged_change
-from mjsim.scene import Scene
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.schedule import FEWEST_STEPS
 
 Aim = Literal["displacement", "speed", "air", "work"]
+_LONGEST, _AT_ENDS, _BETWEEN = 0.01, 4, 8  # of MuJoCo: time step [s] and links a segment
 _LINKS = 36  # of the elastica in a search; within 2e-4 L of 60, measured
 
 
@@ -32,7 +34,7 @@ class Objective:
         aim: displacement per cycle over L; speed [mm/s]; or, with a minus, air [l/m] or work [J/m]
             for each metre.
         backward: the way that counts.
-        model: of the quasi-static solvers.
+        model: mujoco, coarse, or one of the quasi-static solvers.
         states: of it, in a ramp from no pressure to the peak.
     """
 
@@ -62,6 +64,8 @@ class Objective:
 
     def sure(self, robot: Robot, gait: Gait, surfaces: Sequence[Surface]) -> list[float]:
         """Displacement the right way over L that rests on no flagged state, on each surface."""
+        if self.model == "mujoco":
+            return self._walked(robot, gait, surfaces)
         solver = SOLVERS[self.model]()
         if isinstance(solver, Elastica):
             solver = Elastica(_LINKS, self.scene.chamber)
@@ -78,3 +82,22 @@ class Objective:
             if math.isfinite(walk.locomotion.per_cycle) else -math.inf
             for walk in walks
         ]  # fmt: skip
+
+    def _walked(self, robot: Robot, gait: Gait, surfaces: Sequence[Surface]) -> list[float]:
+        """The same by MuJoCo, for whose states there are no flags: a fall counts as nothing."""
+        from mjsim.batch.simulate import simulate_batch
+        from mjsim.simulation.measures import measure
+        from mjsim.simulation.trajectory import Trajectory
+
+        try:
+            scenes = [replace(self.scene, robot=robot, gait=gait, ground=g) for g in surfaces]
+        except ValueError:
+            return [-math.inf] * len(surfaces)
+        step = min(_LONGEST, min(gait.ramp_times) / FEWEST_STEPS)
+        links = (_BETWEEN if scenes[0].between else _AT_ENDS) * len(robot.segments)
+        found = []
+        for walk in simulate_batch(scenes, Numerics(links=links, timestep=step)):
+            numbers = measure(walk) if isinstance(walk, Trajectory) else None
+            shift = -math.inf if numbers is None else numbers.displacement
+            found.append(-shift if self.backward and numbers else shift)
+        return found

@@ -10,7 +10,8 @@ from analytic.trapezoid import staggered
 
 Array = NDArray[np.float64]
 
-GRID = 0.01  # of the cycle and of the pressure: what is finer nobody can command; chosen
+GRID = 0.02  # of the cycle and of the pressure: what is finer nobody can command; chosen
+SHORTEST = 0.1  # period that is searched, of the longest; chosen
 _DUTY = (0.1, 0.9)
 _GENTLEST, _LEAST = 1.0, 0.15  # ramps, as part of the longest that the duty leaves room for
 
@@ -23,16 +24,18 @@ class Space(NamedTuple):
 
     Attributes:
         segments: S.
-        period: of all gaits [s].
+        period: of all gaits [s]; where `free`, the longest, and a last number says which.
+        free: whether the period is searched too.
     """
 
     segments: int
     period: float
+    free: bool = False
 
     @property
     def size(self) -> int:
         """Number of variables."""
-        return 3 * self.segments
+        return 3 * self.segments + self.free
 
     @property
     def lags(self) -> int:
@@ -44,7 +47,7 @@ class Space(NamedTuple):
         s = self.segments
         lag, duty = 0.2, (0.4 - _DUTY[0]) / (_DUTY[1] - _DUTY[0])
         ramp = (0.5 - _LEAST) / (_GENTLEST - _LEAST)
-        return np.array([lag] * (s - 1) + [duty] * s + [ramp] + [0.9] * s)
+        return np.array([lag] * (s - 1) + [duty] * s + [ramp] + [0.9] * s + [0.5] * self.free)
 
     def gait(self, point: Array, name: str = "searched") -> Gait:
         """The gait of a point; all its times and pressures are multiples of GRID."""
@@ -55,9 +58,10 @@ class Space(NamedTuple):
         ramps = _on_grid((_LEAST + (_GENTLEST - _LEAST) * rest[s]) * room)
         ramps = np.clip(ramps, GRID, room)
         starts = _on_grid(np.concatenate([[0.0], np.cumsum(lags)]))
-        fractions = _on_grid(rest[s + 1 :])
+        fractions = _on_grid(rest[s + 1 : 2 * s + 1])
+        period = self.period * SHORTEST ** float(rest[-1]) if self.free else self.period
         return staggered(starts.tolist(), duties.tolist(), ramps.tolist(), fractions.tolist(),
-                         self.period, name)  # fmt: skip
+                         round(period, 2), name)  # fmt: skip
 
 
 def _on_grid(values: Array) -> Array:

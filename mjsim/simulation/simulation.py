@@ -84,6 +84,7 @@ class Simulation:
         self.numerics = (numerics or Numerics()).resolved(scene.body, scene.friction)
         check_steps(scene, self.numerics)
         self.model = compile_model(scene, self.numerics)
+        self.data = mujoco.MjData(self.model)
         self._compiled = {name: getattr(self.model, name).copy() for name in _SET}
         self.reset()
 
@@ -97,7 +98,7 @@ class Simulation:
         self.rng = np.random.default_rng(seed)
         for name, values in self._compiled.items():
             getattr(model, name)[:] = values
-        self.data = mujoco.MjData(model)
+        mujoco.mj_resetData(model, self.data)
         mujoco.mj_forward(model, self.data)
         self._joints = registry.find(scene.body).bind(model, self.data, scene, numerics)
         self._traction = traction(scene, numerics, model, self.data)
@@ -137,13 +138,21 @@ class Simulation:
         Raises:
             ValueError: the commands are not of that kind.
         """
-        command = np.asarray(valves, dtype=float)
-        if command.shape != self._pressure.shape or not np.isfinite(command).all():
+        return self.play(np.asarray(valves, dtype=float)[None])
+
+    def play(self, valves: ArrayLike) -> Observation:
+        """Do a step for each row of commands, (T, S) [Pa], or up to a failure.
+
+        Raises:
+            ValueError: the commands are not of that kind.
+        """
+        commands = np.asarray(valves, dtype=float)
+        if commands.shape[1:] != self._pressure.shape or not np.isfinite(commands).all():
             raise ValueError(
                 f"valves must be {len(self._pressure)} finite pressures [Pa], got {valves!r}"
             )
         if not self._stopped:
-            self._play(command[None])
+            self._play(commands)
         return self.observe()
 
     def run(

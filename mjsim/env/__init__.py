@@ -1,0 +1,14 @@
+"""Environments for controllers that learn: dm_control's, and Gymnasium's, single and vectorised.
+
+With dm_control, `mjsim.env.load("gelatin", seed=1)`. With Gymnasium (the extra `gym`), `import
+mjsim.env.gym` registers "Undulator/Gelatin-v0" and its like for `gymnasium.make` and `make_vec`.
+"""
+
+from typing import Any
+
+
+def load(*surfaces: str, seed: int | None = None, **settings: Any) -> Any:
+    """A dm_control environment, see mjsim.env.dm.load."""
+    from mjsim.env.dm import load as load_dm
+
+    return load_dm(*surfaces, seed=seed, **settings)

@@ -1,0 +1,38 @@
+"""The gait that was found beside the one of the scene, and how the search came to it."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from analytic.gait import Gait
+from mjsim.io.files import whole
+from mjsim.optimising.search import Generation
+
+
+def draw(best: Gait, start: Gait, history: Sequence[Generation], path: Path) -> None:
+    """Pressures along the cycle, and the worth over evaluations.
+
+    Args:
+        best, start: gaits.
+        history: of the search.
+        path: of the picture.
+    """
+    figure = Figure(figsize=(10, 3.2), layout="constrained")
+    for_best, for_start, course = figure.subplots(1, 3)
+    for panel, gait, name in ((for_best, best, "best"), (for_start, start, start.name)):
+        time = np.linspace(0, gait.period * (1 - 1e-9), 500)
+        for segment, part in enumerate(gait.fractions(time).T):
+            panel.plot(time, part + 1.2 * (gait.segments - 1 - segment), lw=1.5)
+        panel.set_title(f"{name}: pressures, left segment on top", fontsize=9)
+        panel.set_xlabel("s")
+        panel.set_yticks([])
+    course.plot([g.evaluations for g in history], [g.worth for g in history], label="best")
+    course.plot([g.evaluations for g in history], [g.median for g in history], lw=0.8,
+                label="median of the generation")  # fmt: skip
+    course.set_xlabel("evaluations")
+    course.set_title("worth", fontsize=9)
+    course.legend(fontsize=7)
+    with whole(path) as part:
+        figure.savefig(part, dpi=110)

@@ -1,0 +1,198 @@
+"""Environments walk as simulations do, all three kinds alike, and keep their libraries' rules."""
+
+import os
+import subprocess
+import sys
+import unittest
+
+import gymnasium
+import numpy as np
+import pytest
+from dm_env import test_utils
+from gymnasium.utils.env_checker import check_env
+
+import mjsim.env
+from analytic.gait import GAITS
+from mjsim.env.gym import WalkEnv, WalkVectorEnv
+from mjsim.env.task import Settings, names
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.simulation import simulate
+
+RANDOM = {
+    "surfaces": ("felt", "gelatin"), "duration": 1.0,
+    "randomise": {"robot.modulus": (1.5e6, 2.2e6), "robot.length": (0.12, 0.14),
+                  "ground.tip_force": (0.02, 0.04)},
+}  # fmt: skip
+
+
+class DmEnvsOwnTests(test_utils.EnvironmentTestMixin, unittest.TestCase):
+    """dm_env's conformance tests."""
+
+    def make_object_under_test(self):
+        return mjsim.env.load("gelatin", "felt", seed=3, duration=1.0)
+
+
+def test_gymnasiums_checker_passes():
+    env = gymnasium.make("Undulator/AnyGround-v0", duration=1.0)
+    check_env(env.unwrapped, skip_render_check=True)
+
+
+@pytest.mark.parametrize("name", ["Felt", "Polyethylene", "Gelatin", "AnyGround"])
+def test_registered_names_make_one_and_many(name):
+    env = gymnasium.make(f"Undulator/{name}-v0")
+    _, info = env.reset(seed=0)
+    assert name == "AnyGround" or info["surface"] == name.lower()
+    many = gymnasium.make_vec(f"Undulator/{name}-v0", num_envs=2)
+    observations, _ = many.reset(seed=0)
+    assert observations.shape == (2, *env.observation_space.shape)
+    assert many.observation_space.contains(observations)
+
+
+def test_many_robots_are_each_the_single_one_of_its_seed_through_resets():
+    many = WalkVectorEnv(num_envs=3, **RANDOM)
+    ones = [WalkEnv(**RANDOM) for _ in range(3)]
+    actions = np.random.default_rng(1).random((25, 3, 3)).astype(np.float32)
+    felt, _ = many.reset(seed=5)
+    for i, one in enumerate(ones):
+        np.testing.assert_allclose(one.reset(seed=5 + i)[0], felt[i], atol=1e-6)
+    over = [False] * 3
+    for together in actions:
+        felt, rewards, fallen, late, _ = many.step(together)
+        for i, one in enumerate(ones):
+            if over[i]:
+                alone, over[i] = one.reset()[0], False
+                assert rewards[i] == 0
+            else:
+                alone, reward, fell, ended, _ = one.step(together[i])
+                assert rewards[i] == pytest.approx(reward, abs=1e-9)
+                assert (fell, ended) == (fallen[i], late[i])
+                over[i] = fell or ended
+            np.testing.assert_allclose(alone, felt[i], atol=1e-6)
+
+
+def test_dm_controls_environment_walks_as_gymnasiums():
+    gym, dm = WalkEnv(surfaces=("gelatin",)), mjsim.env.load("gelatin")
+    felt, _ = gym.reset(seed=0)
+    seen = dm.reset().observation
+    actions = np.random.default_rng(2).random((20, 3))
+    for action in actions:
+        np.testing.assert_allclose(np.concatenate(list(seen.values())), felt, atol=1e-6)
+        felt, reward, *_ = gym.step(action)
+        step = dm.step(action)
+        seen = step.observation
+        assert step.reward == pytest.approx(reward, abs=1e-9)
+    assert tuple(seen) == names(3)._fields
+
+
+def test_a_gait_as_actions_goes_as_far_as_its_simulation():
+    numerics = Numerics(links=12, timestep=0.01)
+    gait = GAITS["wave"]
+    env = WalkEnv(control_period=0.01, duration=10.0, surfaces=("felt",))
+    env.reset(seed=0)
+    total, late = 0.0, False
+    for fractions in gait.fractions(np.arange(1, 1001) * 0.01):
+        _, reward, fallen, late, _ = env.step(fractions)
+        total += reward
+    assert late
+    assert not fallen
+    walk = simulate(Scene(), numerics)
+    x = walk.position[:, [0, -1], 0].mean(axis=1)
+    assert total == pytest.approx((x[-1] - x[walk.start]) / 0.13, abs=1e-7)
+
+
+def test_scenes_are_drawn_within_their_ranges_and_by_the_seed():
+    settings = Settings(**RANDOM)
+    scenes = [settings.draw(np.random.default_rng(seed)) for seed in range(20)]
+    assert {scene.ground.name for scene in scenes} == {"felt-changed", "gelatin-changed"}
+    assert all(1.5e6 <= scene.robot.modulus <= 2.2e6 for scene in scenes)
+    assert len({scene.robot.length for scene in scenes}) == 20
+    again = settings.draw(np.random.default_rng(3))
+    assert again == scenes[3]
+
+
+def test_friction_between_the_ends_is_for_single_environments():
+    env = WalkEnv(surfaces=("felt",), contacts="all", duration=0.5)
+    env.reset(seed=0)
+    felt, *_ = env.step([1.0, 0.0, 1.0])
+    assert np.isfinite(felt).all()
+    with pytest.raises(ValueError, match="contacts must be ends side by side"):
+        WalkVectorEnv(num_envs=2, contacts="all")
+
+
+def test_a_strip_that_falls_ends_its_episode_in_all_three():
+    settings = {"surfaces": ("felt",), "base": {"robot": {"weight_per_length": 0.05}},
+                "duration": 20.0}  # fmt: skip
+    one, many = WalkEnv(**settings), WalkVectorEnv(num_envs=2, **settings)
+    dm = mjsim.env.load("felt", **{k: v for k, v in settings.items() if k != "surfaces"})
+    one.reset(seed=0), many.reset(seed=0), dm.reset()
+    rng, fell = np.random.default_rng(0), None
+    for step in range(200):
+        action = np.round(rng.random(3))
+        _, reward, fallen, _, _ = one.step(action)
+        _, rewards, both, _, _ = many.step(np.tile(action, (2, 1)))
+        last = dm.step(action)
+        assert both.tolist() == [fallen] * 2
+        assert last.last() == (fallen or step == 199)
+        if fallen:
+            fell = step
+            assert reward == rewards[0] == last.reward == -1.0
+            assert last.discount == 0.0
+            break
+    assert fell is not None
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"surfaces": ("sand",)}, "surface must be one of felt"),
+        ({"surfaces": ()}, "surfaces must be one name at least"),
+        ({"control_period": 0.015}, "control_period must be whole time steps"),
+        ({"duration": -1.0}, "duration must be a positive"),
+        ({"randomise": {"robot.colour": (0, 1)}}, "key 'colour'"),
+        ({"randomise": {"robot.length": (1,)}}, "range of robot.length must be two numbers"),
+        ({"base": {"numerics": {"body": "rod"}}}, "environments are of body planar"),
+    ],
+)
+def test_bad_settings_are_named(settings, words):
+    with pytest.raises(ValueError, match=words):
+        Settings(**settings)
+
+
+def test_a_picture_shows_the_robot():
+    program = (
+        "from mjsim.env.gym import WalkEnv\n"
+        "env = WalkEnv(render_mode='rgb_array'); env.reset(seed=0)\n"
+        "a = env.render()\n"
+        "for _ in range(10): env.step([1.0, 1.0, 0.0])\n"
+        "b = env.render(); env.close()\n"
+        "print(a.shape, (abs(a.astype(int) - b).max(axis=2) > 30).sum())\n"
+    )
+    environment = {**os.environ, "MUJOCO_GL": "egl"}
+    done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True,
+                          text=True, check=True)  # fmt: skip
+    shape, changed = done.stdout.rsplit(maxsplit=1)
+    assert shape == "(240, 480, 3)"
+    assert int(changed) > 500
+
+
+@pytest.mark.slow
+def test_a_trained_rhythm_beats_the_gait_of_the_paper_on_gelatin():
+    from mjsim.env.rhythm import press, train
+
+    envs = WalkVectorEnv(num_envs=40, surfaces=("gelatin",))
+    trained = train(envs, generations=8, seed=0)
+
+    def went(actions, contacts):
+        env = WalkEnv(surfaces=("gelatin",), contacts=contacts,
+                      numerics=Numerics(links=24, timestep=0.005))  # fmt: skip
+        env.reset(seed=0)
+        return sum(env.step(action)[1] for action in actions)
+
+    times = np.arange(200) * 0.1
+    rhythm = [press(trained.rhythm[None], t, 3)[0] for t in times]
+    paper = max(went(GAITS["wave"].fractions(times + 0.1), "ends"),
+                went(GAITS["wave"].reversed().fractions(times + 0.1), "ends"))  # fmt: skip
+    assert paper == pytest.approx(2 * 0.034, abs=0.004)
+    # finer, and with friction in the middle too
+    assert went(rhythm, "all") > 1.5 * paper
+    assert trained.reward[-1] > trained.reward[0]
