@@ -130,18 +130,13 @@ class Simulation:
         return False
 
     def step(self, valves: ArrayLike) -> Observation:
-        """Do one time step.
-
-        Args:
-            valves: commanded pressures, left segment first, (S,) [Pa]; below 0 on the other face.
-
-        Raises:
-            ValueError: the commands are not of that kind.
-        """
+        """Do one time step; see play."""
         return self.play(np.asarray(valves, dtype=float)[None])
 
     def play(self, valves: ArrayLike) -> Observation:
         """Do a step for each row of commands, (T, S) [Pa], or up to a failure.
+
+        Pressures are of the left segment first, below 0 on the other face.
 
         Raises:
             ValueError: the commands are not of that kind.
