@@ -47,7 +47,7 @@ class Options(SceneOptions):
     """
 
     aim: Literal["displacement", "speed", "air", "work"] = "displacement"
-    """displacement per cycle; speed, of periods from a tenth of the scene's to the scene's, in
+    """displacement per cycle; speed, of periods from a fifth of the scene's to the scene's, in
     MuJoCo; the least air, in litres at atmospheric pressure, or the least work of compressing it,
     for each metre"""
     backward: bool = False
@@ -146,7 +146,7 @@ def _write(options: Options, objective: "Objective", history: "list[Generation]"
 
     gait = history[-1].best
     table = {"name": "best", "stages": [list(stage) for stage in gait.stages],
-             "ramp_time": list(gait.ramp_times)}  # fmt: skip
+             "ramp_time": [round(time, 9) for time in gait.ramp_times]}  # fmt: skip
     surfaces = ", ".join(surface.name for surface in objective.surfaces)
     words = [f"The best of {history[-1].evaluations} gaits for {options.aim} on {surfaces}."]
     path = options.out / "best.toml"

@@ -11,13 +11,15 @@ _COLUMNS = {  # where a package is drawn: column, row
     "mjsim.io": (1, 3.7), "mjsim.registry": (1, 2.6), "mjsim.scene": (1, 1.4),
     "mjsim.ground": (2, 3.7), "mjsim.bodies": (2, 2.2), "mjsim.mjcf": (3, 3.4),
     "mjsim.friction": (3, 1.2), "mjsim.results": (4, 0.7),
-    "mjsim.simulation": (4, 2.4), "mjsim.batch": (4.4, 3.9),
-    "mjsim.sweeps": (5.7, 4.1), "mjsim.env": (6, 3.2), "mjsim.optimising": (6, 1.4),
+    "mjsim.simulation": (4, 2.4), "mjsim.batch": (4.4, 3.95),
+    "mjsim.sweeps": (5.7, 3.95), "mjsim.env": (6, 3.2), "mjsim.control": (5.6, 2.9),
+    "mjsim.optimising": (6, 1.4),
     "mjsim.video": (5, 3.4),
     "mjsim.live": (5, 2.3), "mjsim.page": (4.4, 1.5), "mjsim": (5, 1.0), "mjsim.studies": (6, 2.2),
 }  # fmt: skip
 _LABEL = {
-    "mjsim": "commands\nrun fit view compare sweep\nanalysis optimise replay\nexport gallery report",
+    "mjsim": "commands\nrun fit view compare\nsweep analysis optimise\n"
+    "replay export\ngallery report",
     "analytic": "analytic\n(theory)",
 }
 

@@ -206,3 +206,9 @@ def test_the_notebook_runs_from_top_to_bottom():
     assert "backward: -0.034" in printed
     assert len(pictures) == 2
     assert not [out for out in outputs if out.get("name") == "stderr" and "Error" in out.text]
+
+
+def test_over_the_seam_wave_and_controller_begin_alike_in_theory_and_mujoco():
+    went = example("reversing")(cycles=3)
+    assert went["MuJoCo, controller"] == pytest.approx(went["MuJoCo, wave alone"], abs=1e-6)
+    assert went["controller"] == pytest.approx(went["MuJoCo, controller"], abs=0.01)

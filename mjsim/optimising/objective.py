@@ -17,10 +17,10 @@ from analytic.robot import Robot
 from analytic.surface import Surface
 from analytic.uncertainty import flagged_change
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.schedule import FEWEST_STEPS
 
 Aim = Literal["displacement", "speed", "air", "work"]
-_LONGEST, _AT_ENDS, _BETWEEN = 0.01, 4, 8  # of MuJoCo: time step [s] and links a segment
+_LONGEST, _STEPS = 0.01, 20  # of MuJoCo: time step [s], and steps of the shortest ramp; chosen
+_AT_ENDS, _BETWEEN = 6, 8  # links a segment
 _LINKS = 36  # of the elastica in a search; within 2e-4 L of 60, measured
 
 
@@ -93,7 +93,7 @@ class Objective:
             scenes = [replace(self.scene, robot=robot, gait=gait, ground=g) for g in surfaces]
         except ValueError:
             return [-math.inf] * len(surfaces)
-        step = min(_LONGEST, min(gait.ramp_times) / FEWEST_STEPS)
+        step = min(_LONGEST, min(gait.ramp_times) / _STEPS)
         links = (_BETWEEN if scenes[0].between else _AT_ENDS) * len(robot.segments)
         found = []
         for walk in simulate_batch(scenes, Numerics(links=links, timestep=step)):

@@ -11,7 +11,7 @@ from analytic.trapezoid import staggered
 Array = NDArray[np.float64]
 
 GRID = 0.02  # of the cycle and of the pressure: what is finer nobody can command; chosen
-SHORTEST = 0.1  # period that is searched, of the longest; chosen
+SHORTEST = 0.2  # period that is searched, of the longest; chosen
 _DUTY = (0.1, 0.9)
 _GENTLEST, _LEAST = 1.0, 0.15  # ramps, as part of the longest that the duty leaves room for
 

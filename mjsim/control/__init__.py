@@ -1,0 +1,1 @@
+"""Controllers that sense what a robot could, in theory and in MuJoCo."""
