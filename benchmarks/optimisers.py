@@ -16,10 +16,7 @@ from mjsim.optimising.space import Space
 from mjsim.scene import Scene
 
 SPACE = Space(3, 10.0)
-AIMS = {
-    "gelatin": (SURFACES["gelatin"],),
-    "all three": tuple(SURFACES.values()),
-}
+AIMS = {"gelatin": (SURFACES["gelatin"],)}
 _WORTHLESS = 1.0
 
 
