@@ -81,7 +81,7 @@ def _minimise(weights: Array, lever: Array, moves: Array) -> Array:
     """Newton's method on ever sharper corners: |u| as sqrt(u^2 + sharpness^2)."""
     # by viscosity alone: least squares
     flat = lever.reshape(-1, 3)
-    motion: Array = np.linalg.lstsq(flat, -moves.ravel(), rcond=None)[0]
+    motion: Array = np.asarray(np.linalg.lstsq(flat, -moves.ravel(), rcond=None)[0], dtype=float)
     sharpness = _SMOOTHEST
     while sharpness > _SHARPEST and weights.any():
         sharpness *= _CLOSER

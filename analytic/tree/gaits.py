@@ -1,0 +1,42 @@
+"""Gaits of the quadruped: fractions of the peak pressure of torso and legs.
+
+The strip's gaits stand for it: its left segment for the rear legs, the middle one for the torso,
+the right one for the front legs ([Majidi13], section 2). Turning presses one side less.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from analytic.checks import is_number
+from analytic.gait import GAITS, Gait
+from analytic.tree.limbs import ORDER
+
+UNDULATIONS = ("wave", "full-wave", "pulse")
+
+
+def undulation(gait: Gait | str = "wave", left: float = 1.0, right: float = 1.0) -> Gait:
+    """A strip's gait for the quadruped, in the order of its limbs.
+
+    Args:
+        gait: of three segments, or the name of one.
+        left, right: part of the pressure that legs of that side get.
+
+    Raises:
+        ValueError: the gait is not of three segments, or a part not in [0, 1].
+    """
+    own = GAITS[gait] if isinstance(gait, str) else gait
+    if own.segments != 3:
+        raise ValueError(f"gait {own.name!r} must be of three segments, got {own.segments}")
+    for name, part in (("left", left), ("right", right)):
+        if not (is_number(part) and 0 <= part <= 1):
+            raise ValueError(f"{name} must be a part in [0, 1], got {part!r}")
+    side = {"left": left, "right": right}
+    rear, middle, front = np.array(own.stages).T
+    columns = [middle] + [
+        side[name.partition("-")[2]] * (rear if name.startswith("rear") else front)
+        for name in ORDER[1:]
+    ]
+    stages = tuple(map(tuple, np.stack(columns, axis=1).tolist()))
+    name = own.name if left == right == 1 else f"{own.name}-{left:g}-{right:g}"
+    return replace(own, name=name, stages=stages)

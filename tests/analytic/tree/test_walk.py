@@ -1,0 +1,84 @@
+"""Paths of trees: the strip's, symmetric ones, turning ones, and back again."""
+
+import numpy as np
+import pytest
+
+from analytic.gait import GAITS
+from analytic.prediction import Elastica, predict
+from analytic.robot import Robot
+from analytic.surface import SURFACES
+from analytic.tree.gaits import undulation
+from analytic.tree.limbs import LENGTH, as_strip, quadruped
+from analytic.tree.walk import follow, shapes, walk
+
+QUADRUPED = quadruped()
+
+
+def by_limb(gait):
+    """A strip's fractions in the order torso, rear, front."""
+    return np.array(gait.path(16)[0])[:, [1, 0, 2]]
+
+
+@pytest.mark.parametrize("name", ["wave", "pulse"])
+def test_the_strip_as_a_tree_goes_as_far_as_the_strip(name):
+    robot, gait = Robot(), GAITS[name]
+    pressures = robot.peak_pressure * by_limb(gait)
+    tree, rests = shapes(as_strip(robot), pressures, 6)
+    for surface in SURFACES.values():
+        path = follow(tree, rests, pressures, surface)
+        exact = predict(robot, gait, surface, Elastica(18), 16, 1).locomotion.per_cycle
+        assert path.converged
+        assert path.displacement[0] == pytest.approx(exact, abs=2e-5 * robot.length)
+        assert path.displacement[1] == pytest.approx(0, abs=1e-12)
+        assert path.turn == pytest.approx(0, abs=1e-12)
+
+
+@pytest.fixture(scope="module")
+def undulating():
+    gait = undulation("wave")
+    pressures = QUADRUPED.peak_pressure * gait.path(10)[0]
+    return pressures, *shapes(QUADRUPED, pressures, 4)
+
+
+@pytest.mark.parametrize("name", list(SURFACES))
+def test_pairs_that_press_alike_do_not_turn_it(undulating, name):
+    pressures, tree, rests = undulating
+    path = follow(tree, rests, pressures, SURFACES[name])
+    assert path.turn == pytest.approx(0, abs=1e-9)
+    assert path.displacement[1] == pytest.approx(0, abs=1e-9 * LENGTH)
+
+
+def test_it_walks_forward_on_felt_and_backward_on_gelatin(undulating):
+    pressures, tree, rests = undulating
+    far = {name: follow(tree, rests, pressures, surface).displacement[0] / LENGTH
+           for name, surface in SURFACES.items()}  # fmt: skip
+    assert far["felt"] > 0.005
+    assert far["gelatin"] < -0.005
+    assert far["gelatin"] < far["polyethylene"] < far["felt"]
+
+
+def test_the_same_states_in_opposite_order_lead_back(undulating):
+    pressures, tree, rests = undulating
+    there = follow(tree, rests, pressures, SURFACES["felt"])
+    back = follow(tree, rests[::-1], pressures[::-1], SURFACES["felt"])
+    assert back.displacement[0] == pytest.approx(-there.displacement[0], rel=1e-3)
+
+
+def test_one_side_pressed_less_turns_it_and_the_other_side_the_other_way():
+    paths = [
+        walk(QUADRUPED, undulation("wave", left, right), SURFACES["felt"], 8, 2)
+        for left, right in ((0.5, 1.0), (1.0, 0.5))
+    ]
+    one, two = paths
+    assert abs(one.turn) > np.radians(0.2)
+    assert two.turn == pytest.approx(-one.turn, abs=1e-6)
+    assert two.displacement == pytest.approx(one.displacement * [1, -1], abs=1e-6 * LENGTH)
+
+
+def test_gaits_for_other_robots_and_parts_out_of_range_are_refused():
+    with pytest.raises(ValueError, match="is for 3 limbs, the robot has 5"):
+        walk(QUADRUPED, GAITS["wave"], SURFACES["felt"])
+    with pytest.raises(ValueError, match="left must be a part in"):
+        undulation("wave", left=1.5)
+    with pytest.raises(ValueError, match="must be of three segments"):
+        undulation(undulation("wave"))
