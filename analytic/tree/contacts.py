@@ -124,10 +124,13 @@ class Contacts:
         return slice(limb * self._per_limb, (limb + 1) * self._per_limb)
 
     def _of_limb(self, rest: Rest, limb: int) -> tuple[Array, Array]:
-        """Force on and height of each vertex, both edges together."""
+        """Force on each vertex, both edges together, and height of the lower edge.
+
+        A leg that leans lies on one of its edges.
+        """
         here, half = self._slice(limb), len(rest.force) // 2
         force = rest.force[:half][here] + rest.force[half:][here]
-        height = 0.5 * (rest.nodes[:half][here, 2] + rest.nodes[half:][here, 2])
+        height = np.minimum(rest.nodes[:half][here, 2], rest.nodes[half:][here, 2])
         return force, height
 
     def _beyond(self, rest: Rest, limb: int) -> tuple[float, bool]:
