@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from analytic import pneunet
 from analytic.contact import flat_length, may_lie_flat
+from analytic.friction import LAWS
 from analytic.robot import Robot
 from analytic.surface import Surface
 from analytic.tree.kinematics import Tree
@@ -34,14 +35,12 @@ class Contact(NamedTuple):
         limb: its place.
         length: of side contact, 0 for a point [m].
         at: arclengths of the points that it resists at [m].
-        bound: of each of them [N].
         load: normal force on the whole [N].
     """
 
     limb: int
     length: float
     at: tuple[float, ...]
-    bound: float
     load: float
 
 
@@ -50,11 +49,11 @@ class Contacts:
 
     Args:
         tree: its links.
-        surface: under it.
+        law: of friction, a name of analytic.friction.LAWS.
     """
 
-    def __init__(self, tree: Tree, surface: Surface) -> None:
-        self._tree, self._surface = tree, surface
+    def __init__(self, tree: Tree, law: str = "constant") -> None:
+        self._tree, self._law = tree, LAWS[law]
         robot = tree.robot
         self._up = [_ripple(limb.strip, tree.elements) for limb in robot.limbs]
         self._per_limb = tree.elements + 2
@@ -104,14 +103,19 @@ class Contacts:
                 found += self._between(i, force * touched)
         return found
 
-    def places(self, rest: Rest, contacts: list[Contact]) -> tuple[Array, Array]:
-        """Bounds and places of all points that resist, (C,) [N] and (C, 2) [m]."""
-        bounds, places = [], []
-        for contact in contacts:
-            for at in contact.at:
-                bounds.append(contact.bound)
-                places.append(self.point(rest, contact.limb, at))
-        return np.array(bounds), np.array(places).reshape(-1, 2)
+    def places(self, rest: Rest, contacts: list[Contact]) -> Array:
+        """Places of all points that resist, (C, 2) [m]."""
+        return np.array(
+            [self.point(rest, contact.limb, at) for contact in contacts for at in contact.at]
+        ).reshape(-1, 2)
+
+    def resistance(self, contact: Contact, surface: Surface) -> tuple[float, float]:
+        """Bound of friction [N] and viscous resistance [N s/m] of each point of a contact."""
+        width, points = self._tree.robot.limbs[contact.limb].strip.width, len(contact.at)
+        bound = self._law.bound(surface, width, contact.length, contact.load)
+        if not contact.length and not self._law.needs_load:
+            bound *= self._share[contact.limb]
+        return float(bound) / points, float(surface.drag(width, contact.length)) / points
 
     def point(self, rest: Rest, limb: int, at: float) -> Array:
         """Place of a point of a limb's middle line in plan, (2,) [m]."""
@@ -174,7 +178,7 @@ class Contacts:
             may: whether it may lie flat, by its pressure.
             least: force that counts.
         """
-        strip, surface = self._tree.robot.limbs[i].strip, self._surface
+        strip = self._tree.robot.limbs[i].strip
         at = self._tree.arclength[self._slice(i)]
         away = at if end == "begin" else strip.length - at
         order = np.argsort(away)
@@ -186,8 +190,7 @@ class Contacts:
             return None, 0.0
         if not may:
             if end == "end" and self._tree.robot.limbs[i].name in self._leaves:
-                tip = surface.tip_force * self._share[i]
-                return Contact(i, 0.0, (float(at[-1]),), tip, total), 0.0
+                return Contact(i, 0.0, (float(at[-1]),), total), 0.0
             return None, 0.0
         weight = strip.weight_per_length
         whole = len(run) == len(at) and on_ground
@@ -196,19 +199,16 @@ class Contacts:
         length = strip.length if whole else float(flat_length(weight, total, moment))
         length = min(length, strip.length)
         if length <= 0:
-            tip = surface.tip_force * self._share[i]
-            return Contact(i, 0.0, (float(at[0 if end == "begin" else -1]),), tip, total), 0.0
-        bound = surface.shear_strength * strip.width * length / len(_POINTS)
+            return Contact(i, 0.0, (float(at[0 if end == "begin" else -1]),), total), 0.0
         points = tuple(
             float(length * p if end == "begin" else strip.length - length * p) for p in _POINTS
         )
-        return Contact(i, length, points, bound, total), total - weight * length
+        return Contact(i, length, points, total), total - weight * length
 
     def _between(self, i: int, force: Array) -> list[Contact]:
         """A limb that touches with no end of its own: by a point, where it pushes."""
         at, load = self._tree.arclength[self._slice(i)], float(force.sum())
-        tip = self._surface.tip_force * self._share[i]
-        return [Contact(i, 0.0, (float(force @ at / load),), tip, load)]
+        return [Contact(i, 0.0, (float(force @ at / load),), load)]
 
 
 def _ripple(strip: Robot, elements: int) -> float:

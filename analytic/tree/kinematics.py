@@ -47,6 +47,7 @@ class Tree:
         parent: joint that carries each joint, (Q,); of the first three the one before.
         carried: whether a joint moves a node, (P, Q).
         first: place of each limb's first hinge among the coordinates.
+        starts: arclengths at which the links of each limb begin [m].
     """
 
     def __init__(self, robot: TreeRobot, elements: int) -> None:
@@ -57,6 +58,7 @@ class Tree:
         self.first = [WHOLE + elements * i for i in range(len(robot.limbs))]
         self.parent = np.arange(-1, count - 1)
         self._lengths = [link_lengths(limb.strip, elements) for limb in robot.limbs]
+        self.starts = [np.append(0.0, np.cumsum(lengths)[:-1]) for lengths in self._lengths]
         weight, arclength = [], []
         for i, limb in enumerate(robot.limbs):
             quarter = 0.25 * self._lengths[i] * limb.strip.weight_per_length  # an end, an edge

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from analytic.gait import Gait
 from analytic.plane import least_dissipation_in_plane
-from analytic.surface import Surface
+from analytic.ground import surfaces_of
+from analytic.surface import Ground
 from analytic.tree.contacts import Contact, Contacts
 from analytic.tree.kinematics import Tree
 from analytic.tree.limbs import TreeRobot
@@ -69,42 +70,96 @@ def shapes(robot: TreeRobot, pressures: Array, elements: int) -> tuple[Tree, lis
     return tree, found
 
 
-def follow(tree: Tree, rests: list[Rest], pressures: Array, surface: Surface) -> Path:
-    """The path along shapes on a ground."""
-    finder = Contacts(tree, surface)
+def follow(
+    tree: Tree,
+    rests: list[Rest],
+    pressures: Array,
+    ground: Ground,
+    law: str = "constant",
+    times: Array | None = None,
+) -> Path:
+    """The path along shapes on a ground.
+
+    Args:
+        tree, rests, pressures: what `shapes` gave, for pressures (B, L) [Pa].
+        ground: what resists, by the place along x.
+        law: of friction, a name of analytic.friction.LAWS.
+        times: of the shapes, (B,) [s], which viscous ground asks for.
+
+    Raises:
+        ValueError: the ground resists by speed in a way that is not viscous, or sticks, or is
+            viscous and no times are given.
+    """
+    check_ground(ground)
+    viscous = any(surface.viscosity for surface in surfaces_of(ground))
+    if viscous and times is None:
+        raise ValueError(f"times of the shapes must be given on viscous ground {ground.name!r}")
+    finder = Contacts(tree, law)
     contacts = [finder.find(rest, row) for rest, row in zip(rests, pressures, strict=True)]
     place, heading = np.zeros((len(rests), 2)), np.zeros(len(rests))
     for i, (one, two) in enumerate(pairwise(rests)):
         shift, turn = np.zeros(2), 0.0
+        turned = rotation(heading[i])
         for own in (contacts[i], contacts[i + 1]):
-            bounds, before = finder.places(one, own)
-            if not len(bounds):
+            before, after = finder.places(one, own), finder.places(two, own)
+            if not len(before):
                 continue
-            _, after = finder.places(two, own)
-            motion = least_dissipation_in_plane(bounds, before, after - before)
+            along = place[i, 0] + before @ turned[0]
+            bounds, drag = _resistances(finder, own, ground, along)
+            thick = drag / max(float(times[i + 1] - times[i]), 1e-12) if viscous else None
+            motion = least_dissipation_in_plane(bounds, before, after - before, thick)
             shift += 0.5 * motion.shift
             turn += 0.5 * motion.turn
-        c, s = np.cos(heading[i]), np.sin(heading[i])
-        place[i + 1] = place[i] + np.array([c * shift[0] - s * shift[1],
-                                            s * shift[0] + c * shift[1]])  # fmt: skip
+        place[i + 1] = place[i] + turned @ shift
         heading[i + 1] = heading[i] + turn
     converged = all(rest.converged for rest in rests)
     return Path(pressures, rests, contacts, place, heading, converged)
 
 
+def _resistances(
+    finder: Contacts, contacts: list[Contact], ground: Ground, along: Array
+) -> tuple[Array, Array]:
+    """Bounds [N] and viscous resistances [N s/m] of all points, which are at x (C,) [m]."""
+    limbs = [contact for contact in contacts for _ in contact.at]
+    pairs = [
+        finder.resistance(contact, ground.at(float(x)))
+        for contact, x in zip(limbs, along, strict=True)
+    ]
+    bounds, drag = np.array(pairs).T
+    return bounds, drag
+
+
+def rotation(angle: float) -> Array:
+    """Matrix of a turn to the left in the plane, (2, 2)."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s], [s, c]])
+
+
+def check_ground(ground: Ground) -> None:
+    """Raise ValueError for ground that limbs are not told of: sticky, or stronger at rest."""
+    for surface in surfaces_of(ground):
+        if surface.adhesion or surface.static_ratio > 1:
+            what = "adhesion" if surface.adhesion else "static_ratio"
+            raise ValueError(
+                f"{what} of surface {surface.name!r} is for strips, not for robots of limbs; got "
+                f"{getattr(surface, what)!r}"
+            )
+
+
 def walk(
-    robot: TreeRobot, gait: Gait, surface: Surface, states: int = 40, elements: int = 6,
-    cycles: int = 1,
+    robot: TreeRobot, gait: Gait, ground: Ground, states: int = 40, elements: int = 6,
+    cycles: int = 1, law: str = "constant",
 ) -> Path:  # fmt: skip
     """Walk a gait quasi-statically, where friction bends nothing.
 
     Args:
         robot: its limbs.
         gait: fractions of the robot's peak pressure, one a limb, in their order.
-        surface: under it.
+        ground: under it.
         states: of a change by the peak pressure.
         elements: hinges of each limb, even.
         cycles: how many.
+        law: of friction, a name of analytic.friction.LAWS.
 
     Raises:
         ValueError: the gait is not for so many limbs.
@@ -113,6 +168,7 @@ def walk(
         raise ValueError(
             f"gait {gait.name!r} is for {gait.segments} limbs, the robot has {len(robot.limbs)}"
         )
-    pressures = robot.peak_pressure * gait.path(states, cycles)[0]
+    fractions, times = gait.path(states, cycles)
+    pressures = robot.peak_pressure * fractions
     tree, rests = shapes(robot, pressures, elements)
-    return follow(tree, rests, pressures, surface)
+    return follow(tree, rests, pressures, ground, law, times)
