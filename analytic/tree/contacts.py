@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from analytic import pneunet
 from analytic.contact import flat_length, may_lie_flat
 from analytic.friction import LAWS
+from analytic.ground import surfaces_of
 from analytic.robot import Robot
-from analytic.surface import Surface
+from analytic.surface import Ground, Surface
 from analytic.tree.kinematics import Tree
 from analytic.tree.statics import Rest
 
@@ -215,3 +216,14 @@ def _ripple(strip: Robot, elements: int) -> float:
     spacing = strip.length / elements
     unit = strip.weight_per_length * strip.length * spacing**3 / pneunet.base_rigidity(strip)
     return _RIPPLE * unit * 4  # wider links are four thirds of an element
+
+
+def check_ground(ground: Ground) -> None:
+    """Raise ValueError for ground that limbs are not told of: sticky, or stronger at rest."""
+    for surface in surfaces_of(ground):
+        if surface.adhesion or surface.static_ratio > 1:
+            what = "adhesion" if surface.adhesion else "static_ratio"
+            raise ValueError(
+                f"{what} of surface {surface.name!r} is for strips, not for robots of limbs; got "
+                f"{getattr(surface, what)!r}"
+            )

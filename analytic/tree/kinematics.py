@@ -1,11 +1,10 @@
 """A tree of limbs as rigid links: where its nodes are, and how they move with its joints.
 
 Each limb is the chain of analytic.chain: n hinges between n + 1 links with Simpson's weights. The
-first link of a limb is clamped to the link that carries it. The whole may rise, pitch and roll; x,
-y and yaw are friction's.
+first link of a limb is clamped to the link that carries it.
 
-Coordinates q: height of the trunk's beginning, its pitch (up is positive) and roll (left side up is
-positive), then the hinges, trunk first; a hinge turns its plane's outward direction up.
+Coordinates q: x, y and height of the trunk's beginning, its yaw (to the left), pitch (up) and roll
+(left side up), then the hinges, trunk first; a hinge turns its plane's outward direction up.
 """
 
 from typing import NamedTuple
@@ -18,7 +17,11 @@ from analytic.tree.limbs import TreeRobot
 
 Array = NDArray[np.float64]
 
-WHOLE = 3  # coordinates that belong to no hinge
+_EYE = np.eye(3)
+_UP = np.array([0.0, 0.0, 1.0])
+WHOLE = 6  # coordinates that belong to no hinge
+HEIGHT = 2  # among them
+IN_PLAN = (0, 1, 3)  # those that only friction resists: x, y and yaw
 
 
 class Pose(NamedTuple):
@@ -26,7 +29,7 @@ class Pose(NamedTuple):
 
     Attributes:
         nodes: places of the right edges of all vertices, then of the left ones, (P, 3) [m].
-        axes, centres: of the joints, (Q, 3); of the height the first axis is its direction.
+        axes, centres: of the joints, (Q, 3); of x, y and z the axis is their direction.
     """
 
     nodes: Array
@@ -59,6 +62,8 @@ class Tree:
         self.parent = np.arange(-1, count - 1)
         self._lengths = [link_lengths(limb.strip, elements) for limb in robot.limbs]
         self.starts = [np.append(0.0, np.cumsum(lengths)[:-1]) for lengths in self._lengths]
+        self._turns = [_turn(_UP, limb.angle - self._heading(limb.on)) for limb in robot.limbs]
+        self._places = [-1 if limb.on is None else robot.place(limb.on) for limb in robot.limbs]
         weight, arclength = [], []
         for i, limb in enumerate(robot.limbs):
             quarter = 0.25 * self._lengths[i] * limb.strip.weight_per_length  # an end, an edge
@@ -94,32 +99,39 @@ class Tree:
     def pose(self, q: Array) -> Pose:
         """Places of nodes and joints."""
         axes, centres = np.zeros((len(q), 3)), np.zeros((len(q), 3))
-        base = np.array([0.0, 0.0, q[0]])
-        axes[0] = 0.0, 0.0, 1.0
-        axes[1], axes[2] = (0.0, -1.0, 0.0), (np.cos(q[1]), 0.0, np.sin(q[1]))
+        base = np.array(q[:3])
+        axes[:3], axes[3] = _EYE, _UP
+        headed = _turn(_UP, q[3])
+        axes[4] = -headed[:, 1]
+        pitched = _turn(axes[4], q[4]) @ headed
+        axes[5] = pitched[:, 0]
         centres[:WHOLE] = base
-        frame = _turn(axes[2], q[2]) @ _turn(axes[1], q[1])
+        frame = _turn(axes[5], q[5]) @ pitched
         per_limb = self.elements + 2
         right, left = np.empty((2, per_limb * len(self.robot.limbs), 3))
         ends: list[dict[str, tuple[Array, Array]]] = []
         for i, limb in enumerate(self.robot.limbs):
             start, carried = base, frame
             if limb.on is not None:
-                start, carried = ends[self.robot.place(limb.on)][limb.at]
+                start, carried = ends[self._places[i]][limb.at]
             start = start + limb.offset * carried[:, 1]
-            own = carried @ _turn(np.array([0.0, 0.0, 1.0]), limb.angle - self._heading(limb.on))
+            own = carried @ self._turns[i]
             side = own[:, 1]
             # in its plane: directions of the links from the sum of the hinges
-            turn = np.append(0.0, np.cumsum(q[self.first[i] : self.first[i] + self.elements]))
-            along = np.cos(turn)[:, None] * own[:, 0] + np.sin(turn)[:, None] * own[:, 2]
-            places = start + np.vstack([np.zeros(3), np.cumsum(self._lengths[i][:, None] * along,
-                                                               axis=0)])  # fmt: skip
+            turn = np.zeros(self.elements + 1)
+            np.cumsum(q[self.first[i] : self.first[i] + self.elements], out=turn[1:])
+            along = np.stack([np.cos(turn), np.sin(turn)], axis=1) @ own[:, ::2].T
+            places = np.empty((per_limb, 3))
+            places[0] = 0.0
+            np.cumsum(self._lengths[i][:, None] * along, axis=0, out=places[1:])
+            places += start
             edge = 0.5 * limb.strip.width * side
             here = slice(i * per_limb, (i + 1) * per_limb)
             right[here], left[here] = places - edge, places + edge
             hinges = slice(self.first[i], self.first[i] + self.elements)
             axes[hinges], centres[hinges] = -side, places[1:-1]
-            last = np.column_stack([along[-1], side, np.cross(along[-1], side)])
+            out = np.cos(turn[-1]) * own[:, 2] - np.sin(turn[-1]) * own[:, 0]
+            last = np.array([along[-1], side, out]).T
             ends.append({
                 "begin": (start - limb.offset * carried[:, 1], own),
                 "end": (places[-1], last),
@@ -129,28 +141,58 @@ class Tree:
     def _heading(self, on: str | None) -> float:
         return 0.0 if on is None else self.robot.limbs[self.robot.place(on)].angle
 
+    def moves(self, pose: Pose, which: slice | NDArray[np.int_] = slice(None)) -> Array:
+        """How places of nodes follow the coordinates, (P, 3, Q); of some nodes if so asked."""
+        arm = pose.nodes[which, None] - pose.centres[None]
+        (a, b, c), (x, y, z) = pose.axes.T, np.moveaxis(arm, 2, 0)
+        moves = np.stack([b * z - c * y, c * x - a * z, a * y - b * x], axis=1)
+        moves[..., :3] = pose.axes[:3].T
+        return np.where(self.carried[which][:, None], moves, 0.0)
+
     def heights(self, pose: Pose) -> Array:
         """How heights of nodes follow the coordinates, (P, Q)."""
         arm = pose.nodes[:, None] - pose.centres[None]
         rise = pose.axes[:, 0] * arm[..., 1] - pose.axes[:, 1] * arm[..., 0]
-        rise[:, 0] = 1.0
+        rise[:, :3] = pose.axes[:3, 2]
         return np.where(self.carried, rise, 0.0)
 
     def bending(self, pose: Pose, force: Array) -> Array:
-        """Second derivatives of the sum of forces (P,) times heights, (Q, Q)."""
+        """Second derivatives of the sum of forces (P, 3) times places, (Q, Q).
+
+        Of two joints the one nearer to the trunk, i, turns what the other, j, moves:
+        f . (a_i x (a_j x r)) = (a_i . r)(f . a_j) - (f . r)(a_i . a_j).
+        """
         arm = pose.nodes[:, None] - pose.centres[None]  # (P, Q, 3)
-        pull = np.where(self.carried[..., None], force[:, None, None] * arm, 0.0).sum(axis=0)
-        inner = np.cross(pose.axes, pull)  # (Q, 3): a_j x S_j
-        inner[0] = 0.0
-        outer = pose.axes[:, 0][:, None] * inner[:, 1] - pose.axes[:, 1][:, None] * inner[:, 0]
-        outer[0] = 0.0
-        # of two joints the one nearer to the trunk is the outer one
-        upper = np.where(self.above.T, outer, 0.0)
+        arm = np.where(self.carried[..., None], arm, 0.0)
+        moment = (arm.reshape(len(arm), -1).T @ force).reshape(-1, 3, 3)
+        trace = moment[:, 0, 0] + moment[:, 1, 1] + moment[:, 2, 2]
+        turned = (moment @ pose.axes[..., None])[..., 0] - trace[:, None] * pose.axes
+        inner = pose.axes @ turned.T  # (i, j)
+        inner[:3], inner[:, :3] = 0.0, 0.0
+        upper = np.where(self.above.T, inner, 0.0)
         return np.asarray(upper + np.tril(upper.T, -1) * (~self.above.T))
+
+    def points(self, limbs: NDArray[np.int_], at: Array) -> Array:
+        """Weights of the nodes in points of the limbs' middle lines, (C, P).
+
+        Args:
+            limbs: of each point, (C,).
+            at: arclength of each, (C,) [m].
+        """
+        half, per_limb = len(self.weight) // 2, self.elements + 2
+        weights = np.zeros((len(at), 2 * half))
+        for row, (limb, place) in enumerate(zip(limbs, at, strict=True)):
+            own = self.arclength[limb * per_limb : (limb + 1) * per_limb]
+            link = int(np.clip(np.searchsorted(own, place, side="right") - 1, 0, per_limb - 2))
+            part = (place - own[link]) / (own[link + 1] - own[link])
+            for edge in (0, half):
+                node = edge + limb * per_limb + link
+                weights[row, node], weights[row, node + 1] = 0.5 * (1 - part), 0.5 * part
+        return weights
 
 
 def _turn(axis: Array, angle: float) -> Array:
     """Matrix of a rotation about a unit axis."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.asarray(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)
+    return np.asarray(_EYE + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)

@@ -4,53 +4,23 @@ In each increment the contacts of both of its states are asked, and the mean is 
 reversed sequence goes back the same way.
 """
 
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from analytic.gait import Gait
-from analytic.plane import least_dissipation_in_plane
 from analytic.ground import surfaces_of
+from analytic.plane import least_dissipation_in_plane
 from analytic.surface import Ground
-from analytic.tree.contacts import Contact, Contacts
+from analytic.tree.contacts import Contact, Contacts, check_ground
 from analytic.tree.kinematics import Tree
 from analytic.tree.limbs import TreeRobot
+from analytic.tree.path import Path
 from analytic.tree.statics import Rest, Statics
+from analytic.tree.stick_slip import drag_along
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Path:
-    """Where a tree went.
-
-    Attributes:
-        pressures: of the limbs, (B, L) [Pa].
-        rests: its shapes.
-        contacts: of each state.
-        place: of the trunk's beginning, (B, 2) [m].
-        heading: of the trunk, to the left, (B,) [rad].
-        converged: whether all shapes are equilibria.
-    """
-
-    pressures: Array
-    rests: list[Rest]
-    contacts: list[list[Contact]]
-    place: Array
-    heading: Array
-    converged: bool
-
-    @property
-    def displacement(self) -> Array:
-        """Of the trunk's beginning in all, (2,) [m]."""
-        return np.asarray(self.place[-1] - self.place[0])
-
-    @property
-    def turn(self) -> float:
-        """Of the trunk in all, to the left [rad]."""
-        return float(self.heading[-1] - self.heading[0])
 
 
 def shapes(robot: TreeRobot, pressures: Array, elements: int) -> tuple[Tree, list[Rest]]:
@@ -94,6 +64,7 @@ def follow(
     viscous = any(surface.viscosity for surface in surfaces_of(ground))
     if viscous and times is None:
         raise ValueError(f"times of the shapes must be given on viscous ground {ground.name!r}")
+    spans = np.diff(times) if times is not None else np.ones(len(rests) - 1)
     finder = Contacts(tree, law)
     contacts = [finder.find(rest, row) for rest, row in zip(rests, pressures, strict=True)]
     place, heading = np.zeros((len(rests), 2)), np.zeros(len(rests))
@@ -106,7 +77,7 @@ def follow(
                 continue
             along = place[i, 0] + before @ turned[0]
             bounds, drag = _resistances(finder, own, ground, along)
-            thick = drag / max(float(times[i + 1] - times[i]), 1e-12) if viscous else None
+            thick = drag / max(float(spans[i]), 1e-12) if viscous else None
             motion = least_dissipation_in_plane(bounds, before, after - before, thick)
             shift += 0.5 * motion.shift
             turn += 0.5 * motion.turn
@@ -135,22 +106,11 @@ def rotation(angle: float) -> Array:
     return np.array([[c, -s], [s, c]])
 
 
-def check_ground(ground: Ground) -> None:
-    """Raise ValueError for ground that limbs are not told of: sticky, or stronger at rest."""
-    for surface in surfaces_of(ground):
-        if surface.adhesion or surface.static_ratio > 1:
-            what = "adhesion" if surface.adhesion else "static_ratio"
-            raise ValueError(
-                f"{what} of surface {surface.name!r} is for strips, not for robots of limbs; got "
-                f"{getattr(surface, what)!r}"
-            )
-
-
 def walk(
     robot: TreeRobot, gait: Gait, ground: Ground, states: int = 40, elements: int = 6,
-    cycles: int = 1, law: str = "constant",
+    cycles: int = 1, law: str = "constant", bent: bool = True,
 ) -> Path:  # fmt: skip
-    """Walk a gait quasi-statically, where friction bends nothing.
+    """Walk a gait quasi-statically.
 
     Args:
         robot: its limbs.
@@ -160,6 +120,8 @@ def walk(
         elements: hinges of each limb, even.
         cycles: how many.
         law: of friction, a name of analytic.friction.LAWS.
+        bent: whether friction bends the robot; else it only decides who slides, as in the limit of
+            weak friction.
 
     Raises:
         ValueError: the gait is not for so many limbs.
@@ -170,5 +132,7 @@ def walk(
         )
     fractions, times = gait.path(states, cycles)
     pressures = robot.peak_pressure * fractions
+    if bent:
+        return drag_along(Statics(Tree(robot, elements)), pressures, ground, law, times)
     tree, rests = shapes(robot, pressures, elements)
     return follow(tree, rests, pressures, ground, law, times)

@@ -8,9 +8,9 @@ from analytic.gait import Gait
 from analytic.ground import depends_on_speed, surfaces_of
 from analytic.robot import GRAVITY
 from analytic.surface import SURFACES, Ground
+from analytic.tree.contacts import check_ground
 from analytic.tree.gaits import undulation
 from analytic.tree.limbs import TreeRobot, quadruped
-from analytic.tree.walk import check_ground
 from mjsim.scene.numerics import LONGEST_STEP
 
 FEWEST_STEPS = 4  # of a ramp; with fewer the gait is not seen; chosen

@@ -46,6 +46,7 @@ class TreeSimulation:
     def __init__(self, scene: TreeScene, numerics: TreeNumerics | None = None) -> None:
         self.scene, self.numerics = scene, numerics or TreeNumerics()
         from pathlib import Path
+
         bare = Path(__file__).parent.parent / "ground" / "bare.xml"
         spec = tree_spec(scene, self.numerics, mujoco.MjSpec.from_file(str(bare)))
         self.model = spec.compile()
@@ -61,12 +62,17 @@ class TreeSimulation:
         steps = round(scene.cycles * scene.gait.period / dt)
         times = dt * np.arange(first + 1, steps + 1)
         pressures = scene.robot.peak_pressure * scene.gait.fractions(times)
-        parts = [joint_springs(limb.strip, numerics.elements, pressures[:, [i]])
-                 for i, limb in enumerate(scene.robot.limbs)]
+        parts = [
+            joint_springs(limb.strip, numerics.elements, pressures[:, [i]])
+            for i, limb in enumerate(scene.robot.limbs)
+        ]
         stiffness = np.concatenate([p[0] for p in parts], axis=1)
         rest = np.concatenate([p[1] for p in parts], axis=1)
-        names = [f"{PREFIX}{l}_hinge_{i}" for l in scene.robot.names
-                 for i in range(1, numerics.elements + 1)]
+        names = [
+            f"{PREFIX}{l}_hinge_{i}"
+            for l in scene.robot.names
+            for i in range(1, numerics.elements + 1)
+        ]
         joints = np.array([model.joint(n).id for n in names])
         qpos = np.array([model.joint(n).qposadr[0] for n in names])
         coordinates = np.empty((len(times), len(ROOT) + len(names)))
@@ -74,7 +80,9 @@ class TreeSimulation:
         # mirrored rest angles etc.
         started = clock.perf_counter()
         for step in range(len(times)):
-            model.jnt_stiffness[joints] = stiffness[step][:, None] if model.jnt_stiffness.ndim > 1 else stiffness[step]
+            model.jnt_stiffness[joints] = (
+                stiffness[step][:, None] if model.jnt_stiffness.ndim > 1 else stiffness[step]
+            )
             model.qpos_spring[qpos] = rest[step]
             grips.before_step(pressures[step])
             mujoco.mj_step(model, data)

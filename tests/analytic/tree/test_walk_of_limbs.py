@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from analytic.gait import GAITS
+from analytic.friction import Friction
+from analytic.gait import GAITS, Gait
 from analytic.prediction import Elastica, predict
 from analytic.robot import Robot
 from analytic.surface import SURFACES
@@ -31,6 +32,31 @@ def test_the_strip_as_a_tree_goes_as_far_as_the_strip(name):
         assert path.displacement[0] == pytest.approx(exact, abs=2e-5 * robot.length)
         assert path.displacement[1] == pytest.approx(0, abs=1e-12)
         assert path.turn == pytest.approx(0, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "states", "elements", "within"),
+    [("felt", 16, 4, 0.01), pytest.param("gelatin", 20, 6, 0.005, marks=pytest.mark.slow)],
+)
+def test_the_strip_as_a_tree_is_bent_by_friction_as_the_strip_is(name, states, elements, within):
+    robot, gait, surface = Robot(), GAITS["wave"], SURFACES[name]
+    stages = tuple(map(tuple, np.array(gait.stages)[:, [1, 0, 2]].tolist()))
+    path = walk(as_strip(robot), Gait("wave", stages), surface, states, elements)
+    exact = predict(robot, gait, surface, Elastica(18), 160, 1, friction=Friction(tension=1.0))
+    assert path.converged
+    assert path.displacement[0] == pytest.approx(exact.locomotion.per_cycle, rel=within)
+
+
+@pytest.mark.slow
+def test_the_weaker_friction_is_the_less_it_bends():
+    gait, gelatin = undulation("wave"), SURFACES["gelatin"]
+    limit = walk(QUADRUPED, gait, gelatin, 96, 4, bent=False).displacement[0]
+    weak, full = (
+        abs(walk(QUADRUPED, gait, gelatin.scaled(part), 12, 4).displacement[0] - limit)
+        for part in (0.03, 1.0)
+    )
+    assert full > 0.05 * abs(limit)
+    assert weak < 0.25 * full
 
 
 @pytest.fixture(scope="module")
@@ -66,7 +92,7 @@ def test_the_same_states_in_opposite_order_lead_back(undulating):
 
 def test_one_side_pressed_less_turns_it_and_the_other_side_the_other_way():
     paths = [
-        walk(QUADRUPED, undulation("wave", left, right), SURFACES["felt"], 8, 2)
+        walk(QUADRUPED, undulation("wave", left, right), SURFACES["felt"], 8, 2, bent=False)
         for left, right in ((0.5, 1.0), (1.0, 0.5))
     ]
     one, two = paths

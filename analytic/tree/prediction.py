@@ -1,0 +1,51 @@
+"""How far a robot of limbs goes and turns, and how sure that is."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.gait import Gait
+from analytic.surface import Ground
+from analytic.tree.limbs import TreeRobot
+from analytic.tree.path import Path
+from analytic.tree.walk import walk
+
+Array = NDArray[np.float64]
+
+
+class TreePrediction(NamedTuple):
+    """A walk by the quasi-static reference.
+
+    Attributes:
+        displacement: of the trunk's beginning in all, along x and y, (2,) [m].
+        turn: of the trunk to the left [rad].
+        displacement_error, turn_error: what half as many increments change [m, rad].
+        path: the walk itself.
+    """
+
+    displacement: Array
+    turn: float
+    displacement_error: float
+    turn_error: float
+    path: Path
+
+
+def predict(
+    robot: TreeRobot, gait: Gait, ground: Ground, states: int = 20, elements: int = 6,
+    cycles: int = 1, law: str = "constant",
+) -> TreePrediction:  # fmt: skip
+    """A walk on ground that bends the robot, beside one by half as many increments.
+
+    Args:
+        states: of a change by the peak pressure.
+        robot, gait, ground, elements, cycles, law: see analytic.tree.walk.walk.
+
+    Raises:
+        ValueError: see analytic.tree.walk.walk.
+    """
+    coarse, fine = (
+        walk(robot, gait, ground, count, elements, cycles, law) for count in (states // 2, states)
+    )
+    change = float(np.hypot(*(fine.displacement - coarse.displacement)))
+    return TreePrediction(fine.displacement, fine.turn, change, abs(fine.turn - coarse.turn), fine)
