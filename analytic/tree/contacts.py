@@ -19,6 +19,7 @@ from analytic.ground import surfaces_of
 from analytic.robot import Robot
 from analytic.surface import Ground, Surface
 from analytic.tree.kinematics import Tree
+from analytic.tree.limbs import TreeRobot
 from analytic.tree.statics import Rest
 
 Array = NDArray[np.float64]
@@ -46,7 +47,7 @@ class Contact(NamedTuple):
 
 
 class Contacts:
-    """Finds the contacts of a tree.
+    """Finds the contacts of a tree; in plain floats, since numpy is slow on a few numbers.
 
     Args:
         tree: its links.
@@ -63,45 +64,77 @@ class Contacts:
             key = (limb.on, limb.at)
             at_place[key] = at_place.get(key, 0.0) + limb.strip.width
         self._share = [limb.strip.width / at_place[limb.on, limb.at] for limb in robot.limbs]
-        self._leaves = {limb.name for limb in robot.limbs} - {limb.on for limb in robot.limbs}
+        self._carrier = [-1 if limb.on is None else robot.place(limb.on) for limb in robot.limbs]
+        self._free = [_free_ends(robot, i) for i in range(len(robot.limbs))]
+        self._at = [tree.arclength[self._slice(i)].tolist() for i in range(len(robot.limbs))]
+        self._least = _TOUCHES * robot.weight
+        self._near = [_NEAR * limb.strip.length / tree.elements for limb in robot.limbs]
 
     def find(self, rest: Rest, pressures: Array) -> list[Contact]:
         """The contacts of a state at pressures of its limbs, (L,) [Pa]."""
-        robot, found = self._tree.robot, []
+        robot, half = self._tree.robot, len(rest.force) // 2
+        # both edges together; a limb that leans lies on one of its edges
+        forces = (rest.force[:half] + rest.force[half:]).tolist()
+        heights = np.minimum(rest.nodes[:half, 2], rest.nodes[half:, 2]).tolist()
+        may = may_lie_flat(pressures, robot.peak_pressure).tolist()
+        here = [self._slice(i) for i in range(len(robot.limbs))]
+        state = _State([forces[own] for own in here], [heights[own] for own in here], may)
+        found: list[Contact] = []
         passed: dict[tuple[int, str], float] = {}  # what flat limbs pass on to ends of carriers
         reached: set[tuple[int, str]] = set()  # ends of carriers where a limb is flat, or nearly
-        order = range(len(robot.limbs) - 1, -1, -1)  # those that are carried come first
-        least = _TOUCHES * robot.weight
-        for i in order:
-            limb = robot.limbs[i]
-            force, height = self._of_limb(rest, i)
-            ends = [(end, passed[i, end]) for end in ("begin", "end") if (i, end) in passed]
-            if limb.name in self._leaves:
-                ends = [("end", 0.0)]
-            flat_may = bool(may_lie_flat(pressures[i], robot.peak_pressure))
-            touched = force > least
-            for end, more in ends:
-                joint, on_ground = self._beyond(rest, i) if end == "end" else (0.0, False)
-                contact, rest_of = self._at_end(
-                    i, end, (more, joint, on_ground), force, height, flat_may, least
-                )
-                if contact is None:
-                    continue
-                found.append(contact)
-                touched &= ~self._within(i, end, contact.length)
-                if limb.on is None:
-                    continue
-                key = (robot.place(limb.on), limb.at)
-                if contact.length >= limb.strip.length * (1 - _NEAR / self._tree.elements):
-                    reached.add(key)
-                if contact.length >= limb.strip.length * (1 - _WHOLE):
-                    passed[key] = passed.get(key, 0.0) + rest_of
-            # a joint belongs to the limb that is flat there, and else to the carrier
-            for end in ("begin", "end"):
-                if (i, end) in reached or (end == "begin" and limb.on is not None):
-                    touched &= ~self._within(i, end, 0.0)
-            if touched.any() and not (limb.name in self._leaves and found and found[-1].limb == i):
-                found += self._between(i, force * touched)
+        for i in range(len(robot.limbs) - 1, -1, -1):  # those that are carried come first
+            own = self._of_limb(state, i, passed, reached)
+            found += own
+        return found
+
+    def _of_limb(
+        self,
+        state: "_State",
+        i: int,
+        passed: dict[tuple[int, str], float],
+        reached: set[tuple[int, str]],
+    ) -> list[Contact]:
+        """Contacts of one limb; notes what it leaves to its carrier."""
+        limb, force, at = self._tree.robot.limbs[i], state.force[i], self._at[i]
+        length, near, carrier = limb.strip.length, self._near[i], self._carrier[i]
+        found: list[Contact] = []
+        low, high = -1.0, length + 1.0  # what no end's contact explains
+        at_tip = False
+        for end in ("begin", "end"):
+            free = end in self._free[i]
+            if not free and (i, end) not in passed:
+                continue
+            contact, left = self._at_end(state, i, end, passed.get((i, end), 0.0))
+            if contact is None:
+                continue
+            if found and contact.length > length - found[0].length:
+                continue  # it lies flat as a whole, once
+            found.append(contact)
+            at_tip |= free
+            if end == "begin":
+                low = contact.length + near
+            else:
+                high = length - contact.length - near
+                if carrier >= 0:
+                    key = (carrier, limb.at)
+                    if contact.length >= length - near:
+                        reached.add(key)
+                    if contact.length >= length * (1 - _WHOLE):
+                        passed[key] = passed.get(key, 0.0) + left
+        # a joint belongs to the limb that is flat there, and else to the carrier
+        if (i, "begin") in reached or carrier >= 0:
+            low = max(low, near)
+        if (i, "end") in reached:
+            high = min(high, length - near)
+        if at_tip and carrier >= 0:
+            return found
+        load = moment = 0.0
+        for push, place in zip(force, at, strict=True):
+            if push > self._least and low < place < high:
+                load += push
+                moment += push * place
+        if load:  # by a point, where it pushes
+            found.append(Contact(i, 0.0, (moment / load,), load))
         return found
 
     def places(self, rest: Rest, contacts: list[Contact]) -> Array:
@@ -128,88 +161,71 @@ class Contacts:
     def _slice(self, limb: int) -> slice:
         return slice(limb * self._per_limb, (limb + 1) * self._per_limb)
 
-    def _of_limb(self, rest: Rest, limb: int) -> tuple[Array, Array]:
-        """Force on each vertex, both edges together, and height of the lower edge.
-
-        A leg that leans lies on one of its edges.
-        """
-        here, half = self._slice(limb), len(rest.force) // 2
-        force = rest.force[:half][here] + rest.force[half:][here]
-        height = np.minimum(rest.nodes[:half][here, 2], rest.nodes[half:][here, 2])
-        return force, height
-
-    def _beyond(self, rest: Rest, limb: int) -> tuple[float, bool]:
+    def _beyond(self, state: "_State", limb: int) -> tuple[float, bool]:
         """Of the carrier where a limb begins: the push there, and whether it is flat on from there.
 
         The two share a joint, and which of them the ground pushes there is open.
         """
-        own = self._tree.robot.limbs[limb]
-        if own.on is None:
+        carrier = self._carrier[limb]
+        if carrier < 0:
             return 0.0, False
-        carrier = self._tree.robot.place(own.on)
-        force, height = self._of_limb(rest, carrier)
-        if own.at == "end":
-            force, height = force[::-1], height[::-1]
-        return self._share[limb] * float(force[0]), bool(height[:3].max() <= self._up[carrier])
-
-    def _within(self, limb: int, end: str, length: float) -> NDArray[np.bool_]:
-        strip = self._tree.robot.limbs[limb].strip
-        at = self._tree.arclength[self._slice(limb)]
-        away = at if end == "begin" else strip.length - at
-        spacing = strip.length / self._tree.elements
-        return np.asarray(away <= length + _NEAR * spacing)
+        force, height = state.force[carrier], state.height[carrier]
+        at_end = self._tree.robot.limbs[limb].at == "end"
+        push, near = (force[-1], height[-3:]) if at_end else (force[0], height[:3])
+        return self._share[limb] * push, max(near) <= self._up[carrier]
 
     def _at_end(
-        self,
-        i: int,
-        end: str,
-        more: tuple[float, float, bool],
-        force: Array,
-        height: Array,
-        may: bool,
-        least: float,
+        self, state: "_State", i: int, end: str, passed: float
     ) -> tuple[Contact | None, float]:
         """The contact that begins at an end of a limb, and what it does not carry itself [N].
 
         Args:
+            state: of all limbs.
             i, end: the limb and which end.
-            more: what is passed on to it there; what its carrier is pushed by at the other end, and
-                whether that is flat on from there.
-            force, height: of its vertices.
-            may: whether it may lie flat, by its pressure.
-            least: force that counts.
+            passed: force that limbs which begin there do not carry [N].
         """
-        strip = self._tree.robot.limbs[i].strip
-        at = self._tree.arclength[self._slice(i)]
-        away = at if end == "begin" else strip.length - at
-        order = np.argsort(away)
-        up = np.cumsum(height[order] > self._up[i]) > 0
-        run = order[~up]
-        passed, joint, on_ground = more
-        total, moment = float(force[run].sum()) + passed, float(force[run] @ away[run])
-        if total <= least:
+        strip, at, up = self._tree.robot.limbs[i].strip, self._at[i], self._up[i]
+        force, height, length = state.force[i], state.height[i], strip.length
+        count = len(at)
+        total, moment, run = passed, 0.0, 0
+        for k in range(count) if end == "begin" else range(count - 1, -1, -1):
+            if height[k] > up:
+                break
+            total += force[k]
+            moment += force[k] * (at[k] if end == "begin" else length - at[k])
+            run += 1
+        if total <= self._least:
             return None, 0.0
-        if not may:
-            if end == "end" and self._tree.robot.limbs[i].name in self._leaves:
-                return Contact(i, 0.0, (float(at[-1]),), total), 0.0
-            return None, 0.0
+        tip = at[0 if end == "begin" else -1]
+        if not state.may[i]:
+            return (Contact(i, 0.0, (tip,), total) if end in self._free[i] else None), 0.0
+        whole = False
+        if run == count and end == "end":
+            joint, whole = self._beyond(state, i)
+            if not whole:
+                total, moment = total + joint, moment + joint * length
         weight = strip.weight_per_length
-        whole = len(run) == len(at) and on_ground
-        if len(run) == len(at) and not on_ground:
-            total, moment = total + joint, moment + joint * strip.length
-        length = strip.length if whole else float(flat_length(weight, total, moment))
-        length = min(length, strip.length)
-        if length <= 0:
-            return Contact(i, 0.0, (float(at[0 if end == "begin" else -1]),), total), 0.0
-        points = tuple(
-            float(length * p if end == "begin" else strip.length - length * p) for p in _POINTS
-        )
-        return Contact(i, length, points, total), total - weight * length
+        side = length if whole else min(float(flat_length(weight, total, moment)), length)
+        if side <= 0:
+            return Contact(i, 0.0, (tip,), total), 0.0
+        points = tuple(side * p if end == "begin" else length - side * p for p in _POINTS)
+        return Contact(i, side, points, total), total - weight * side
 
-    def _between(self, i: int, force: Array) -> list[Contact]:
-        """A limb that touches with no end of its own: by a point, where it pushes."""
-        at, load = self._tree.arclength[self._slice(i)], float(force.sum())
-        return [Contact(i, 0.0, (float(force @ at / load),), load)]
+
+class _State(NamedTuple):
+    """Forces and heights of each limb's vertices, and whether it may lie flat."""
+
+    force: list[list[float]]
+    height: list[list[float]]
+    may: list[bool]
+
+
+def _free_ends(robot: TreeRobot, limb: int) -> tuple[str, ...]:
+    """Ends of a limb that nothing is fast to."""
+    own = robot.limbs[limb]
+    taken = {other.at for other in robot.limbs if other.on == own.name}
+    ends = ("begin", "end") if own.on is None else ("end",)
+    return tuple(end for end in ends if end not in taken)
 
 
 def _ripple(strip: Robot, elements: int) -> float:

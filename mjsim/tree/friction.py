@@ -9,13 +9,14 @@ the bounds leave open is left to viscosity at all places alike, as in analytic.p
 beside them.
 """
 
-from dataclasses import dataclass
+import math
+from bisect import bisect_right
+from collections.abc import Iterator
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.ground import surfaces_of
 from analytic.tree.contacts import Contact, Contacts
 from analytic.tree.kinematics import Tree
 from analytic.tree.statics import Rest
@@ -26,55 +27,65 @@ from mjsim.tree.scene import TreeNumerics, TreeScene
 Array = NDArray[np.float64]
 
 _ACROSS = 0.5  # of the bound: turns the direction by so much in a step; chosen
-_FRICTION = int(mujoco.mjtConstraint.mjCNSTR_FRICTION_TENDON)
+_AHEAD = (1.0, 0.0)
+_STANDS = 1e-9  # m/s; N: no place is held by less
+_POINT = 1e-8  # m^2; places that are closer do not tell a turn
 
 
 class Rows:
-    """Rows of dry friction that hold one place.
+    """Two rows of dry friction that hold one place.
 
     Attributes:
-        bounds, drags: of the two rows, (2,), views of the model.
-        coefficients: of the joints that move the place, (2, J), a view of the model.
-        dofs: of these joints, (J,).
-        way: direction of the first row, (2,).
         ids: of the tendons.
+        way: direction of the first row, (2,).
+        body, own: that the place is fast to, and where in its frame along x [m].
+        jacobian: of its motion, (3, nv); the coefficients of its motion in plan, (2, J).
+        place: in plan, (2,) [m].
+        bound: of its friction [N].
     """
 
     def __init__(self, model: mujoco.MjModel, name: str, joints: int) -> None:
-        count, first = 2, model.tendon(f"{name}_0").id
-        here = slice(first, first + count)
-        self.ids = range(first, first + count)
-        self.bounds, self.drags = model.tendon_frictionloss[here], model.tendon_damping[here]
+        first = model.tendon(f"{name}_0").id
+        self.ids = (first, first + 1)
+        self._bounds = model.tendon_frictionloss[first : first + 2]
+        self._drags = model.tendon_damping[first : first + 2]
         begin = model.tendon_adr[first]
-        self.coefficients = model.wrap_prm[begin : begin + count * joints].reshape(count, joints)
-        self.dofs = model.jnt_dofadr[model.wrap_objid[begin : begin + joints]]
-        self.way = np.array([1.0, 0.0])
+        self._coefficients = model.wrap_prm[begin : begin + 2 * joints].reshape(2, joints)
+        self._dofs = model.jnt_dofadr[model.wrap_objid[begin : begin + joints]]
+        self.way, self.bound, self.body, self.own = (1.0, 0.0), 0.0, 0, 0.0
+        self.place = self.velocity = (0.0, 0.0)
+        self.jacobian = np.zeros((3, model.nv))
         self.release()
 
     def release(self) -> None:
         """Hold nothing."""
-        self.bounds[:] = 0.0
-        self.drags[:] = 0.0
+        self._bounds[:] = 0.0
+        self._drags[:] = 0.0
 
+    def look(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        """Find its Jacobian and its velocity, where it is now."""
+        place = data.xpos[self.body] + self.own * data.xmat[self.body, ::3]
+        mujoco.mj_jac(model, data, self.jacobian, None, place, self.body)
+        self.place = (place.item(0), place.item(1))
+        velocity = self.jacobian @ data.qvel
+        self.velocity = (velocity.item(0), velocity.item(1))
 
-@dataclass
-class Held:
-    """A place that the ground holds in the coming step.
+    def hold(self, bound: float, drag: float) -> None:
+        """Resist by so much [N, N s/m] in the next step."""
+        self.bound, (c, s) = bound, self.way
+        across, along = self.jacobian[:2].take(self._dofs, axis=1)[::-1]
+        self._coefficients[0] = c * along + s * across
+        self._coefficients[1] = c * across - s * along
+        self._bounds[:] = bound, _ACROSS * bound
+        self._drags[:] = drag
 
-    Attributes:
-        rows: that hold it.
-        jacobian: of its motion in plan, (2, nv).
-        place: in plan, (2,) [m].
-        body, own: that it is fast to, and where in its frame, (3,) [m].
-        bound: of its friction [N].
-    """
-
-    rows: Rows
-    jacobian: Array
-    place: Array
-    body: int
-    own: Array
-    bound: float
+    def excess(self, data: mujoco.MjData, dt: float) -> tuple[float, float, float, float, float]:
+        """How far the last step moved it beyond dt times its velocity; its place and its speed."""
+        place = data.xpos[self.body] + self.own * data.xmat[self.body, ::3]
+        u, v, _ = (self.jacobian @ data.qvel).tolist()
+        x, y = place.item(0), place.item(1)
+        gone = x - self.place[0] - dt * u, y - self.place[1] - dt * v
+        return *gone, x, y, math.hypot(u, v)
 
 
 class Grips:
@@ -96,13 +107,11 @@ class Grips:
         data: mujoco.MjData,
     ) -> None:
         self._model, self._data, self._numerics = model, data, numerics
-        self._ground = scene.ground
-        self._wet = any(surface.viscosity for surface in surfaces_of(scene.ground))
-        self._tree = Tree(scene.robot, numerics.elements)
+        self._ground, robot = scene.ground, scene.robot
+        self._tree = Tree(robot, numerics.elements)
         self._finder = Contacts(self._tree, scene.friction)
         self.contacts: list[Contact] = []
-        self._held: list[Held] = []
-        robot = scene.robot
+        self._held: list[Rows] = []
         self._rows = [
             [
                 Rows(model, f"{PREFIX}{name}_hold_{place}",
@@ -119,10 +128,12 @@ class Grips:
             [model.body(limb_body(name, i)).id for i in range(numerics.elements + 1)]
             for name in robot.names
         ]
+        self._starts = [starts.tolist() for starts in self._tree.starts]
         self._pads, self._node_of_geom = _pads_of(model, robot.names, numerics.elements + 2)
         mass = robot.weight / scene.gravity
         self._viscosity = mass / numerics.tie_time  # of all places together [N s/m]
-        self._jacobian = np.zeros((3, model.nv))
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
 
     def before_step(self, pressures: Array) -> None:
         """Read the contacts, and set what resists in the next step.
@@ -132,82 +143,65 @@ class Grips:
         Args:
             pressures: of the limbs, (L,) [Pa].
         """
-        model, data = self._model, self._data
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
+        model, data, held = self._model, self._data, []
         self.contacts = self._finder.find(self._rest(), pressures)
-        pulled = self._pulls()
-        for held in self._held:
-            held.rows.release()
-        self._held = [self._hold(*where) for where in self._places()]
-        speeds = [held.jacobian @ data.qvel for held in self._held]
-        self._turn(speeds, pulled)
-        share = self._viscosity / max(len(self._held), 1)
-        data.qfrc_applied[:] = 0.0
-        for held, speed in zip(self._held, speeds, strict=True):
-            rows = held.rows
-            c, s = rows.way
-            rows.coefficients[:] = np.array([[c, s], [-s, c]]) @ held.jacobian[:, rows.dofs]
-            rows.bounds[:] = held.bound, _ACROSS * held.bound
-            data.qfrc_applied -= share * (speed @ held.jacobian)
+        self._turn()
+        for rows in self._held:
+            rows.release()
+        share = self._viscosity / max(sum(len(contact.at) for contact in self.contacts), 1)
+        applied = np.zeros(model.nv)
+        for contact, at, rows in self._places():
+            starts = self._starts[contact.limb]
+            link = min(bisect_right(starts, at), len(starts)) - 1
+            rows.body, rows.own = self._links[contact.limb][link], at - starts[link]
+            rows.look(model, data)
+            if rows not in self._held:
+                pace = math.hypot(*rows.velocity)
+                rows.way = (rows.velocity[0] / pace, rows.velocity[1] / pace) if pace else _AHEAD
+            rows.hold(*self._finder.resistance(contact, self._ground.at(rows.place[0])))
+            u, v = rows.velocity
+            applied -= (share * u) * rows.jacobian[0] + (share * v) * rows.jacobian[1]
+            held.append(rows)
+        data.qfrc_applied[:] = applied
+        self._held = held
 
     def _rest(self) -> Rest:
         data = self._data
-        force = np.zeros(len(self._pads))
         contact = data.contact
         row = contact.efc_address
         acts = row >= 0
-        np.add.at(force, self._node_of_geom[contact.geom2[acts]], data.efc_force[row[acts]])
-        nodes = data.geom_xpos[self._pads] - (0.0, 0.0, self._numerics.pad_radius)
+        force = np.bincount(
+            self._node_of_geom[contact.geom2[acts]], data.efc_force[row[acts]], len(self._pads)
+        )
+        nodes = data.geom_xpos[self._pads]
+        nodes[:, 2] -= self._numerics.pad_radius
         return Rest(data.qpos, nodes, force, True)
 
-    def _pulls(self) -> dict[Rows, Array]:
-        """Forces of friction in the step before [N]."""
-        data = self._data
-        mine = data.efc_type == _FRICTION
-        pulled: dict[Rows, Array] = {}
-        for tendon, force in zip(data.efc_id[mine].tolist(), data.efc_force[mine].tolist(),
+    def _turn(self) -> None:
+        """Lay the first row of each place where friction pulled in the step before."""
+        data, count = self._data, self._data.nf
+        pulled: dict[Rows, list[float]] = {}
+        for tendon, force in zip(data.efc_id[:count].tolist(), data.efc_force[:count].tolist(),
                                  strict=True):  # fmt: skip
             rows, row = self._by_tendon[tendon]
-            c, s = rows.way
-            along = np.array([-s, c]) if row else rows.way
-            pulled[rows] = pulled.get(rows, 0.0) + force * along
-        return pulled
+            pulled.setdefault(rows, [0.0, 0.0])[row] = force
+        for rows, (along, across) in pulled.items():
+            size, (c, s) = math.hypot(along, across), rows.way
+            if size > 0:
+                rows.way = (c * along - s * across) / size, (s * along + c * across) / size
 
-    def _places(self) -> list[tuple[Contact, float, Rows]]:
+    def _places(self) -> Iterator[tuple[Contact, float, Rows]]:
         """Contacts, the arclength of each of their places, and the rows that hold it."""
-        found = []
         for contact in self.contacts:
-            rows = self._rows[contact.limb]
+            rows, at = self._rows[contact.limb], contact.at
             length = self._tree.robot.limbs[contact.limb].strip.length
             first = 0
             if len(rows) > 2:  # it carries others: its beginning, its end, or between
-                first = 2 if sum(contact.at) > length * len(contact.at) / 2 else 0
-                if len(contact.at) == 1 and contact.at[0] not in (0.0, length):
+                first = 2 if sum(at) > 0.5 * length * len(at) else 0
+                if len(at) == 1 and at[0] not in (0.0, length):
                     first = 4
-            for number, at in enumerate(contact.at):
-                found.append((contact, at, rows[first + number]))
-        return found
-
-    def _hold(self, contact: Contact, at: float, rows: Rows) -> Held:
-        data, starts = self._data, self._tree.starts[contact.limb]
-        link = min(int(np.searchsorted(starts, at, side="right")) - 1, self._numerics.elements)
-        body = self._links[contact.limb][link]
-        own = np.array([at - starts[link], 0.0, 0.0])
-        place = data.xpos[body] + data.xmat[body].reshape(3, 3) @ own
-        mujoco.mj_jac(self._model, data, self._jacobian, None, place, body)
-        bound, drag = self._finder.resistance(contact, self._ground.at(float(place[0])))
-        if self._wet:
-            rows.drags[:] = drag
-        return Held(rows, self._jacobian[:2].copy(), place[:2], body, own, bound)
-
-    def _turn(self, speeds: list[Array], pulled: dict[Rows, Array]) -> None:
-        """Lay the first row of each place where friction pulls."""
-        for held, speed in zip(self._held, speeds, strict=True):
-            way = pulled.get(held.rows, speed)
-            size = float(np.hypot(*way))
-            if size > 0:
-                held.rows.way = way / size
+            for number, place in enumerate(at):
+                yield contact, place, rows[first + number]
 
     def after_step(self) -> None:
         """Take off what the step moved that friction holds, by the order of the integrator alone.
@@ -216,31 +210,31 @@ class Grips:
         friction stopped them at its end. What is held moved beyond that by the square of the step:
         of it the motion of the whole that explains most is taken off.
         """
-        if not self._held:
-            return
         model, data, dt = self._model, self._data, self._numerics.timestep
         mujoco.mj_kinematics(model, data)
-        gone, weights, places, slips = [], [], [], []
-        for held in self._held:
-            place = data.xpos[held.body] + data.xmat[held.body].reshape(3, 3) @ held.own
-            velocity = held.jacobian @ data.qvel
-            gone.append(place[:2] - held.place - dt * velocity)
-            slips.append(float(np.hypot(*velocity)))
-            weights.append(held.bound + 1e-9)
-            places.append(place[:2])
-        slow = min(slips)
-        w = np.array(weights) * (np.array(slips) <= 3 * slow + 1e-9)
-        arms = np.array(places) - data.qpos[:2]
-        lever = np.zeros((len(w), 2, 3))
-        lever[:, 0, 0] = lever[:, 1, 1] = 1.0
-        lever[:, 0, 2], lever[:, 1, 2] = -arms[:, 1], arms[:, 0]
-        root = np.sqrt(w)[:, None, None]
-        found = np.linalg.lstsq(
-            (root * lever).reshape(-1, 3), (root[..., 0] * np.array(gone)).ravel(), rcond=1e-6
-        )[0]
-        data.qpos[0] -= found[0]
-        data.qpos[1] -= found[1]
-        data.qpos[3] -= found[2]
+        mujoco.mj_comPos(model, data)
+        if not self._held:
+            return
+        moved = [rows.excess(data, dt) for rows in self._held]
+        slow = 3 * min(speed for *_, speed in moved) + _STANDS
+        x0, y0 = data.qpos.item(0), data.qpos.item(1)
+        w = wx = wy = wr = wu = wv = wt = 0.0
+        for rows, (u, v, x, y, speed) in zip(self._held, moved, strict=True):
+            if speed <= slow:
+                weight, x, y = rows.bound + _STANDS, x - x0, y - y0
+                w, wx, wy, wr = (
+                    w + weight,
+                    wx + weight * x,
+                    wy + weight * y,
+                    wr + weight * (x * x + y * y),
+                )
+                wu, wv, wt = wu + weight * u, wv + weight * v, wt + weight * (x * v - y * u)
+        spread = wr - (wx * wx + wy * wy) / w
+        turn = (wt - (wx * wv - wy * wu) / w) / spread if spread > _POINT * w else 0.0
+        shift = (wu + turn * wy) / w, (wv - turn * wx) / w
+        data.qpos[0] -= shift[0]
+        data.qpos[1] -= shift[1]
+        data.qpos[3] -= turn
 
 
 def _pads_of(
