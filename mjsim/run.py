@@ -17,6 +17,7 @@ from mjsim.scene import Numerics, Scene
 from mjsim.scene.auto import check_tolerance
 from mjsim.scene.options import SceneOptions, tables_of
 from mjsim.scene.tables import Tables, build
+from mjsim.tree.tables import build_tree, of_limbs
 
 if TYPE_CHECKING:
     from mjsim.simulation.trajectory import Trajectory
@@ -76,7 +77,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv)
     try:
-        tables, tolerance = _bodies(tables_of(options), options.tolerance)
+        tables = tables_of(options)
+        if of_limbs(tables[0]):
+            return _walk_limbs(tables, options)
+        tables, tolerance = _bodies(tables, options.tolerance)
         cases = [build(table) for table in tables]
         check_folder(options.out)
         records, walks = _walk(cases, options, tolerance)
@@ -98,6 +102,19 @@ def main(argv: Sequence[str] | None = None) -> int:
             print(joint)
     fine = all(row["status"] in ("ok", "slid") for row in records)
     return 0 if fine else FAILED
+
+
+def _walk_limbs(tables: list[Tables], options: Options) -> int:
+    if options.tolerance is not None:
+        raise ValueError(f"tolerance is for strips, got {options.tolerance!r}")
+    cases = [build_tree(table) for table in tables]
+    check_folder(options.out)
+    from mjsim.video import gl
+
+    gl.prepare()
+    from mjsim.tree.command import run
+
+    return run(PROGRAM, cases, options.out, options.json, not options.no_video)
 
 
 def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables], float | None]:

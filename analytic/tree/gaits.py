@@ -40,3 +40,6 @@ def undulation(gait: Gait | str = "wave", left: float = 1.0, right: float = 1.0)
     stages = tuple(map(tuple, np.stack(columns, axis=1).tolist()))
     name = own.name if left == right == 1 else f"{own.name}-{left:g}-{right:g}"
     return replace(own, name=name, stages=stages)
+
+
+QUADRUPED_GAITS: dict[str, Gait] = {}  # of ORDER, by their names

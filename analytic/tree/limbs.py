@@ -90,6 +90,19 @@ class TreeRobot:
         return sum(limb.strip.weight for limb in self.limbs)
 
 
+def outline(robot: TreeRobot) -> tuple[float, float]:
+    """Length and width of a robot that lies flat, between the ends of middle lines [m]."""
+    ends: dict[tuple[str | None, str], Array] = {(None, "end"): np.zeros(2)}
+    for limb in robot.limbs:
+        heading = 0.0 if limb.on is None else robot.limbs[robot.place(limb.on)].angle
+        aside = limb.offset * np.array([-np.sin(heading), np.cos(heading)])
+        begin = ends[limb.on, limb.at] + aside
+        along = limb.strip.length * np.array([np.cos(limb.angle), np.sin(limb.angle)])
+        ends[limb.name, "begin"], ends[limb.name, "end"] = begin, begin + along
+    x, y = np.ptp(list(ends.values()), axis=0)
+    return float(x), float(y)
+
+
 # the public finite-element mesh of this robot, SofaDefrost/ModelOrderReduction, multiGait
 LENGTH, LEG_ANGLE, MASS = 0.1357, np.deg2rad(20.0), 0.035  # m, rad, kg
 TORSO_WIDTH, LEG_WIDTH = 0.0323, 0.0135  # m

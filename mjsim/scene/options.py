@@ -6,6 +6,7 @@ from typing import Annotated, Any, get_type_hints
 
 import tyro
 
+from analytic.checks import one_of
 from analytic.robot import Robot
 from analytic.surface import SURFACES, Surface
 from mjsim.io.cli import ALL
@@ -67,6 +68,19 @@ _NumericsOptions = optional(
 _ValveOptions = optional(
     "ValveOptions", Valves, [item.name for item in fields(Valves)], {"fill_time": "--lag"}
 )
+ROBOTS = ("strip", "quadruped")
+_LimbOptions = optional(
+    "LimbOptions",
+    Scene,
+    [],
+    more=[
+        ("left", option(float, "part of the pressure that the left legs get", 1.0),
+         field(default=None)),
+        ("right", option(float, "part of the pressure that the right legs get", 1.0),
+         field(default=None)),
+        ("elements", option(int, "hinges of each limb", 6), field(default=None)),
+    ],
+)  # fmt: skip
 _bare = tyro.conf.arg(help_behavior_hint="")
 
 
@@ -85,6 +99,12 @@ class SceneOptions:
     heads"""
     reverse: bool = False
     """run the gait's stages backwards"""
+    robot: Annotated[str | None, _bare] = None
+    """strip, or quadruped: a torso and four legs in space, by mjsim.run and mjsim.export"""
+    limbs_: Annotated[_LimbOptions, tyro.conf.arg(name="limbs")] = field(
+        default_factory=_LimbOptions
+    )
+    """of the quadruped"""
     robot_: Annotated[_RobotOptions, tyro.conf.arg(name="robot")] = field(
         default_factory=_RobotOptions
     )
@@ -129,10 +149,19 @@ def tables_of(options: SceneOptions) -> list[Tables]:
     if options.reverse:
         gait["reverse"] = True
     layers = [read_tables(options.scene)] if options.scene else []
+    numerics = given(options.numerics_)
+    sides = given(options.limbs_)
+    if "elements" in sides:
+        numerics["elements"] = sides.pop("elements")
+    gait.update(sides)
+    if options.robot is not None:
+        one_of("robot", options.robot, ROBOTS)
+        if options.robot != ROBOTS[0]:
+            robot["name"] = options.robot
     over: Tables = {
         "robot": robot, "gait": gait, "ground": ground,
         "valves": {name: parts(text) for name, text in given(options.valves_).items()},
-        "numerics": given(options.numerics_),
+        "numerics": numerics,
     }  # fmt: skip
     if options.surface is None:
         return [merged(*layers, over)]

@@ -13,13 +13,10 @@ length = "90 mm"; in tables all are SI once they are built.
 """
 
 import math
-import tomllib
 from collections.abc import Mapping
-from dataclasses import MISSING, Field, fields, replace
-from numbers import Real
+from dataclasses import fields, replace
 from pathlib import Path
-from types import NoneType, UnionType
-from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Any
 
 from analytic.checks import one_of
 from analytic.gait import GAITS, Gait
@@ -27,16 +24,13 @@ from analytic.ground import Patches
 from analytic.robot import Robot
 from analytic.surface import SURFACES, Ground, Surface
 from analytic.trapezoid import trapezoid
-from mjsim.io.fields import units
-from mjsim.io.units import in_unit
 from mjsim.scene.measured import read_gait
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene
+from mjsim.scene.typed import UNITS, Table, as_type, checked, make, read_toml
 from mjsim.scene.valves import Valves
 
-Table = dict[str, Any]
 Tables = dict[str, Table]
-Kind = TypeVar("Kind")
 
 NAMES = ("robot", "gait", "valves", "ground", "numerics")
 SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation", "gravity",
@@ -44,13 +38,28 @@ SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation"
 SURFACE_FIELDS = tuple(field.name for field in fields(Surface) if field.name != "name")
 FILES = (".toml", ".csv")  # of gaits
 TRAPEZOID = ("lag", "duty", "ramp")
-_UNITS = {"ramp_time": "s", "period": "s"}  # of gaits; other fields say it themselves
+# of robots of limbs, which mjsim.tree.tables builds
+LIMBS = {
+    "robot": ("name", "limbs"),
+    "gait": ("left", "right"),
+    "numerics": ("elements", "tie_time"),
+}
 _KEYS: dict[str, tuple[str, ...]] = {
-    "robot": tuple(field.name for field in fields(Robot)),
-    "gait": ("name", "stages", "ramp_time", *TRAPEZOID, "period", "reverse", "file", "repeats"),
+    "robot": (*(field.name for field in fields(Robot)), *LIMBS["robot"]),
+    "gait": (
+        "name",
+        "stages",
+        "ramp_time",
+        *TRAPEZOID,
+        "period",
+        "reverse",
+        "file",
+        "repeats",
+        *LIMBS["gait"],
+    ),
     "valves": tuple(field.name for field in fields(Valves)),
     "ground": ("surface", *SURFACE_FIELDS, "slope_deg", "patches"),
-    "numerics": (*SCENE_FIELDS, *(field.name for field in fields(Numerics))),
+    "numerics": (*SCENE_FIELDS, *(field.name for field in fields(Numerics)), *LIMBS["numerics"]),
 }
 
 
@@ -60,7 +69,7 @@ def read_tables(path: Path) -> Tables:
     Raises:
         ValueError: the file cannot be read, is no TOML, or has a table or a key that is not known.
     """
-    tables = _toml(path, "scene")
+    tables = read_toml(path, "scene")
     for name, table in tables.items():
         one_of(f"scene {str(path)!r}: table", name, NAMES)
         if not isinstance(table, dict):
@@ -89,9 +98,13 @@ def merged(*layers: Tables) -> Tables:
             if name == "ground" and {"surface", "patches"} & table.keys():
                 kept = {k: v for k, v in result[name].items() if k == "slope_deg"}
                 result[name] = kept
+            if name == "robot" and {"name", "limbs"} & table.keys():
+                result[name] = {k: v for k, v in result[name].items() if k not in LIMBS["robot"]}
             if name == "gait" and {"name", "stages", "file", *TRAPEZOID} & table.keys():
                 own = (*TRAPEZOID, "period") if {*TRAPEZOID} & table.keys() else ("ramp_time",)
-                result[name] = {k: v for k, v in result[name].items() if k in (*own, "reverse")}
+                result[name] = {
+                    k: v for k, v in result[name].items() if k in (*own, "reverse", *LIMBS["gait"])
+                }
             result[name] = {**result[name], **table}
     return result
 
@@ -102,12 +115,17 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
     Raises:
         ValueError: a value cannot be; the message names its table and key.
     """
+    for key in LIMBS["robot"]:
+        if key in tables.get("robot", {}):
+            raise ValueError(
+                f"{where}[robot] {key}: a robot of limbs walks by mjsim.run and mjsim.export alone"
+            )
     robot = make(Robot, tables.get("robot", {}), f"{where}[robot] ")
     gait, highest = _gait_of(tables.get("gait", {}), f"{where}[gait] ", len(robot.segments))
     if highest is not None:
         robot = replace(robot, peak_pressure=highest)
     ground = tables.get("ground", {})
-    slope = _as(float, ground.get("slope_deg", 0.0), f"{where}[ground] slope_deg", "deg")
+    slope = as_type(float, ground.get("slope_deg", 0.0), f"{where}[ground] slope_deg", "deg")
     values = tables.get("numerics", {})
     scene_values = {key: value for key, value in values.items() if key in SCENE_FIELDS}
     scene = make(
@@ -140,7 +158,7 @@ def build_ground(table: Table, where: str = "") -> Ground:
         if (number > 0) != ("from" in patch):
             raise ValueError(f"{here}every patch but the first must say `from` where it begins [m]")
         if number > 0:
-            borders.append(_as(float, patch["from"], f"{here}from", "m"))
+            borders.append(as_type(float, patch["from"], f"{here}from", "m"))
         surfaces.append(build_surface(patch, here))
     try:
         return Patches("-".join(surface.name for surface in surfaces), tuple(borders),
@@ -172,7 +190,7 @@ def build_gait(table: Table, where: str = "", segments: int = 3) -> Gait:
     table = dict(table)
     if "file" in table:
         path = Path(str(table.pop("file")))
-        content = _toml(path, "gait")
+        content = read_toml(path, "gait")
         content.setdefault("name", path.stem)
         check_keys("gait", content, f"gait {str(path)!r}: ")
         if "stages" not in content and not {*TRAPEZOID} & content.keys():
@@ -190,7 +208,7 @@ def build_gait(table: Table, where: str = "", segments: int = 3) -> Gait:
         one_of(f"{where}name of a gait without stages", name, GAITS)
         gait = GAITS[name]
         if table:
-            gait = replace(gait, **_checked(Gait, table, where))
+            gait = replace(gait, **checked(Gait, table, where))
     return gait.reversed() if backward else gait
 
 
@@ -214,84 +232,8 @@ def _trapezoid(table: Table, where: str, segments: int) -> Gait:
     if missing:
         raise ValueError(f"{where}{missing[0]} is missing; a gait has lag, duty and ramp")
     try:
-        numbers = {k: _as(float, v, f"{where}{k}", _UNITS.get(k)) for k, v in table.items()}
+        numbers = {k: as_type(float, v, f"{where}{k}", UNITS.get(k)) for k, v in table.items()}
         gait = trapezoid(**numbers, segments=segments)
         return gait if name is None else replace(gait, name=name)
     except ValueError as error:
         raise ValueError(f"{where}{error}") from error
-
-
-def make(kind: type[Kind], table: Mapping[str, Any], where: str = "", **more: Any) -> Kind:
-    """A dataclass of given values and defaults, its values checked against their types.
-
-    Raises:
-        ValueError: a key is no field, a value is not of its type or out of range, or one is
-            missing.
-    """
-    values = {**_checked(kind, table, where), **more}
-    for field in fields(kind):  # type: ignore[arg-type]
-        if field.name not in values and _needed(field):
-            raise ValueError(f"{where}{field.name} is missing")
-    try:
-        return kind(**values)
-    except ValueError as error:
-        raise ValueError(f"{where}{error}") from error
-
-
-def _checked(kind: type[Any], table: Mapping[str, Any], where: str) -> Table:
-    hints = get_type_hints(kind)
-    values = {}
-    for key, value in table.items():
-        if key not in hints:
-            raise ValueError(f"{where}key {key!r} is unknown; known are {', '.join(hints)}")
-        unit = _UNITS.get(key) or units(kind).get(key)
-        values[key] = _as(hints[key], value, f"{where}{key}", unit)
-    return values
-
-
-def _as(hint: Any, value: Any, name: str, unit: str | None = None) -> Any:
-    """The value as its type has it.
-
-    Lists become tuples and whole numbers floats, and numbers with a unit are turned into the SI.
-
-    Raises:
-        ValueError: it is not of that type.
-    """
-    options = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
-    for option in options:
-        if option is NoneType:
-            continue
-        if get_origin(option) is Literal:
-            one_of(name, value, get_args(option))
-            return value
-        real = isinstance(value, Real) and not isinstance(value, bool)
-        if option is float and real:
-            return float(value)  # whether it is finite is asked where it is used
-        if option is int and real and not isinstance(value, float):
-            return value
-        if option in (str, bool) and isinstance(value, option):
-            return value
-        if get_origin(option) is tuple and isinstance(value, list | tuple):
-            inner = get_args(option)[0]
-            return tuple(_as(inner, item, f"{name}'s parts", unit) for item in value)
-    if isinstance(value, str) and float in options:
-        return in_unit(name, value, unit)
-    raise ValueError(f"{name} must be {_described(options)}, got {value!r}")
-
-
-def _described(options: tuple[Any, ...]) -> str:
-    words = {float: "a number", int: "a whole number", str: "a word", bool: "true or false"}
-    return " or ".join(words.get(o, "a list") for o in options if o is not NoneType)
-
-
-def _needed(field: "Field[Any]") -> bool:
-    return field.default is MISSING and field.default_factory is MISSING
-
-
-def _toml(path: Path, what: str) -> Table:
-    try:
-        return tomllib.loads(path.read_bytes().decode("utf-8-sig"))  # Windows marks the byte order
-    except OSError as error:
-        raise ValueError(f"{what} {str(path)!r} cannot be read: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{what} {str(path)!r} is no TOML: {error}") from error

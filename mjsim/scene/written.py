@@ -12,7 +12,8 @@ from analytic.ground import Patches
 from analytic.surface import SURFACES, Ground, Surface
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene
-from mjsim.scene.tables import SCENE_FIELDS, SURFACE_FIELDS, Table, Tables
+from mjsim.scene.tables import SCENE_FIELDS, SURFACE_FIELDS, Tables
+from mjsim.scene.typed import Table
 
 _LIST = re.compile(r"\[\s+([^\[\]=]+?),\s+\]")  # of numbers, a line each
 

@@ -40,10 +40,10 @@ def tree_spec(scene: TreeScene, numerics: TreeNumerics, ground: mujoco.MjSpec) -
             heading = scene.robot.limbs[scene.robot.place(limb.on)].angle
         first, last, length = _chain(scene, numerics, i, carrier, along, limb.angle - heading)
         ends[limb.name] = {"begin": (first, 0.0), "end": (last, length)}
-    for limb in range(len(scene.robot.limbs)):
-        for place in range(places_of(scene.robot, limb)):
+    for number in range(len(scene.robot.limbs)):
+        for place in range(places_of(scene.robot, number)):
             for direction in (0, 1):
-                _add_row(spec, scene, numerics, limb, f"{place}_{direction}")
+                _add_row(spec, scene, numerics, number, f"{place}_{direction}")
     return spec
 
 
@@ -129,6 +129,11 @@ def _add_row(
     tendon.solref_friction[:], tendon.solimp_friction[:3] = _FIRM
     for joint in joints_to(scene.robot, numerics.elements, limb):
         tendon.wrap_joint(joint, float(joint == PREFIX + ROOT[0]))
+
+
+def hinge_names(robot: TreeRobot, elements: int) -> list[str]:
+    """Of all limbs, in their order."""
+    return [f"{PREFIX}{limb}_hinge_{i}" for limb in robot.names for i in range(1, elements + 1)]
 
 
 def joints_to(robot: TreeRobot, elements: int, limb: int) -> list[str]:

@@ -1,12 +1,11 @@
 """Friction of a robot of limbs: each contact is held at its place by a bound in the plane.
 
 Contacts and their bounds are those of analytic.tree.contacts, found from the forces of the step
-before. A place is held by two dry frictions: one of the whole bound along the force that held it in
-the step before, and a weaker one across, which turns that direction. Where the place slides they
-let it go along the first only, so that after a step friction opposes the slip, whatever its
-direction, and never exceeds the disc of its bound by more than the square of a small angle. What
-the bounds leave open is left to viscosity at all places alike, as in analytic.plane; it is small
-beside them.
+before. A place is held by two rows: dry friction of the whole bound V along the slip, or along the
+force where it does not slide, and across that V v / |u|, where u is the slip of the step before:
+together the tangent of V u / |u|, as in Newton's method, so that friction opposes the slip whatever
+its direction. What the bounds leave open is left to viscosity at all places alike, as in
+analytic.plane; it is small beside them.
 """
 
 import math
@@ -26,7 +25,12 @@ from mjsim.tree.scene import TreeNumerics, TreeScene
 
 Array = NDArray[np.float64]
 
-_ACROSS = 0.5  # of the bound: turns the direction by so much in a step; chosen
+_WHOLE = 0.999  # of the bound: the place slides
+_STIFFER = (
+    128.0  # than the tangent: the direction follows within steps and does not swing; measured
+)
+_VISCOUS = 100.0  # b dt; chosen
+_SOFTEST, _FIRMEST = 1e-4, 0.9999  # what MuJoCo takes of a row's firmness
 _AHEAD = (1.0, 0.0)
 _STANDS = 1e-9  # m/s; N: no place is held by less
 _POINT = 1e-8  # m^2; places that are closer do not tell a turn
@@ -42,12 +46,17 @@ class Rows:
         jacobian: of its motion, (3, nv); the coefficients of its motion in plan, (2, J).
         place: in plan, (2,) [m].
         bound: of its friction [N].
+        inverse_mass: that MuJoCo sees across, in the step before [1/kg].
     """
 
     def __init__(self, model: mujoco.MjModel, name: str, joints: int) -> None:
         first = model.tendon(f"{name}_0").id
         self.ids = (first, first + 1)
         self._bounds = model.tendon_frictionloss[first : first + 2]
+        self._time = model.tendon_solref_fri[first + 1]
+        self._firmness = model.tendon_solimp_fri[first + 1]
+        self.inverse_mass = float(model.tendon_invweight0[first + 1])
+        self._dt = model.opt.timestep
         self._drags = model.tendon_damping[first : first + 2]
         begin = model.tendon_adr[first]
         self._coefficients = model.wrap_prm[begin : begin + 2 * joints].reshape(2, joints)
@@ -76,8 +85,26 @@ class Rows:
         across, along = self.jacobian[:2].take(self._dofs, axis=1)[::-1]
         self._coefficients[0] = c * along + s * across
         self._coefficients[1] = c * across - s * along
-        self._bounds[:] = bound, _ACROSS * bound
+        self._bounds[:] = bound
         self._drags[:] = drag
+        # the discrete integrator makes of a row f = -D (dv/dt + b v), D = d / (1 - d) / inverse mass
+        # and b = 2 / (d time): with b much above 1 / dt it is viscous, f = -D b v
+        firm = (
+            _STIFFER
+            * bound
+            * self.inverse_mass
+            * self._dt
+            / max(math.hypot(*self.velocity), _STANDS)
+            / _VISCOUS
+        )
+        firm = min(max(firm / (1.0 + firm), _SOFTEST), _FIRMEST)
+        self._time[0] = 2.0 * self._dt / (firm * _VISCOUS)
+        self._firmness[:2] = firm
+
+    def learn(self, firmness: float) -> None:
+        """Note how heavy the row across was, from D = d / (1 - d) / inverse mass."""
+        part = self._firmness.item(0)
+        self.inverse_mass = part / ((1.0 - part) * firmness)
 
     def excess(self, data: mujoco.MjData, dt: float) -> tuple[float, float, float, float, float]:
         """How far the last step moved it beyond dt times its velocity; its place and its speed."""
@@ -175,19 +202,26 @@ class Grips:
         )
         nodes = data.geom_xpos[self._pads]
         nodes[:, 2] -= self._numerics.pad_radius
-        return Rest(data.qpos, nodes, force, True)
+        return Rest(data.qpos, nodes, np.asarray(force, dtype=float), True)
 
     def _turn(self) -> None:
-        """Lay the first row of each place where friction pulled in the step before."""
+        """Lay the first row of each place along its slip, or where friction holds it."""
         data, count = self._data, self._data.nf
         pulled: dict[Rows, list[float]] = {}
-        for tendon, force in zip(data.efc_id[:count].tolist(), data.efc_force[:count].tolist(),
-                                 strict=True):  # fmt: skip
+        parts = (part[:count].tolist() for part in (data.efc_id, data.efc_force,
+                                                    data.efc_D))  # fmt: skip
+        for tendon, force, firmness in zip(*parts, strict=True):
             rows, row = self._by_tendon[tendon]
             pulled.setdefault(rows, [0.0, 0.0])[row] = force
+            if row:
+                rows.learn(firmness)
         for rows, (along, across) in pulled.items():
             size, (c, s) = math.hypot(along, across), rows.way
-            if size > 0:
+            u, v, _ = (rows.jacobian @ data.qvel).tolist()
+            pace = math.hypot(u, v)
+            if abs(along) > _WHOLE * rows.bound and pace > 0:
+                rows.way = u / pace, v / pace
+            elif size > 0:
                 rows.way = (c * along - s * across) / size, (s * along + c * across) / size
 
     def _places(self) -> Iterator[tuple[Contact, float, Rows]]:

@@ -80,8 +80,9 @@ class TreeNumerics:
     """time step [s]; chosen"""
     damping_time: float = 0.005
     """joint damping over joint stiffness [s]; chosen"""
-    contact_time: float = 0.5
-    """time constant of contacts, critically damped [timestep]"""
+    contact_time: float = 4.0
+    """time constant of contacts, critically damped [timestep]; chosen: with less, steep tips
+    hop"""
     pad_radius: float = 1e-3
     """of the contact pads, centred on the neutral line [m]; chosen"""
     tie_time: float = 0.1
@@ -97,3 +98,12 @@ class TreeNumerics:
                 positive(item.name, getattr(self, item.name))
         if self.timestep > LONGEST_STEP:
             raise ValueError(f"timestep must be at most {LONGEST_STEP} s, got {self.timestep!r}")
+
+    def check(self, scene: TreeScene) -> None:
+        """Raise ValueError where a ramp has too few time steps to be seen."""
+        shortest = min(scene.gait.ramp_times)
+        if shortest < FEWEST_STEPS * self.timestep:
+            raise ValueError(
+                f"timestep must be at most {shortest / FEWEST_STEPS:g} s, so that the shortest "
+                f"ramp of {shortest:g} s has {FEWEST_STEPS} steps; got {self.timestep:g} s"
+            )

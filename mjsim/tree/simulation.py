@@ -1,92 +1,197 @@
-"""A robot of limbs walks in MuJoCo."""
+"""A robot of limbs walks in MuJoCo: one scene, compiled once and stepped as often as needed."""
 
+import math
 import time as clock
-from dataclasses import dataclass
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from analytic.chain import joint_springs
-from mjsim.bodies.parts import PREFIX
+from analytic.gait import Gait
+from analytic.tree.limbs import outline
 from mjsim.simulation.status import Status
-from mjsim.tree.body import ROOT, tree_spec
+from mjsim.tree.body import ROOT, hinge_names, tree_spec
 from mjsim.tree.friction import Grips
 from mjsim.tree.scene import TreeNumerics, TreeScene
+from mjsim.tree.walk import TreeWalk
 
 Array = NDArray[np.float64]
 
+_BARE = Path(__file__).parent.parent / "ground" / "bare.xml"
+_TIPPED = 1.0  # rad of pitch or roll of the trunk: it fell over; chosen
+_BLOCK = 256  # steps between reports of progress
 
-@dataclass(frozen=True, repr=False)
-class TreeWalk:
-    """One simulated walk, a row per time step, settling included."""
 
-    scene: TreeScene
-    numerics: TreeNumerics
-    status: Status
-    time: Array
+class TreeObservation(NamedTuple):
+    """What a controller sees after a step.
+
+    Attributes:
+        time: since the first cycle began [s].
+        pressure: in the limbs, (L,) [Pa].
+        place: of the trunk's beginning, (2,) [m].
+        heading: of the trunk, to the left [rad].
+        contacts: how many limbs touch the ground.
+        status: OK, or why the simulation stopped.
+    """
+
+    time: float
     pressure: Array
-    coordinates: Array
-    wall_time: float
-
-    @property
-    def start(self) -> int:
-        return int(np.searchsorted(self.time, 0.0, side="right")) - 1
-
-    @property
-    def displacement(self) -> Array:
-        return self.coordinates[-1, :2] - self.coordinates[self.start, :2]
-
-    @property
-    def turn(self) -> float:
-        return float(self.coordinates[-1, 3] - self.coordinates[self.start, 3])
+    place: Array
+    heading: float
+    contacts: int
+    status: Status
 
 
 class TreeSimulation:
+    """One scene.
+
+    Args:
+        scene: the walk.
+        numerics: how it is discretised.
+
+    Attributes:
+        scene, numerics: what is simulated and how.
+        model, data: MuJoCo's.
+
+    Raises:
+        ValueError: the scene and the numerics do not go together.
+    """
+
     def __init__(self, scene: TreeScene, numerics: TreeNumerics | None = None) -> None:
         self.scene, self.numerics = scene, numerics or TreeNumerics()
-        from pathlib import Path
-
-        bare = Path(__file__).parent.parent / "ground" / "bare.xml"
-        spec = tree_spec(scene, self.numerics, mujoco.MjSpec.from_file(str(bare)))
-        self.model = spec.compile()
+        self.numerics.check(scene)
+        ground = mujoco.MjSpec.from_file(str(_BARE))
+        self.model = tree_spec(scene, self.numerics, ground).compile()
         self.data = mujoco.MjData(self.model)
+        joints = [
+            self.model.joint(name) for name in hinge_names(scene.robot, self.numerics.elements)
+        ]
+        self._hinges = np.array([joint.id for joint in joints])
+        qpos = [int(joint.qposadr[0]) for joint in joints]
+        self._order = np.array([*range(len(ROOT)), *qpos])
+        self._rest_angles = np.array(qpos)
+        self._length = outline(scene.robot)[0]
+        self.reset()
 
-    def run(self) -> TreeWalk:
-        scene, numerics, model, data = self.scene, self.numerics, self.model, self.data
-        mujoco.mj_resetData(model, data)
-        mujoco.mj_forward(model, data)
-        grips = Grips(scene, numerics, model, data)
-        dt = numerics.timestep
-        first = -round(scene.settle_time / dt)
-        steps = round(scene.cycles * scene.gait.period / dt)
-        times = dt * np.arange(first + 1, steps + 1)
-        pressures = scene.robot.peak_pressure * scene.gait.fractions(times)
+    def reset(self) -> TreeObservation:
+        """Lay the robot on the ground and let it settle."""
+        mujoco.mj_resetData(self.model, self.data)
+        mujoco.mj_forward(self.model, self.data)
+        self._grips = Grips(self.scene, self.numerics, self.model, self.data)
+        self._status, self._wall = Status.OK, 0.0
+        self._coordinates: list[Array] = []
+        self._pressures: list[Array] = []
+        self._contacts: list[int] = []
+        limbs = len(self.scene.robot.limbs)
+        self._settling = max(1, round(self.scene.settle_time / self.numerics.timestep))
+        self._play(np.zeros((self._settling, limbs)))
+        return self.observe()
+
+    def step(self, pressures: ArrayLike) -> TreeObservation:
+        """Do one time step at pressures of the limbs, (L,) [Pa].
+
+        Raises:
+            ValueError: they are not of that kind.
+        """
+        row = np.asarray(pressures, dtype=float)
+        if row.shape != (len(self.scene.robot.limbs),) or not np.isfinite(row).all():
+            raise ValueError(
+                f"pressures must be {len(self.scene.robot.limbs)} finite numbers [Pa], got "
+                f"{pressures!r}"
+            )
+        self._play(row[None])
+        return self.observe()
+
+    def run(
+        self,
+        policy: Gait | Callable[[TreeObservation], ArrayLike] | None = None,
+        progress: Callable[[int], None] | None = None,
+    ) -> TreeWalk:
+        """Walk from rest for the scene's cycles.
+
+        Args:
+            policy: commands the pressures; the scene's gait if None.
+            progress: called now and then with the number of steps done since the last call.
+        """
+        policy = self.scene.gait if policy is None else policy
+        observation = self.reset()
+        steps = round(self.scene.cycles * self.scene.gait.period / self.numerics.timestep)
+        if isinstance(policy, Gait):
+            time = self.numerics.timestep * np.arange(1.0, steps + 1.0)
+            rows = self.scene.robot.peak_pressure * policy.fractions(time)
+            for begin in range(0, steps, _BLOCK):
+                self._play(rows[begin : begin + _BLOCK])
+                if progress:
+                    progress(min(_BLOCK, steps - begin))
+        else:
+            for _ in range(steps):
+                if self._status is not Status.OK:
+                    break
+                observation = self.step(policy(observation))
+                if progress:
+                    progress(1)
+        return self.walk()
+
+    def observe(self) -> TreeObservation:
+        """What there is to see now."""
+        return TreeObservation(
+            time=(len(self._contacts) - self._settling) * self.numerics.timestep,
+            pressure=self._pressures[-1].copy(),
+            place=self.data.qpos[:2].copy(),
+            heading=float(self.data.qpos[3]),
+            contacts=self._contacts[-1],
+            status=self._status,
+        )
+
+    def walk(self) -> TreeWalk:
+        """Everything since the last reset."""
+        count = len(self._contacts)
+        first = 1 - self._settling
+        return TreeWalk(
+            scene=self.scene,
+            numerics=self.numerics,
+            status=self._status,
+            time=self.numerics.timestep * np.arange(first, first + count, dtype=float),
+            pressure=np.array(self._pressures),
+            coordinates=np.array(self._coordinates),
+            contacts=np.array(self._contacts),
+            wall_time=self._wall,
+        )
+
+    def _play(self, pressures: Array) -> None:
+        scene, model, data, grips = self.scene, self.model, self.data, self._grips
         parts = [
-            joint_springs(limb.strip, numerics.elements, pressures[:, [i]])
+            joint_springs(limb.strip, self.numerics.elements, pressures[:, [i]])
             for i, limb in enumerate(scene.robot.limbs)
         ]
-        stiffness = np.concatenate([p[0] for p in parts], axis=1)
-        rest = np.concatenate([p[1] for p in parts], axis=1)
-        names = [
-            f"{PREFIX}{l}_hinge_{i}"
-            for l in scene.robot.names
-            for i in range(1, numerics.elements + 1)
-        ]
-        joints = np.array([model.joint(n).id for n in names])
-        qpos = np.array([model.joint(n).qposadr[0] for n in names])
-        coordinates = np.empty((len(times), len(ROOT) + len(names)))
-        order = np.concatenate([np.arange(len(ROOT)), qpos])
-        # mirrored rest angles etc.
+        stiffness, rest = (np.concatenate([part[k] for part in parts], axis=1) for k in (0, 1))
         started = clock.perf_counter()
-        for step in range(len(times)):
-            model.jnt_stiffness[joints] = (
-                stiffness[step][:, None] if model.jnt_stiffness.ndim > 1 else stiffness[step]
-            )
-            model.qpos_spring[qpos] = rest[step]
-            grips.before_step(pressures[step])
+        for step, row in enumerate(pressures):
+            if self._status is not Status.OK:
+                break
+            model.jnt_stiffness[self._hinges] = stiffness[step]
+            model.qpos_spring[self._rest_angles] = rest[step]
+            grips.before_step(row)
             mujoco.mj_step(model, data)
             grips.after_step()
-            coordinates[step] = data.qpos[order]
-        wall = clock.perf_counter() - started
-        return TreeWalk(scene, numerics, Status.OK, times, pressures, coordinates, wall)
+            self._coordinates.append(data.qpos[self._order])
+            self._pressures.append(row)
+            self._contacts.append(len({contact.limb for contact in grips.contacts}))
+            self._judge()
+        self._wall += clock.perf_counter() - started
+
+    def _judge(self) -> None:
+        height, pitch, roll = (self.data.qpos.item(i) for i in (2, 4, 5))
+        if not (math.isfinite(height) and abs(height) < self._length):
+            self._status = Status.DIVERGED
+        elif abs(pitch) > _TIPPED or abs(roll) > _TIPPED:
+            self._status = Status.TOPPLED
+
+
+def simulate(scene: TreeScene, numerics: TreeNumerics | None = None) -> TreeWalk:
+    """Walk a scene's gait: `TreeSimulation(scene, numerics).run()`."""
+    return TreeSimulation(scene, numerics).run()

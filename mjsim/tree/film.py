@@ -1,0 +1,163 @@
+"""Videos of robots of limbs."""
+
+import multiprocessing
+import os
+import warnings
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import ExitStack
+from pathlib import Path
+
+import imageio_ffmpeg
+import numpy as np
+from PIL import Image, ImageDraw
+
+from analytic.tree.limbs import outline
+from mjsim.bodies.parts import DARK, PALE
+from mjsim.io.files import whole
+from mjsim.tree.walk import TreeWalk
+from mjsim.video.overlay import BLUE, INK, font
+from mjsim.video.recording import FPS, HEIGHT, LEAD, TAIL, WIDTH, Frame
+
+_QUALITY = 29  # x264's constant rate factor: 12 s stay under 500 KB
+_LONGEST = 12.0  # s of a video; slower walks are shown faster
+
+
+def film(walks: Sequence[TreeWalk], paths: Sequence[Path]) -> None:
+    """Write an H.264 video of each walk; each appears under its name only when it is whole.
+
+    Raises:
+        OSError: a video cannot be written.
+    """
+    if not walks:
+        return
+    context = multiprocessing.get_context("spawn")  # this one may have mujoco without OpenGL
+    with ProcessPoolExecutor(min(len(walks), os.cpu_count() or 1), mp_context=context) as pool:
+        for future in [pool.submit(_draw, *job) for job in zip(walks, paths, strict=True)]:
+            future.result()
+
+
+def _draw(walk: TreeWalk, path: Path) -> None:
+    import mediapy
+
+    mediapy.set_ffmpeg(imageio_ffmpeg.get_ffmpeg_exe())
+    faster = max(1.0, np.ceil(walk.time[-1] / _LONGEST))
+    times = np.arange(-LEAD, walk.time[-1] / faster + TAIL, 1 / FPS) * faster
+    with ExitStack() as stack, warnings.catch_warnings():
+        warnings.simplefilter("ignore", ResourceWarning)  # mediapy leaves ffmpeg's pipes
+        part = stack.enter_context(whole(path))
+        video = stack.enter_context(
+            mediapy.VideoWriter(part, (HEIGHT, WIDTH), fps=FPS, crf=_QUALITY)
+        )
+        camera = stack.enter_context(Camera(walk, faster))
+        for time in times:
+            video.add_image(camera.frame(float(time)))
+
+
+class Camera:
+    """Draws one walk; close it, or use it in a `with`, as it holds an OpenGL context.
+
+    Args:
+        walk: what to draw.
+        faster: that the video is than the walk, which it says.
+    """
+
+    def __init__(self, walk: TreeWalk, faster: float = 1.0) -> None:
+        import mujoco
+
+        from mjsim.tree.look import CAMERA, Look
+
+        self._walk, self._faster = walk, faster
+        reach = float(np.abs(walk.coordinates[:, :2]).max()) + 3 * walk.length
+        self._look = Look(walk.scene, walk.numerics, reach)
+        self._renderer = mujoco.Renderer(self._look.model, HEIGHT, WIDTH)
+        self._options, self._name = mujoco.MjvOption(), CAMERA
+        self._options.geomgroup[3] = False  # contact pads
+        self._options.flags[mujoco.mjtVisFlag.mjVIS_TENDON] = False
+        self._shown, self._frame = -1, np.empty(0, np.uint8)
+
+    def __enter__(self) -> "Camera":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Free the OpenGL context."""
+        self._renderer.close()
+
+    def frame(self, time: float) -> Frame:
+        """The walk at a time, shape (height, width, 3)."""
+        walk = self._walk
+        step = int(np.clip(np.searchsorted(walk.time, time), walk.start, len(walk.time) - 1))
+        if step != self._shown:
+            peak = walk.scene.robot.peak_pressure
+            self._look.pose(walk.coordinates[step], walk.pressure[step] / peak)
+            self._renderer.update_scene(self._look.data, self._name, self._options)
+            self._trace(step)
+            self._shown, self._frame = step, _written(walk, self._renderer.render(), step,
+                                                      self._faster)  # fmt: skip
+        return self._frame
+
+    def _trace(self, step: int) -> None:
+        """The way of the trunk's beginning so far, and its start, as dots on the ground."""
+        import mujoco
+
+        walk, scene = self._walk, self._renderer.scene
+        rows = np.unique(np.linspace(walk.start, step, 80).astype(int))
+        size = 0.006 * walk.length
+        red, blue = (0.78, 0.12, 0.10, 1.0), (0.10, 0.30, 0.75, 1.0)
+        for row in rows:
+            place = np.array([*walk.coordinates[row, :2], 0.3 * size])
+            colour = np.array(red if row == walk.start else blue, dtype=np.float32)
+            big = np.array([size * (1.6 if row == walk.start else 1.0)] * 3)
+            mujoco.mjv_initGeom(scene.geoms[scene.ngeom], mujoco.mjtGeom.mjGEOM_SPHERE, big, place,
+                                np.eye(3).ravel(), colour)  # fmt: skip
+            scene.ngeom += 1
+
+
+def _written(walk: TreeWalk, frame: Frame, step: int, faster: float) -> Frame:
+    """A copy with the state written on it."""
+    picture = Image.fromarray(frame)
+    pen, big, small = ImageDraw.Draw(picture), font(25), font(17)
+    pen.text((28, 18), walk.scene.ground.name, font=big, fill=INK)
+    speed = f", {faster:g} times as fast" if faster > 1 else ""
+    pen.text((28, 54), f"gait {walk.scene.gait.name}", font=small, fill=INK)
+    time = max(0.0, float(walk.time[step]))
+    pen.text((28, 78), f"t = {time:4.1f} s{speed}", font=small, fill=INK)
+    _plan(pen, walk, step, (520, 62))
+    gone = walk.coordinates[step, :2] - walk.coordinates[walk.start, :2]
+    ahead, aside = (0.0 if abs(part) < 5e-4 else part for part in (gone / walk.length).tolist())
+    turned = float(np.degrees(walk.coordinates[step, 3] - walk.coordinates[walk.start, 3]))
+    turned = 0.0 if abs(turned) < 5e-2 else turned
+    right = picture.width - 28
+    for line, (text, letters) in enumerate((
+        (f"{ahead:+.3f} L ahead", big),
+        (f"{aside:+.3f} L to the left", small),
+        (f"turned {turned:+.1f}° to the left", small),
+    )):  # fmt: skip
+        pen.text((right, 18 + line * 30), text, font=letters, fill=BLUE if line else INK,
+                 anchor="ra")  # fmt: skip
+    return np.asarray(picture)
+
+
+def _plan(pen: ImageDraw.ImageDraw, walk: TreeWalk, step: int, centre: tuple[int, int]) -> None:
+    """The robot from above, each limb in the colour that it has."""
+    from mjsim.tree.look import origins
+
+    robot = walk.scene.robot
+    scale = 190.0 / outline(robot)[0]
+    middle = np.mean([place[:2] for place in origins(walk.scene).values()], axis=0)
+    for limb, pressure in zip(robot.limbs, walk.pressure[step], strict=True):
+        fraction = min(abs(float(pressure)) / robot.peak_pressure, 1.0)
+        shade = tuple(round(255 * (p + fraction * (d - p)))
+                      for p, d in zip(PALE, DARK, strict=True))  # fmt: skip
+        start = origins(walk.scene)[limb.name][:2] - middle
+        along = np.array([np.cos(limb.angle), np.sin(limb.angle)])
+        side = 0.5 * limb.strip.width * np.array([-along[1], along[0]])
+        corners = [start + side, start + along * limb.strip.length + side,
+                   start + along * limb.strip.length - side, start - side]  # fmt: skip
+        pen.polygon(
+            [(centre[0] + scale * x, centre[1] - scale * y) for x, y in corners],
+            fill=shade, outline=INK,
+        )  # fmt: skip
