@@ -10,7 +10,8 @@ from mjsim.io.cli import fail, parse
 from mjsim.io.files import check_folder
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.options import SceneOptions, tables_of
-from mjsim.scene.tables import build
+from mjsim.scene.tables import Tables, build
+from mjsim.tree.tables import build_tree, of_limbs
 from mjsim.video import gl
 
 PROGRAM = "python -m mjsim.export"
@@ -30,7 +31,8 @@ class Options(SceneOptions):
     out: Path = Path("exported")
     """folder for the files, made if need be"""
     models: bool = False
-    """write the scenes of models/: the default robot on each named surface, a cable and a rod"""
+    """write the scenes of models/: the default robot on each named surface, a cable and a rod, the
+    quadruped on felt and on gelatin"""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -38,20 +40,41 @@ def main(argv: Sequence[str] | None = None) -> int:
     options = parse(Options, PROGRAM, argv)
     gl.prepare()
     from mjsim.mjcf.standalone import write
+    from mjsim.tree.standalone import write as write_limbs
 
     try:
-        if options.models:
-            cases = list(documents())
-        else:
-            built = [build(tables) for tables in tables_of(options)]
-            cases = [(scene.ground.name, scene, numerics) for scene, numerics in built]
+        tables = tables_of(options)
         check_folder(options.out)
+        limbs = [tables] if of_limbs(tables[0]) and not options.models else []
+        for name, own in _quadrupeds() if options.models else _named(*limbs):
+            scene_of_limbs, own_numerics = build_tree(own)
+            write_limbs(scene_of_limbs, options.out / f"{name}.xml", own_numerics)
+            print(options.out / f"{name}.xml")
+        if limbs:
+            return 0
+        cases = list(documents())
+        if not options.models:
+            built = [build(own) for own in tables]
+            cases = [(scene.ground.name, scene, numerics) for scene, numerics in built]
         for name, scene, numerics in cases:
             write(scene, options.out / f"{name}.xml", numerics)
             print(options.out / f"{name}.xml")
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
     return 0
+
+
+def _quadrupeds() -> Iterator[tuple[str, Tables]]:
+    for surface in ("felt", "gelatin"):
+        yield (
+            f"quadruped_{surface}",
+            {"robot": {"name": "quadruped"}, "ground": {"surface": surface}},
+        )
+
+
+def _named(tables: Sequence[Tables] = ()) -> Iterator[tuple[str, Tables]]:
+    for own in tables:
+        yield f"limbs-{build_tree(own)[0].ground.name}", own
 
 
 def documents() -> Iterator[tuple[str, Scene, Numerics]]:

@@ -26,8 +26,10 @@ def limb_body(limb: str, link: int) -> str:
     return f"{PREFIX}{limb}_{link}"
 
 
-def tree_spec(scene: TreeScene, numerics: TreeNumerics, ground: mujoco.MjSpec) -> mujoco.MjSpec:
-    """The robot put on a ground that is given as MJCF."""
+def tree_spec(
+    scene: TreeScene, numerics: TreeNumerics, ground: mujoco.MjSpec, held: bool = True
+) -> mujoco.MjSpec:
+    """The robot put on a ground that is given as MJCF; with friction's rows if `held`."""
     spec = ground
     spec.option.timestep = numerics.timestep
     spec.option.gravity = (0.0, 0.0, -scene.gravity)
@@ -40,7 +42,7 @@ def tree_spec(scene: TreeScene, numerics: TreeNumerics, ground: mujoco.MjSpec) -
             heading = scene.robot.limbs[scene.robot.place(limb.on)].angle
         first, last, length = _chain(scene, numerics, i, carrier, along, limb.angle - heading)
         ends[limb.name] = {"begin": (first, 0.0), "end": (last, length)}
-    for number in range(len(scene.robot.limbs)):
+    for number in range(len(scene.robot.limbs) if held else 0):
         for place in range(places_of(scene.robot, number)):
             for direction in (0, 1):
                 _add_row(spec, scene, numerics, number, f"{place}_{direction}")

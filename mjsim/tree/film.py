@@ -20,6 +20,7 @@ from mjsim.video.overlay import BLUE, INK, font
 from mjsim.video.recording import FPS, HEIGHT, LEAD, TAIL, WIDTH, Frame
 
 _QUALITY = 29  # x264's constant rate factor: 12 s stay under 500 KB
+_BAND, _WHITE = 118, 0.75  # lines behind the words, and how white they are
 _LONGEST = 12.0  # s of a video; slower walks are shown faster
 
 
@@ -118,7 +119,9 @@ class Camera:
 
 def _written(walk: TreeWalk, frame: Frame, step: int, faster: float) -> Frame:
     """A copy with the state written on it."""
-    picture = Image.fromarray(frame)
+    band = frame.copy()
+    band[:_BAND] = (_WHITE * 255 + (1 - _WHITE) * band[:_BAND]).astype(np.uint8)
+    picture = Image.fromarray(band)
     pen, big, small = ImageDraw.Draw(picture), font(25), font(17)
     pen.text((28, 18), walk.scene.ground.name, font=big, fill=INK)
     speed = f", {faster:g} times as fast" if faster > 1 else ""

@@ -87,7 +87,8 @@ class Rows:
         self._coefficients[1] = c * across - s * along
         self._bounds[:] = bound
         self._drags[:] = drag
-        # the discrete integrator makes of a row f = -D (dv/dt + b v), D = d / (1 - d) / inverse mass
+        # the discrete integrator makes of a row f = -D (dv/dt + b v), D = d / (1 - d) / its inverse
+        # mass
         # and b = 2 / (d time): with b much above 1 / dt it is viscous, f = -D b v
         firm = (
             _STIFFER

@@ -16,7 +16,9 @@ from mjsim.video.skin import PALE_SKIN, segment_skin
 Array = NDArray[np.float64]
 
 CAMERA = "above"
-_PLACE, _FOV = (0.5, -2.4, 1.75), 26.0  # of the camera, from the trunk's beginning [L, degrees]
+_MARGIN = 0.25  # of the length that the robot may go before the camera follows
+_SWOLLEN = 0.15  # of its height, that a limb at full pressure looks thicker by; chosen
+_PLACE, _FOV = (0.17, -2.4, 1.75), 18.5  # of the camera, from the trunk's beginning [L, degrees]
 
 
 class Look:
@@ -36,16 +38,17 @@ class Look:
         for name in ("ruler", "start"):
             spec.delete(spec.geom(name))
         add_skins(spec, scene, numerics)
-        camera = spec.worldbody.add_camera(name=CAMERA, fovy=_FOV)
-        camera.pos = np.multiply(_PLACE, length)
-        down = np.arctan2(_PLACE[2], -_PLACE[1])
-        camera.alt.xyaxes = [1, 0, 0, 0, np.sin(down), np.cos(down)]
+        add_camera(spec, scene)
         self.model = spec.compile()
         scale = length / Robot.length
         self.model.stat.extent *= scale
         for i in range(self.model.ngeom):
             if self.model.geom(i).name.startswith("surface"):
                 self.model.geom_size[i, :2] = np.maximum(self.model.geom_size[i, :2], reach)
+        strips = [limb.strip for limb in scene.robot.limbs]
+        self._thickness = [strip.thickness + strip.chamber_height for strip in strips]
+        self._length, self._camera = length, self.model.camera(CAMERA).id
+        self._from = self.model.cam_pos[self._camera, :2].copy()
         self.data = mujoco.MjData(self.model)
         joints = [self.model.joint(n) for n in hinge_names(scene.robot, numerics.elements)]
         self._order = np.array([*range(len(ROOT)), *(int(j.qposadr[0]) for j in joints)])
@@ -58,12 +61,25 @@ class Look:
             fractions: of the peak pressure, (L,).
         """
         self.data.qpos[self._order] = coordinates
+        gone = coordinates[:2]
+        self.model.cam_pos[self._camera, :2] = self._from + np.sign(gone) * np.maximum(
+            np.abs(gone) - _MARGIN * self._length, 0.0
+        )
         mujoco.mj_kinematics(self.model, self.data)
         mujoco.mj_comPos(self.model, self.data)
         mujoco.mj_camlight(self.model, self.data)
         pale, dark = np.array([*PALE, 1.0]), np.array([*DARK, 1.0])
         for limb, fraction in enumerate(fractions):
+            self.model.skin_inflate[limb] = _SWOLLEN * fraction * self._thickness[limb]
             self.model.skin_rgba[limb] = pale + min(abs(fraction), 1.0) * (dark - pale)
+
+
+def add_camera(spec: mujoco.MjSpec, scene: TreeScene) -> None:
+    """A camera that sees the robot from its right and above."""
+    camera = spec.worldbody.add_camera(name=CAMERA, fovy=_FOV)
+    camera.pos = np.multiply(_PLACE, outline(scene.robot)[0])
+    half = 0.5 * np.arctan2(-_PLACE[1], _PLACE[2])  # from straight down to the robot
+    camera.quat = (np.cos(half), np.sin(half), 0.0, 0.0)
 
 
 def add_skins(spec: mujoco.MjSpec, scene: TreeScene, numerics: TreeNumerics) -> None:

@@ -23,6 +23,9 @@ Array = NDArray[np.float64]
 
 _BARE = Path(__file__).parent.parent / "ground" / "bare.xml"
 _TIPPED = 1.0  # rad of pitch or roll of the trunk: it fell over; chosen
+# of the model, rewritten at each step
+_SET = ("jnt_stiffness", "qpos_spring", "wrap_prm", "tendon_frictionloss", "tendon_damping",
+        "tendon_solref_fri", "tendon_solimp_fri")  # fmt: skip
 _BLOCK = 256  # steps between reports of progress
 
 
@@ -75,10 +78,13 @@ class TreeSimulation:
         self._order = np.array([*range(len(ROOT)), *qpos])
         self._rest_angles = np.array(qpos)
         self._length = outline(scene.robot)[0]
+        self._compiled = {name: getattr(self.model, name).copy() for name in _SET}
         self.reset()
 
     def reset(self) -> TreeObservation:
         """Lay the robot on the ground and let it settle."""
+        for name, values in self._compiled.items():
+            getattr(self.model, name)[:] = values
         mujoco.mj_resetData(self.model, self.data)
         mujoco.mj_forward(self.model, self.data)
         self._grips = Grips(self.scene, self.numerics, self.model, self.data)

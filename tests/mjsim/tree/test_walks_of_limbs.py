@@ -1,0 +1,132 @@
+"""Robots of limbs in MuJoCo: shapes, paths and turns of the reference, symmetry, statuses."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from analytic.surface import SURFACES
+from analytic.tree.gaits import undulation
+from analytic.tree.kinematics import Tree
+from analytic.tree.limbs import LENGTH, quadruped
+from analytic.tree.statics import Statics
+from analytic.tree.walk import walk as quasi_static
+from mjsim.simulation.status import Status
+from mjsim.tree.friction import Grips
+from mjsim.tree.scene import TreeNumerics, TreeScene
+from mjsim.tree.simulation import TreeSimulation, simulate
+
+NUMERICS = TreeNumerics(timestep=0.04, elements=4)
+
+
+def scene(surface="felt", ramp=8.0, **sides):
+    gait = replace(undulation("wave", **sides), ramp_time=ramp)
+    return TreeScene(gait=gait, ground=SURFACES[surface])
+
+
+@pytest.fixture(scope="module")
+def walks():
+    return {name: simulate(scene(name), NUMERICS) for name in SURFACES}
+
+
+@pytest.mark.parametrize("name", ["felt", "gelatin"])
+def test_it_goes_as_far_as_the_quasi_static_reference(walks, name):
+    found = quasi_static(quadruped(), undulation("wave"), SURFACES[name], 12, 4)
+    off = np.hypot(*(walks[name].displacement - found.displacement))
+    assert off < max(0.05 * abs(found.displacement[0]), 0.002 * LENGTH)
+
+
+def test_pairs_that_press_alike_keep_it_straight(walks):
+    for walk in walks.values():
+        assert walk.status is Status.OK
+        assert abs(walk.displacement[1]) < 1e-3 * LENGTH
+        assert abs(walk.turn) < np.radians(0.05)
+
+
+def test_left_and_right_swapped_it_goes_the_mirrored_way():
+    one, two = (simulate(scene("gelatin", 4.0, **side), NUMERICS)
+                for side in ({"left": 0.7}, {"right": 0.7}))  # fmt: skip
+    assert abs(one.turn) > np.radians(0.5)
+    assert two.turn == pytest.approx(-one.turn, abs=np.radians(0.05))
+    assert two.displacement == pytest.approx(one.displacement * [1, -1], abs=1e-3 * LENGTH)
+
+
+def test_less_pressure_on_the_left_turns_it_as_in_theory():
+    walk = simulate(scene("gelatin", left=0.7), NUMERICS)
+    found = quasi_static(quadruped(), undulation("wave", left=0.7), SURFACES["gelatin"], 12, 4)
+    assert np.degrees(walk.turn) == pytest.approx(np.degrees(found.turn), abs=0.2)
+
+
+def test_at_rest_it_has_the_shape_of_the_statics():
+    own = TreeScene(ground=SURFACES["felt"].scaled(0.01))  # which bends nothing
+    numerics = replace(NUMERICS, timestep=0.01)
+    simulation = TreeSimulation(own, numerics)
+    pressures = own.robot.peak_pressure * np.array([0.3, 0.8, 0.5, 0.0, 0.0])
+    for part in np.linspace(0, 1, 300):
+        simulation.step(part * pressures)
+    for _ in range(100):
+        simulation.step(pressures)
+    tree = Tree(own.robot, NUMERICS.elements)
+    statics, rest = Statics(tree), Statics(tree).flat()
+    for part in np.linspace(0, 1, 9):
+        rest = statics.equilibrium(part * pressures, rest)
+    height, _, pitch, roll = simulation.walk().coordinates[-1, 2:6]
+    assert height == pytest.approx(rest.q[2], rel=0.03)
+    assert pitch == pytest.approx(rest.q[4], rel=0.03)
+    assert roll == pytest.approx(rest.q[5], rel=0.03)
+
+
+def test_half_the_step_and_half_the_links_change_it_little(walks):
+    fine = simulate(scene("felt"), TreeNumerics(timestep=0.02, elements=8))
+    assert fine.displacement[0] == pytest.approx(walks["felt"].displacement[0], rel=0.03)
+
+
+def test_every_place_resists_by_its_bound_at_most(monkeypatch):
+    excess = []
+    before = Grips.before_step
+
+    def watch(self, pressures):
+        data = self._data
+        for tendon, force in zip(data.efc_id[: data.nf], data.efc_force[: data.nf], strict=True):
+            rows, _ = self._by_tendon[int(tendon)]
+            excess.append(abs(force) - rows.bound)
+        before(self, pressures)
+
+    monkeypatch.setattr(Grips, "before_step", watch)
+    simulate(scene("polyethylene", 2.0), TreeNumerics(timestep=0.02, elements=4))
+    assert max(excess) < 1e-9
+
+
+def test_steps_of_a_controller_are_those_of_the_gait():
+    own = scene(ramp=1.0)
+    numerics = TreeNumerics(timestep=0.02, elements=4)
+    peak = own.robot.peak_pressure
+    simulation = TreeSimulation(own, numerics)
+    by_gait = simulation.run()
+
+    time = numerics.timestep * np.arange(1.0, round(own.gait.period / numerics.timestep) + 1)
+    rows = peak * own.gait.fractions(time)
+
+    def policy(observation):
+        return rows[round(observation.time / numerics.timestep)]
+
+    by_policy = simulation.run(policy)
+    assert by_policy.coordinates == pytest.approx(by_gait.coordinates, abs=1e-9)
+
+
+def test_a_step_too_long_is_reported_and_no_number_made_of_it():
+    walk = simulate(scene("felt"), TreeNumerics(timestep=0.08))
+    assert walk.status in (Status.TOPPLED, Status.DIVERGED)
+
+
+def test_what_cannot_be_is_refused_in_one_line():
+    with pytest.raises(ValueError, match="must be even, got 5"):
+        TreeNumerics(elements=5)
+    with pytest.raises(ValueError, match="timestep must be at most 0.1 s"):
+        TreeNumerics(timestep=0.2)
+    with pytest.raises(ValueError, match="so that the shortest ramp of 0.1 s has 4 steps"):
+        TreeSimulation(scene(ramp=0.1), TreeNumerics(timestep=0.05))
+    with pytest.raises(ValueError, match="adhesion of surface"):
+        TreeScene(ground=replace(SURFACES["felt"], name="tape", adhesion=0.1))
+    with pytest.raises(ValueError, match="must be 5 finite numbers"):
+        TreeSimulation(scene(), NUMERICS).step([0.0, 1.0])
