@@ -10,8 +10,7 @@ from mjsim.io.cli import fail, parse
 from mjsim.io.files import check_folder
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.options import SceneOptions, tables_of
-from mjsim.scene.tables import Tables, build
-from mjsim.tree.tables import build_tree, of_limbs
+from mjsim.scene.tables import Tables, build, build_ground, of_limbs
 from mjsim.video import gl
 
 PROGRAM = "python -m mjsim.export"
@@ -41,6 +40,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     gl.prepare()
     from mjsim.mjcf.standalone import write
     from mjsim.tree.standalone import write as write_limbs
+    from mjsim.tree.tables import build_tree
 
     try:
         tables = tables_of(options)
@@ -74,7 +74,7 @@ def _quadrupeds() -> Iterator[tuple[str, Tables]]:
 
 def _named(tables: Sequence[Tables] = ()) -> Iterator[tuple[str, Tables]]:
     for own in tables:
-        yield f"limbs-{build_tree(own)[0].ground.name}", own
+        yield f"limbs-{build_ground(own.get('ground', {})).name}", own
 
 
 def documents() -> Iterator[tuple[str, Scene, Numerics]]:

@@ -3,7 +3,7 @@
 import os
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mjsim.io.cli import FAILED, fail, parse
@@ -11,6 +11,7 @@ from mjsim.io.files import check_folder
 from mjsim.video import gl
 
 PROGRAM = "python -m mjsim.gallery"
+_LEFT, _RAMP, _STEP = 0.7, 8.0, 0.04  # of the quadruped: left pressure, s, s
 
 
 @dataclass(frozen=True)
@@ -18,7 +19,8 @@ class Options:
     """Walk one cycle on each named surface and film it.
 
     Writes a video a surface, one of all, and a picture of the start and the end of the cycle on
-    each. Exit code 0: done; 2: bad input; 3: nothing here can render.
+    each; then the quadruped, a video of a gait that turns it and a picture of its stages. Exit
+    code 0: done; 2: bad input; 3: nothing here can render.
     """
 
     out: Path = Path("docs")
@@ -48,7 +50,23 @@ def main(argv: Sequence[str] | None = None) -> int:
     film(walks, paths, options.out / "all.mp4")
     poster(walks).save(options.out / "surfaces.jpg", quality=85)
     print(*paths, options.out / "all.mp4", options.out / "surfaces.jpg", sep="\n")
+    _quadruped(options.out)
     return 0
+
+
+def _quadruped(out: Path) -> None:
+    from analytic.surface import SURFACES
+    from analytic.tree.gaits import undulation
+    from mjsim.tree.film import film, stages
+    from mjsim.tree.scene import TreeNumerics, TreeScene
+    from mjsim.tree.simulation import simulate
+
+    gait = replace(undulation("wave", left=_LEFT), ramp_time=_RAMP)
+    scene = TreeScene(gait=gait, ground=SURFACES["gelatin"])
+    walk = simulate(scene, TreeNumerics(timestep=_STEP))
+    film([walk], [out / "quadruped.mp4"])
+    stages(walk).save(out / "quadruped.jpg", quality=85)
+    print(out / "quadruped.mp4", out / "quadruped.jpg", sep="\n")
 
 
 if __name__ == "__main__":

@@ -16,8 +16,7 @@ from mjsim.io.files import check_folder
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.auto import check_tolerance
 from mjsim.scene.options import SceneOptions, tables_of
-from mjsim.scene.tables import Tables, build
-from mjsim.tree.tables import build_tree, of_limbs
+from mjsim.scene.tables import Tables, build, of_limbs
 
 if TYPE_CHECKING:
     from mjsim.simulation.trajectory import Trajectory
@@ -107,6 +106,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _walk_limbs(tables: list[Tables], options: Options) -> int:
     if options.tolerance is not None:
         raise ValueError(f"tolerance is for strips, got {options.tolerance!r}")
+    from mjsim.tree.tables import build_tree
+
     cases = [build_tree(table) for table in tables]
     check_folder(options.out)
     from mjsim.video import gl

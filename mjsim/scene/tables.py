@@ -109,17 +109,21 @@ def merged(*layers: Tables) -> Tables:
     return result
 
 
+def of_limbs(tables: Tables) -> bool:
+    """Whether a scene's robot is one of limbs, see mjsim.tree.tables."""
+    return bool({*LIMBS["robot"]} & tables.get("robot", {}).keys())
+
+
 def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
     """The scene and the numerics of tables.
 
     Raises:
         ValueError: a value cannot be; the message names its table and key.
     """
-    for key in LIMBS["robot"]:
-        if key in tables.get("robot", {}):
-            raise ValueError(
-                f"{where}[robot] {key}: a robot of limbs walks by mjsim.run and mjsim.export alone"
-            )
+    if of_limbs(tables):
+        raise ValueError(
+            f"{where}[robot] a robot of limbs walks by mjsim.run and mjsim.export alone"
+        )
     robot = make(Robot, tables.get("robot", {}), f"{where}[robot] ")
     gait, highest = _gait_of(tables.get("gait", {}), f"{where}[gait] ", len(robot.segments))
     if highest is not None:

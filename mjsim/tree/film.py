@@ -55,6 +55,15 @@ def _draw(walk: TreeWalk, path: Path) -> None:
             video.add_image(camera.frame(float(time)))
 
 
+def stages(walk: TreeWalk) -> Image.Image:
+    """A picture of four stages of the gait, in the order of reading."""
+    times = np.cumsum(walk.scene.gait.ramp_times)[:4]
+    with Camera(walk) as camera:
+        frames = [camera.frame(float(time)).copy() for time in times]
+    rows = [np.hstack(frames[i : i + 2]) for i in (0, 2)]
+    return Image.fromarray(np.vstack(rows)).resize((WIDTH, HEIGHT))
+
+
 class Camera:
     """Draws one walk; close it, or use it in a `with`, as it holds an OpenGL context.
 

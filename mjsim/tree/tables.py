@@ -32,12 +32,6 @@ _OWN = ("length", "width", "mass", "weight_per_length", "segments")  # that the 
 _SCENE = ("cycles", "friction", "gravity", "settle_time")
 
 
-def of_limbs(tables: Tables) -> bool:
-    """Whether a scene's robot is one of limbs."""
-    robot = tables.get("robot", {})
-    return "limbs" in robot or "name" in robot
-
-
 def build_tree(tables: Tables, where: str = "") -> tuple[TreeScene, TreeNumerics]:
     """The scene and the numerics of tables.
 
