@@ -16,7 +16,8 @@ _COLUMNS = {  # where a package is drawn: column, row
     "mjsim.sweeps": (5.7, 3.95), "mjsim.env": (6, 3.2), "mjsim.control": (5.6, 2.9),
     "mjsim.optimising": (6, 1.4),
     "mjsim.video": (5, 3.4),
-    "mjsim.tree": (6, 0.55), "mjsim.live": (5, 2.3), "mjsim.page": (4.4, 1.5), "mjsim": (5, 1.0), "mjsim.studies": (6, 2.2),
+    "mjsim.tree": (6, 0.55), "mjsim.live": (5, 2.3), "mjsim.page": (4.4, 1.5),
+    "mjsim": (5, 1.0), "mjsim.studies": (6, 2.2),
 }  # fmt: skip
 _LABEL = {
     "mjsim": "commands\nrun fit view compare\nsweep analysis optimise\n"

@@ -2,12 +2,14 @@
 
 import importlib.util
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from analytic.friction import LAWS
+from analytic.tree.gaits import undulation
 from mjsim import registry
 
 FOLDER = Path(__file__).resolve().parent.parent / "examples"
@@ -185,6 +187,29 @@ def test_the_table_of_an_inchworm_is_read_by_its_command(tmp_path, monkeypatch, 
     printed = capsys.readouterr().out.splitlines()
     assert [line.split(",")[0] for line in printed[-2:]] == ["felt", "ice"]
     assert (tmp_path / "out" / "inchworm.png").stat().st_size > 5000
+
+
+def test_gaits_are_searched_one_leg_at_a_time_and_mirrored_to_turn_on_the_spot(monkeypatch):
+    of = module_of("quadruped_gaits")
+    crawls = of.crawls()
+    assert len({gait.stages for gait in crawls}) == len(crawls) == 12 * 8  # less mirror images
+    for gait in crawls:
+        legs = np.array(gait.stages)[:, 1:]
+        assert legs.sum(axis=1).max() == 1  # never two at a time
+        assert (legs.max(axis=0) == 1).all()
+    monkeypatch.setattr(of, "walked", lambda gait, surface: (float("nan"), -len(gait.name)))
+    found = of.main(("felt",))
+    assert found["felt", "turns"][0].name.startswith("spin-full-wave")
+    assert np.isnan(found["felt", "crawls"][1])
+
+
+@pytest.mark.slow
+def test_a_gait_then_its_mirror_image_backwards_turns_on_the_spot():
+    of = module_of("quadruped_gaits")
+    ahead, turn = of.walked(of.on_the_spot("wave", 0.3, of.RAMP), "gelatin")
+    alone, half = of.walked(replace(undulation("wave", left=0.3), ramp_time=of.RAMP), "gelatin")
+    assert turn == pytest.approx(2 * half, rel=0.05)
+    assert abs(ahead) < 0.2 * abs(alone)
 
 
 def test_every_example_is_tested():

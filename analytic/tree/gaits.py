@@ -42,4 +42,21 @@ def undulation(gait: Gait | str = "wave", left: float = 1.0, right: float = 1.0)
     return replace(own, name=name, stages=stages)
 
 
-QUADRUPED_GAITS: dict[str, Gait] = {}  # of ORDER, by their names
+def on_the_spot(gait: str = "wave", part: float = 0.3, ramp_time: float = 2.0) -> Gait:
+    """Turning on the spot: a cycle with the left legs pressed less, its mirror image backwards.
+
+    Where friction is slow, a gait backwards takes the robot back; with its sides exchanged it turns
+    it the other way. Both together take it back and turn it on.
+
+    Args:
+        gait: name of a strip's gait of three segments.
+        part: of the pressure that the legs of the weaker side get.
+        ramp_time: s.
+    """
+    there = undulation(gait, left=part)
+    back = undulation(gait, right=part).reversed()
+    return Gait(f"spin-{gait}-{part:g}", (*there.stages, *back.stages[1:]), ramp_time)
+
+
+# turns most, of undulations and parts in steps of 0.1: examples/quadruped_gaits.py
+QUADRUPED_GAITS = {"spin": replace(on_the_spot(), name="spin")}  # of ORDER, by their names

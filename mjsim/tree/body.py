@@ -9,6 +9,7 @@ at each step, are the Jacobian of the place that is held.
 import mujoco
 import numpy as np
 
+from analytic import pneunet
 from analytic.chain import joint_springs, link_lengths
 from analytic.tree.limbs import TreeRobot
 from mjsim.bodies.parts import PREFIX
@@ -18,7 +19,26 @@ from mjsim.tree.scene import TreeNumerics, TreeScene
 ROOT = ("x", "y", "z", "yaw", "pitch", "roll")
 _THIN = 1e-9  # MuJoCo wants A + B >= C of inertias, of which a plate has A + B = C
 _NO_BOUND = 1e-12  # N; without any bound a tendon would get no row to be given one
+_TOWARDS = 3.0  # times the centripetal acceleration that contacts yield to; measured
+_SOFTEST = 0.1  # beyond, limbs sink in as they walk; chosen
 _FIRM = (0.001, 1.0), (0.9999, 0.9999, 0.001)  # nearly without creep
+
+
+def softness(scene: TreeScene, numerics: TreeNumerics) -> float:
+    """Part of an acceleration that contacts yield to: 1 - d of MuJoCo's impedance d.
+
+    MuJoCo holds J a at a contact, where the ground stops J a + J' v: a limb that turns about it at
+    a rate v / r would leave it by v^2 / r, unless the contact yields by more than that to gravity.
+    """
+    pressures = scene.robot.peak_pressure * np.array(scene.gait.stages)
+    rates = np.abs(np.diff(pressures, axis=0)) / np.array(scene.gait.ramp_times)[:, None]
+    swift = 0.0
+    for limb, rate in zip(scene.robot.limbs, rates.max(axis=0).tolist(), strict=True):
+        length = limb.strip.length
+        turning = pneunet.curvature_per_pressure(limb.strip) * length * rate  # of an end [rad/s]
+        swift = max(swift, 0.5 * length * float(turning) ** 2)
+    return min(numerics.contact_softness + _TOWARDS * swift / scene.gravity,
+               max(_SOFTEST, numerics.contact_softness))  # fmt: skip
 
 
 def limb_body(limb: str, link: int) -> str:
@@ -42,6 +62,10 @@ def tree_spec(
             heading = scene.robot.limbs[scene.robot.place(limb.on)].angle
         first, last, length = _chain(scene, numerics, i, carrier, along, limb.angle - heading)
         ends[limb.name] = {"begin": (first, 0.0), "end": (last, length)}
+    firmness = 1.0 - softness(scene, numerics)
+    for geom in spec.geoms:
+        if "_pad_" in geom.name:
+            geom.solimp[:3] = firmness, firmness, 0.001
     for number in range(len(scene.robot.limbs) if held else 0):
         for place in range(places_of(scene.robot, number)):
             for direction in (0, 1):
@@ -119,7 +143,6 @@ def _add_pads(
         pad.size[0], pad.mass, pad.group = numerics.pad_radius, 0.0, 3
         pad.contype, pad.conaffinity, pad.priority, pad.condim = 1, 0, 1, 1
         pad.solref[:] = numerics.contact_time * numerics.timestep, 1.0
-        pad.solimp[:3] = 0.999, 0.999, 0.001
 
 
 def _add_row(

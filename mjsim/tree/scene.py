@@ -80,9 +80,11 @@ class TreeNumerics:
     """time step [s]; chosen"""
     damping_time: float = 0.005
     """joint damping over joint stiffness [s]; chosen"""
-    contact_time: float = 4.0
-    """time constant of contacts, critically damped [timestep]; chosen: with less, steep tips
-    hop"""
+    contact_time: float = 2.0
+    """time constant of contacts, critically damped [timestep]; chosen"""
+    contact_softness: float = 0.005
+    """part of an acceleration that contacts yield to, of slow gaits; chosen: with less, limbs that
+    turn fast are thrown; faster gaits get more"""
     pad_radius: float = 1e-3
     """of the contact pads, centred on the neutral line [m]; chosen"""
     tie_time: float = 0.1
@@ -96,6 +98,8 @@ class TreeNumerics:
         for item in fields(self):
             if item.name != "elements":
                 positive(item.name, getattr(self, item.name))
+        if self.contact_softness >= 1:
+            raise ValueError(f"contact_softness must be below 1, got {self.contact_softness!r}")
         if self.timestep > LONGEST_STEP:
             raise ValueError(f"timestep must be at most {LONGEST_STEP} s, got {self.timestep!r}")
 
