@@ -11,7 +11,8 @@ from mjsim.io.files import check_folder
 from mjsim.video import gl
 
 PROGRAM = "python -m mjsim.gallery"
-_LEFT, _RAMP, _STEP = 0.7, 8.0, 0.04  # of the quadruped: left pressure, s, s
+_LEFT, _RAMP, _STEP = 0.7, 8.0, 0.02  # of the quadruped: left pressure, s, s
+_SPINS = 3  # cycles of turning on the spot
 
 
 @dataclass(frozen=True)
@@ -19,8 +20,8 @@ class Options:
     """Walk one cycle on each named surface and film it.
 
     Writes a video a surface, one of all, and a picture of the start and the end of the cycle on
-    each; then the quadruped, a video of a gait that turns it and a picture of its stages. Exit
-    code 0: done; 2: bad input; 3: nothing here can render.
+    each; then the quadruped, a video a surface, one of a gait that turns it, one of turning on
+    the spot, and a picture of stages. Exit code 0: done; 2: bad input; 3: nothing here can render.
     """
 
     out: Path = Path("docs")
@@ -56,17 +57,25 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _quadruped(out: Path) -> None:
     from analytic.surface import SURFACES
-    from analytic.tree.gaits import undulation
+    from analytic.tree.gaits import QUADRUPED_GAITS, undulation
     from mjsim.tree.film import film, stages
     from mjsim.tree.scene import TreeNumerics, TreeScene
     from mjsim.tree.simulation import simulate
 
-    gait = replace(undulation("wave", left=_LEFT), ramp_time=_RAMP)
-    scene = TreeScene(gait=gait, ground=SURFACES["gelatin"])
-    walk = simulate(scene, TreeNumerics(timestep=_STEP))
-    film([walk], [out / "quadruped.mp4"])
-    stages(walk).save(out / "quadruped.jpg", quality=85)
-    print(out / "quadruped.mp4", out / "quadruped.jpg", sep="\n")
+    turning = replace(undulation("wave", left=_LEFT), ramp_time=_RAMP)
+    scenes = {
+        f"quadruped_{name}": TreeScene(gait=replace(undulation("wave"), ramp_time=_RAMP),
+                                       ground=surface)
+        for name, surface in SURFACES.items()
+    }  # fmt: skip
+    scenes["quadruped_turn"] = TreeScene(gait=turning, ground=SURFACES["gelatin"])
+    spin = replace(QUADRUPED_GAITS["spin"], ramp_time=_RAMP)
+    scenes["quadruped_spin"] = TreeScene(gait=spin, ground=SURFACES["gelatin"], cycles=_SPINS)
+    walks = [simulate(scene, TreeNumerics(timestep=_STEP)) for scene in scenes.values()]
+    paths = [out / f"{name}.mp4" for name in scenes]
+    film(walks, paths)
+    stages(walks[-2]).save(out / "quadruped.jpg", quality=85)
+    print(*paths, out / "quadruped.jpg", sep="\n")
 
 
 if __name__ == "__main__":

@@ -7,11 +7,14 @@ from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import imageio_ffmpeg
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
+from analytic.tree.kinematics import Tree
 from analytic.tree.limbs import outline
 from mjsim.bodies.parts import DARK, PALE
 from mjsim.io.files import whole
@@ -19,9 +22,14 @@ from mjsim.tree.walk import TreeWalk
 from mjsim.video.overlay import BLUE, INK, font
 from mjsim.video.recording import FPS, HEIGHT, LEAD, TAIL, WIDTH, Frame
 
+Array = NDArray[np.float64]
+
 _QUALITY = 29  # x264's constant rate factor: 12 s stay under 500 KB
 _BAND, _WHITE = 118, 0.75  # lines behind the words, and how white they are
 _LONGEST = 12.0  # s of a video; slower walks are shown faster
+_INSET, _FRAME = (198, 352), 3  # lines and columns of the view from above; lines around it
+_DOTS = 160  # of a track at most
+_RED, _BLUE = (0.78, 0.12, 0.10, 1.0), (0.10, 0.30, 0.75, 1.0)
 
 
 def film(walks: Sequence[TreeWalk], paths: Sequence[Path]) -> None:
@@ -75,13 +83,16 @@ class Camera:
     def __init__(self, walk: TreeWalk, faster: float = 1.0) -> None:
         import mujoco
 
-        from mjsim.tree.look import CAMERA, Look
+        from mjsim.tree.look import CAMERA, OVERHEAD, Look
 
         self._walk, self._faster = walk, faster
         reach = float(np.abs(walk.coordinates[:, :2]).max()) + 3 * walk.length
         self._look = Look(walk.scene, walk.numerics, reach)
-        self._renderer = mujoco.Renderer(self._look.model, HEIGHT, WIDTH)
-        self._options, self._name = mujoco.MjvOption(), CAMERA
+        self._views = {
+            CAMERA: mujoco.Renderer(self._look.model, HEIGHT, WIDTH),
+            OVERHEAD: mujoco.Renderer(self._look.model, *_INSET),
+        }
+        self._options, self._track = mujoco.MjvOption(), _track(walk)
         self._options.geomgroup[3] = False  # contact pads
         self._options.flags[mujoco.mjtVisFlag.mjVIS_TENDON] = False
         self._shown, self._frame = -1, np.empty(0, np.uint8)
@@ -93,8 +104,9 @@ class Camera:
         self.close()
 
     def close(self) -> None:
-        """Free the OpenGL context."""
-        self._renderer.close()
+        """Free the OpenGL contexts."""
+        for renderer in self._views.values():
+            renderer.close()
 
     def frame(self, time: float) -> Frame:
         """The walk at a time, shape (height, width, 3)."""
@@ -103,27 +115,46 @@ class Camera:
         if step != self._shown:
             peak = walk.scene.robot.peak_pressure
             self._look.pose(walk.coordinates[step], walk.pressure[step] / peak)
-            self._renderer.update_scene(self._look.data, self._name, self._options)
-            self._trace(step)
-            self._shown, self._frame = step, _written(walk, self._renderer.render(), step,
-                                                      self._faster)  # fmt: skip
+            large, small = (self._view(name, step) for name in self._views)
+            frame = _written(walk, large, step, self._faster)
+            lines, columns = _INSET
+            frame[-lines - 2 * _FRAME :, : columns + 2 * _FRAME] = INK
+            frame[-lines - _FRAME : -_FRAME, _FRAME : columns + _FRAME] = small
+            self._shown, self._frame = step, frame
         return self._frame
 
-    def _trace(self, step: int) -> None:
-        """The way of the trunk's beginning so far, and its start, as dots on the ground."""
+    def _view(self, name: str, step: int) -> Frame:
+        renderer = self._views[name]
+        renderer.update_scene(self._look.data, name, self._options)
+        self._trace(renderer.scene, step)
+        return renderer.render().copy()
+
+    def _trace(self, scene: Any, step: int) -> None:
+        """Where the ends of the limbs have been, and where they began, as dots on the ground."""
         import mujoco
 
-        walk, scene = self._walk, self._renderer.scene
-        rows = np.unique(np.linspace(walk.start, step, 80).astype(int))
-        size = 0.006 * walk.length
-        red, blue = (0.78, 0.12, 0.10, 1.0), (0.10, 0.30, 0.75, 1.0)
-        for row in rows:
-            place = np.array([*walk.coordinates[row, :2], 0.3 * size])
-            colour = np.array(red if row == walk.start else blue, dtype=np.float32)
-            big = np.array([size * (1.6 if row == walk.start else 1.0)] * 3)
-            mujoco.mjv_initGeom(scene.geoms[scene.ngeom], mujoco.mjtGeom.mjGEOM_SPHERE, big, place,
-                                np.eye(3).ravel(), colour)  # fmt: skip
+        size = 0.005 * self._walk.length
+        steps, places = self._track
+        count = int(np.searchsorted(steps, step, side="right"))
+        for place in places[:count].reshape(-1, 2)[::-1]:
+            start = bool((place == places[0]).all(axis=1).any())
+            big = np.array([size * (1.6 if start else 1.0)] * 3)
+            mujoco.mjv_initGeom(scene.geoms[scene.ngeom], mujoco.mjtGeom.mjGEOM_SPHERE, big,
+                                np.array([*place, 0.3 * size]), np.eye(3).ravel(),
+                                np.array(_RED if start else _BLUE, dtype=np.float32))  # fmt: skip
             scene.ngeom += 1
+
+
+def _track(walk: TreeWalk) -> tuple[Array, Array]:
+    """Steps of a walk, (S,), and the ends of its outer limbs in plan at them, (S, E, 2) [m]."""
+    robot, elements = walk.scene.robot, walk.numerics.elements
+    tree, carriers = Tree(robot, elements), {limb.on for limb in robot.limbs}
+    outer = [i for i, limb in enumerate(robot.limbs) if limb.name not in carriers]
+    last = [i * (elements + 2) + elements + 1 for i in outer]
+    steps = np.unique(np.linspace(walk.start, len(walk.time) - 1, _DOTS).astype(int))
+    nodes = np.array([tree.pose(walk.coordinates[step]).nodes for step in steps])
+    middle = 0.5 * (nodes[:, : nodes.shape[1] // 2] + nodes[:, nodes.shape[1] // 2 :])
+    return steps, middle[:, last, :2]
 
 
 def _written(walk: TreeWalk, frame: Frame, step: int, faster: float) -> Frame:
@@ -150,7 +181,7 @@ def _written(walk: TreeWalk, frame: Frame, step: int, faster: float) -> Frame:
     )):  # fmt: skip
         pen.text((right, 18 + line * 30), text, font=letters, fill=BLUE if line else INK,
                  anchor="ra")  # fmt: skip
-    return np.asarray(picture)
+    return np.array(picture)
 
 
 def _plan(pen: ImageDraw.ImageDraw, walk: TreeWalk, step: int, centre: tuple[int, int]) -> None:

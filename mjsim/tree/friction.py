@@ -32,6 +32,7 @@ _STIFFER = (
 _VISCOUS = 100.0  # b dt; chosen
 _SOFTEST, _FIRMEST = 1e-4, 0.9999  # what MuJoCo takes of a row's firmness
 _AHEAD = (1.0, 0.0)
+_FAINT = 0.005  # of all bounds, that viscosity adds at most; chosen
 _STANDS = 1e-9  # m/s; N: no place is held by less
 _POINT = 1e-8  # m^2; places that are closer do not tell a turn
 
@@ -176,7 +177,6 @@ class Grips:
         self._turn()
         for rows in self._held:
             rows.release()
-        share = self._viscosity / max(sum(len(contact.at) for contact in self.contacts), 1)
         applied = np.zeros(model.nv)
         for contact, at, rows in self._places():
             starts = self._starts[contact.limb]
@@ -187,11 +187,22 @@ class Grips:
                 pace = math.hypot(*rows.velocity)
                 rows.way = (rows.velocity[0] / pace, rows.velocity[1] / pace) if pace else _AHEAD
             rows.hold(*self._finder.resistance(contact, self._ground.at(rows.place[0])))
+            held.append(rows)
+        share = self._viscous(held)
+        for rows in held:
             u, v = rows.velocity
             applied -= (share * u) * rows.jacobian[0] + (share * v) * rows.jacobian[1]
-            held.append(rows)
         data.qfrc_applied[:] = applied
         self._held = held
+
+    def _viscous(self, held: list[Rows]) -> float:
+        """Resistance of each place to what the bounds leave open [N s/m]."""
+        bound = sum(rows.bound for rows in held)
+        pace = max((math.hypot(*rows.velocity) for rows in held), default=0.0)
+        whole = self._viscosity
+        if bound > 0.0:
+            whole = min(whole, _FAINT * bound / max(pace, _STANDS))
+        return whole / max(len(held), 1)
 
     def _rest(self) -> Rest:
         data = self._data

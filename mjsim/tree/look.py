@@ -15,10 +15,11 @@ from mjsim.video.skin import PALE_SKIN, segment_skin
 
 Array = NDArray[np.float64]
 
-CAMERA = "above"
+CAMERA, OVERHEAD = "above", "overhead"
 _MARGIN = 0.25  # of the length that the robot may go before the camera follows
 _SWOLLEN = 0.15  # of its height, that a limb at full pressure looks thicker by; chosen
 _PLACE, _FOV = (0.17, -2.4, 1.75), 18.5  # of the camera, from the trunk's beginning [L, degrees]
+_HIGH, _WIDE = 3.0, 16.0  # of the one straight above [L, degrees]
 
 
 class Look:
@@ -39,6 +40,7 @@ class Look:
             spec.delete(spec.geom(name))
         add_skins(spec, scene, numerics)
         add_camera(spec, scene)
+        _add_overhead(spec, scene)
         self.model = spec.compile()
         scale = length / Robot.length
         self.model.stat.extent *= scale
@@ -47,8 +49,9 @@ class Look:
                 self.model.geom_size[i, :2] = np.maximum(self.model.geom_size[i, :2], reach)
         strips = [limb.strip for limb in scene.robot.limbs]
         self._thickness = [strip.thickness + strip.chamber_height for strip in strips]
-        self._length, self._camera = length, self.model.camera(CAMERA).id
-        self._from = self.model.cam_pos[self._camera, :2].copy()
+        self._length = length
+        self._cameras = [self.model.camera(name).id for name in (CAMERA, OVERHEAD)]
+        self._from = self.model.cam_pos[self._cameras, :2].copy()
         self.data = mujoco.MjData(self.model)
         joints = [self.model.joint(n) for n in hinge_names(scene.robot, numerics.elements)]
         self._order = np.array([*range(len(ROOT)), *(int(j.qposadr[0]) for j in joints)])
@@ -62,7 +65,7 @@ class Look:
         """
         self.data.qpos[self._order] = coordinates
         gone = coordinates[:2]
-        self.model.cam_pos[self._camera, :2] = self._from + np.sign(gone) * np.maximum(
+        self.model.cam_pos[self._cameras, :2] = self._from + np.sign(gone) * np.maximum(
             np.abs(gone) - _MARGIN * self._length, 0.0
         )
         mujoco.mj_kinematics(self.model, self.data)
@@ -80,6 +83,14 @@ def add_camera(spec: mujoco.MjSpec, scene: TreeScene) -> None:
     camera.pos = np.multiply(_PLACE, outline(scene.robot)[0])
     half = 0.5 * np.arctan2(-_PLACE[1], _PLACE[2])  # from straight down to the robot
     camera.quat = (np.cos(half), np.sin(half), 0.0, 0.0)
+
+
+def _add_overhead(spec: mujoco.MjSpec, scene: TreeScene) -> None:
+    """A camera straight above the middle of the robot, ahead to the right of the picture."""
+    length = outline(scene.robot)[0]
+    camera = spec.worldbody.add_camera(name=OVERHEAD, fovy=_WIDE)
+    middle = np.mean([place[:2] for place in ends(scene).values()], axis=0)
+    camera.pos = (*middle, _HIGH * length)
 
 
 def add_skins(spec: mujoco.MjSpec, scene: TreeScene, numerics: TreeNumerics) -> None:
@@ -106,6 +117,17 @@ def add_skins(spec: mujoco.MjSpec, scene: TreeScene, numerics: TreeNumerics) -> 
 
 def _lengths(scene: TreeScene, limb: str, numerics: TreeNumerics) -> Array:
     return link_lengths(scene.robot.limbs[scene.robot.place(limb)].strip, numerics.elements)
+
+
+def ends(scene: TreeScene) -> dict[str, Array]:
+    """Where each limb that carries no other ends, lying flat [m]."""
+    carriers = {limb.on for limb in scene.robot.limbs}
+    begins = origins(scene)
+    return {
+        limb.name: begins[limb.name]
+        + limb.strip.length * np.array([np.cos(limb.angle), np.sin(limb.angle), 0.0])
+        for limb in scene.robot.limbs if limb.name not in carriers
+    }  # fmt: skip
 
 
 def origins(scene: TreeScene) -> dict[str, Array]:

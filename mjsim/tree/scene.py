@@ -82,14 +82,14 @@ class TreeNumerics:
     """joint damping over joint stiffness [s]; chosen"""
     contact_time: float = 2.0
     """time constant of contacts, critically damped [timestep]; chosen"""
-    contact_softness: float = 0.005
+    contact_softness: float = 0.008
     """part of an acceleration that contacts yield to, of slow gaits; chosen: with less, limbs that
     turn fast are thrown; faster gaits get more"""
     pad_radius: float = 1e-3
     """of the contact pads, centred on the neutral line [m]; chosen"""
     tie_time: float = 0.1
-    """in which motion that no bound holds dies down, by viscosity at all contacts alike [s];
-    chosen"""
+    """in which motion that no bound holds dies down, by viscosity at all contacts alike, which is
+    faint where some are bound [s]; chosen"""
 
     def __post_init__(self) -> None:
         whole("elements", self.elements, 2)
