@@ -4,7 +4,7 @@
 
 Pressures of torso and legs, sides and ends unlike, gait and its order, ground and friction law are
 drawn; 8 s a ramp. Prints a line a scene and how many agree within 5 % or 0.004 L and within 5 % or
-0.5 degrees; then what half the links and half the step change.
+0.5 degrees; then what half the links and a third of the step change.
 """
 
 import sys
@@ -21,8 +21,8 @@ from analytic.tree.prediction import predict
 from mjsim.tree.scene import TreeNumerics, TreeScene
 from mjsim.tree.simulation import simulate
 
-NUMERICS = TreeNumerics(timestep=0.04)
-FINE = TreeNumerics(timestep=0.02, elements=12)
+NUMERICS = TreeNumerics(timestep=0.03)
+FINE = TreeNumerics(timestep=0.01, elements=12)
 RAMP = 8.0  # s
 WITHIN, WITHIN_LENGTH, WITHIN_TURN = 0.05, 0.004, 0.5  # relative, L, degrees
 

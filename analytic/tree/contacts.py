@@ -57,7 +57,7 @@ class Contacts:
     def __init__(self, tree: Tree, law: str = "constant") -> None:
         self._tree, self._law = tree, LAWS[law]
         robot = tree.robot
-        self._up = [_ripple(limb.strip, tree.elements) for limb in robot.limbs]
+        self._up = [ripple(limb.strip, tree.elements) for limb in robot.limbs]
         self._per_limb = tree.elements + 2
         at_place: dict[tuple[str | None, str], float] = {}
         for limb in robot.limbs:
@@ -228,7 +228,8 @@ def _free_ends(robot: TreeRobot, limb: int) -> tuple[str, ...]:
     return tuple(end for end in ends if end not in taken)
 
 
-def _ripple(strip: Robot, elements: int) -> float:
+def ripple(strip: Robot, elements: int) -> float:
+    """Height to which a limb that lies flat ripples between its nodes [m]."""
     spacing = strip.length / elements
     unit = strip.weight_per_length * strip.length * spacing**3 / pneunet.base_rigidity(strip)
     return _RIPPLE * unit * 4  # wider links are four thirds of an element

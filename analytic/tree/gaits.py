@@ -58,5 +58,14 @@ def on_the_spot(gait: str = "wave", part: float = 0.3, ramp_time: float = 2.0) -
     return Gait(f"spin-{gait}-{part:g}", (*there.stages, *back.stages[1:]), ramp_time)
 
 
-# turns most, of undulations and parts in steps of 0.1: examples/quadruped_gaits.py
-QUADRUPED_GAITS = {"spin": replace(on_the_spot(), name="spin")}  # of ORDER, by their names
+# a leg at a time, each rear one with the torso after it, across to the other side: of all orders
+# that which goes farthest, on felt and on gelatin alike (examples/quadruped_gaits.py)
+_CRAWL = ("rear-left", "rear-left torso", "front-right", "rear-right", "rear-right torso",
+          "front-left")  # fmt: skip
+_PRESSED = tuple(tuple(float(limb in words.split()) for limb in ORDER) for words in _CRAWL)
+
+QUADRUPED_GAITS = {
+    "spin": replace(on_the_spot(), name="spin"),
+    "crawl": Gait("crawl", ((0.0,) * 5, *_PRESSED, (0.0,) * 5)),
+}
+"""Gaits of the quadruped alone, in the order of its limbs, by their names."""

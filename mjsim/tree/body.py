@@ -6,11 +6,14 @@ pitch and roll. Friction is carried by fixed tendons over all coordinates: their
 at each step, are the Jacobian of the place that is held.
 """
 
+import math
+
 import mujoco
 import numpy as np
 
 from analytic import pneunet
 from analytic.chain import joint_springs, link_lengths
+from analytic.tree.contacts import ripple
 from analytic.tree.limbs import TreeRobot
 from mjsim.bodies.parts import PREFIX
 from mjsim.mjcf.builder import TOUCH
@@ -21,6 +24,9 @@ _THIN = 1e-9  # MuJoCo wants A + B >= C of inertias, of which a plate has A + B 
 _NO_BOUND = 1e-12  # N; without any bound a tendon would get no row to be given one
 _TOWARDS = 3.0  # times the centripetal acceleration that contacts yield to; measured
 _SOFTEST = 0.1  # beyond, limbs sink in as they walk; chosen
+# of softness times gravity times the square of the contacts' time: how deep a robot lies, measured;
+# and how much of the height of ripples that may be, which costs 3 % of the distance, measured
+_SINKS, _DEEPEST = 0.12, 0.27
 _FIRM = (0.001, 1.0), (0.9999, 0.9999, 0.001)  # nearly without creep
 
 
@@ -39,6 +45,18 @@ def softness(scene: TreeScene, numerics: TreeNumerics) -> float:
         swift = max(swift, 0.5 * length * float(turning) ** 2)
     return min(numerics.contact_softness + _TOWARDS * swift / scene.gravity,
                max(_SOFTEST, numerics.contact_softness))  # fmt: skip
+
+
+def longest_step(scene: TreeScene, numerics: TreeNumerics) -> float:
+    """Time step beyond which limbs sink in so deep that it matters [s].
+
+    Where that is not small beside the height to which a flat limb ripples between its nodes, the
+    ground's forces tell less well how much of it lies flat.
+    """
+    limbs = scene.robot.limbs
+    lowest = min(ripple(limb.strip, numerics.elements) for limb in limbs)
+    depth = _SINKS * softness(scene, numerics) * scene.gravity * numerics.contact_time**2
+    return math.sqrt(_DEEPEST * lowest / depth)
 
 
 def limb_body(limb: str, link: int) -> str:

@@ -8,10 +8,12 @@ import numpy as np
 from analytic.locomotion import direction
 from analytic.surface import Surface
 from analytic.tree.prediction import TreePrediction, predict
+from mjsim.tree.body import longest_step
 from mjsim.tree.walk import TreeWalk
 
 REFERENCE = "quasi-static"
 _MATTERS, _APART, _TURNED = 0.05, 2e-3, 0.2  # relative, L, degrees: less needs no word; chosen
+_ROUNDED = 1.01  # a step that was printed to two digits is short enough
 _FEET = 3  # that stand without falling
 _STATES = 20  # of the reference, for a change by the peak pressure
 
@@ -95,6 +97,9 @@ def _notes(walk: TreeWalk, row: dict[str, Any], found: TreePrediction | None) ->
         turned = abs(row["error_deg"]) > _TURNED + row["prediction_uncertainty_deg"]
         if much or (turned and abs(row["error_deg"]) > _MATTERS * abs(row["predicted_turn_deg"])):
             notes.append("inertia: a slower gait comes closer to the reference")
+    step = longest_step(walk.scene, walk.numerics)
+    if walk.numerics.timestep > step * _ROUNDED:
+        notes.append(f"limbs sink in too deep: take a timestep of at most {step:.2g} s")
     standing = np.mean(walk.contacts[walk.start :] < _FEET)
     if standing > 0:
         notes.append(f"on {row['fewest_limbs_on_ground']} limbs for {standing:.0%} of the time")

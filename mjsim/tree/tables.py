@@ -126,6 +126,10 @@ def build_gait(table: Table, where: str, robot: TreeRobot) -> Gait:
             raise ValueError(f"{where}stages must be given for limbs {', '.join(robot.names)}")
         for key in table:
             one_of(f"{where}key", key, ("name", "left", "right", "ramp_time", "reverse", "stages"))
+        if name in QUADRUPED_GAITS and sides:
+            raise ValueError(
+                f"{where}{next(iter(sides))} is for {', '.join(UNDULATIONS)}, not {name}"
+            )
         try:
             gait = QUADRUPED_GAITS[name] if name in QUADRUPED_GAITS else undulation(name, **sides)
         except ValueError as error:

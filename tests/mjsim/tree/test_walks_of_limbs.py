@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 
 from analytic.surface import SURFACES
+from analytic.tree.contacts import ripple
 from analytic.tree.gaits import undulation
 from analytic.tree.kinematics import Tree
 from analytic.tree.limbs import LENGTH, quadruped
 from analytic.tree.statics import Statics
 from analytic.tree.walk import walk as quasi_static
 from mjsim.simulation.status import Status
+from mjsim.tree.body import longest_step
 from mjsim.tree.friction import Grips
 from mjsim.tree.scene import TreeNumerics, TreeScene
 from mjsim.tree.simulation import TreeSimulation, simulate
@@ -153,3 +155,16 @@ def test_a_gait_of_two_seconds_a_ramp_goes_as_far_as_a_slow_one():
         walk = simulate(scene("felt", ramp=2.0), TreeNumerics(timestep=timestep))
         assert walk.contacts[walk.start :].min() >= 4
         assert walk.displacement[0] == pytest.approx(slow, rel=within)
+
+
+@pytest.mark.parametrize("elements", [4, 6])
+def test_it_sinks_in_by_a_quarter_of_its_ripples_at_the_longest_step(elements):
+    own = scene("felt")
+    longest = longest_step(own, TreeNumerics(elements=elements))
+    simulation = TreeSimulation(own, TreeNumerics(elements=elements, timestep=longest))
+    for _ in range(100):
+        simulation.step(np.zeros(5))
+    pads = simulation.model.geom_size[:, 0] == NUMERICS.pad_radius
+    deepest = NUMERICS.pad_radius - simulation.data.geom_xpos[pads, 2].min()
+    least = min(ripple(limb.strip, elements) for limb in own.robot.limbs)
+    assert 0.15 * least < deepest < 0.4 * least
