@@ -94,9 +94,9 @@ class SceneOptions:
     """felt, polyethylene, gelatin, several with commas between, or all: the three, and a video of
     them in step; felt if nothing is given"""
     gait: Annotated[str | None, _bare] = None
-    """wave, full-wave, pulse: the order in which the segments inflate; a .toml file with stages and
-    ramp_time; or a .csv file of measured pressures, time and one column a segment, units in the
-    heads"""
+    """wave, full-wave, pulse: the order in which the segments inflate; of the quadruped spin and
+    crawl too; a .toml file with stages and ramp_time; or a .csv file of measured pressures, time
+    and one column a segment, units in the heads"""
     reverse: bool = False
     """run the gait's stages backwards"""
     robot: Annotated[str | None, _bare] = None

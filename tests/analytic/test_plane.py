@@ -140,3 +140,35 @@ def test_without_any_bound_viscosity_decides_and_bad_input_is_named():
     assert found.shift == pytest.approx([-2e-3, 0.0])
     with pytest.raises(ValueError, match="need a place and a move"):
         least_dissipation_in_plane(np.ones(2), np.zeros((2, 3)), np.zeros((2, 2)))
+
+
+@settings(max_examples=40, deadline=None)
+@given(SEEDS)
+def test_a_film_alone_takes_the_weighted_least_squares_of_the_slips(seed):
+    drags, places, moves = draw(seed)
+    found = least_dissipation_in_plane(0 * drags, places, moves, drags)
+    count = len(drags)
+    lever = np.zeros((count, 2, 3))
+    lever[:, 0, 0] = lever[:, 1, 1] = 1.0
+    lever[:, 0, 2], lever[:, 1, 2] = -places[:, 1], places[:, 0]
+    root = np.sqrt(np.repeat(drags, 2))
+    exact = np.linalg.lstsq(
+        root[:, None] * lever.reshape(-1, 3), -root * moves.ravel(), rcond=None
+    )[0]
+    assert found.shift == pytest.approx(exact[:2], abs=1e-8)
+    assert found.turn == pytest.approx(exact[2], abs=1e-7)
+
+
+@settings(max_examples=40, deadline=None)
+@given(SEEDS)
+def test_a_film_beside_dry_friction_balances_its_forces(seed):
+    bounds, places, moves = draw(seed)
+    drags = np.random.default_rng(seed + 1).uniform(0.0, 1e3, len(bounds))
+    found = least_dissipation_in_plane(bounds, places, moves, drags)
+    pace = np.hypot(*found.slip.T)
+    if (pace < 1e-7).any():
+        return  # what holds bears any force within its bound
+    force = (bounds / pace + drags)[:, None] * found.slip
+    moment = places[:, 0] * force[:, 1] - places[:, 1] * force[:, 0]
+    assert force.sum(axis=0) == pytest.approx([0, 0], abs=1e-5)
+    assert moment.sum() == pytest.approx(0, abs=1e-6)

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analytic.surface import SURFACES
+from analytic.ground import Patches
+from analytic.surface import SHEAR_STRENGTH, SURFACES, TIP_FORCE, Surface
 from analytic.tree.contacts import ripple
 from analytic.tree.gaits import undulation
 from analytic.tree.kinematics import Tree
@@ -168,3 +169,19 @@ def test_it_sinks_in_by_a_quarter_of_its_ripples_at_the_longest_step(elements):
     deepest = NUMERICS.pad_radius - simulation.data.geom_xpos[pads, 2].min()
     least = min(ripple(limb.strip, elements) for limb in own.robot.limbs)
     assert 0.15 * least < deepest < 0.4 * least
+
+
+WET = Surface("wet", tip_force=TIP_FORCE, viscosity=2000.0)
+STICKY = Surface("sticky", 0.3 * TIP_FORCE, 0.2 * SHEAR_STRENGTH, viscosity=20000.0)
+SEAM = Patches("seam", (0.03,), (SURFACES["felt"], SURFACES["polyethylene"]))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ground", [WET, STICKY, SEAM], ids=lambda ground: ground.name)
+def test_on_wet_ground_and_over_a_seam_it_goes_and_turns_as_in_theory(ground):
+    own = replace(scene("felt", left=0.8), ground=ground)
+    walk = simulate(own, TreeNumerics(timestep=0.03))
+    found = quasi_static(own.robot, own.gait, ground, 16, 6)
+    off = np.hypot(*(walk.displacement - found.displacement))
+    assert off < max(0.05 * np.hypot(*found.displacement), 0.004 * LENGTH)
+    assert np.degrees(walk.turn) == pytest.approx(np.degrees(found.turn), abs=0.5)
