@@ -1,8 +1,9 @@
 """Where a tree of limbs touches the ground, how strongly that resists, and where it acts.
 
 As for the strip of [Majidi13], section 2.2: a limb whose free end is inflated touches by its tip,
-which resists by V_t; one without pressure lies on its side over a length that follows from the
-ground's forces (analytic.contact), which resists by tau times its area. A limb that lies flat as a
+which resists by V_t and bears all that pushes the limb; one without pressure lies on its side over a length that follows from the
+ground's forces (analytic.contact), which resists by tau times its area; a belly that touches in
+between is a side of no area. A limb that lies flat as a
 whole passes on to its carrier what its side does not carry. Limbs that begin at one place share
 the tip force of an end by their widths.
 """
@@ -27,6 +28,7 @@ Array = NDArray[np.float64]
 _RIPPLE = 0.2  # of w L h^3 / D0: how high a flat stretch ripples between nodes; as for a strip
 _POINTS = (0.5 - 12**-0.5, 0.5 + 12**-0.5)  # of a side: two that resist turning as all of it does
 _NEAR, _WHOLE = 2, 1e-9  # elements from an end that count as there; of a length: all of it
+_HARDLY = 1e-9  # of a length
 _TOUCHES = 1e-6  # of the weight: a node that pushes less hovers
 
 
@@ -133,8 +135,8 @@ class Contacts:
             if push > self._least and low < place < high:
                 load += push
                 moment += push * place
-        if load:  # by a point, where it pushes
-            found.append(Contact(i, 0.0, (moment / load,), load))
+        if load:  # a belly that touches, no end: a side of hardly any length, where it pushes
+            found.append(Contact(i, _HARDLY * length, (moment / load,), load))
         return found
 
     def places(self, rest: Rest, contacts: list[Contact]) -> Array:
@@ -198,6 +200,8 @@ class Contacts:
             return None, 0.0
         tip = at[0 if end == "begin" else -1]
         if not state.may[i]:
+            # bent by pressure it stands on its tip alone, which bears whatever pushes it
+            total = sum(force) if end in self._free[i] and self._carrier[i] >= 0 else total
             return (Contact(i, 0.0, (tip,), total) if end in self._free[i] else None), 0.0
         whole = False
         if run == count and end == "end":

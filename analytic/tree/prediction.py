@@ -20,7 +20,7 @@ class TreePrediction(NamedTuple):
     Attributes:
         displacement: of the trunk's beginning in all, along x and y, (2,) [m].
         turn: of the trunk to the left [rad].
-        displacement_error, turn_error: what half as many increments change [m, rad].
+        displacement_error, turn_error: what half the states and two hinges less change [m, rad].
         path: the walk itself.
     """
 
@@ -35,7 +35,7 @@ def predict(
     robot: TreeRobot, gait: Gait, ground: Ground, states: int = 20, elements: int = 6,
     cycles: int = 1, law: str = "constant",
 ) -> TreePrediction:  # fmt: skip
-    """A walk on ground that bends the robot, beside one by half as many increments.
+    """A walk on ground that bends the robot, beside one by half the states and two hinges less.
 
     Args:
         states: of a change by the peak pressure.
@@ -45,7 +45,8 @@ def predict(
         ValueError: see analytic.tree.walk.walk.
     """
     coarse, fine = (
-        walk(robot, gait, ground, count, elements, cycles, law) for count in (states // 2, states)
+        walk(robot, gait, ground, count, links, cycles, law)
+        for count, links in ((states // 2, max(2, elements - 2)), (states, elements))
     )
     change = float(np.hypot(*(fine.displacement - coarse.displacement)))
     return TreePrediction(fine.displacement, fine.turn, change, abs(fine.turn - coarse.turn), fine)

@@ -108,3 +108,21 @@ def test_gaits_for_other_robots_and_parts_out_of_range_are_refused():
         undulation("wave", left=1.5)
     with pytest.raises(ValueError, match="must be of three segments"):
         undulation(undulation("wave"))
+
+
+PULSE = Gait("pulse", ((0, 0, 0, 0, 0), (0, 0.69, 0.69, 0, 0), (0.69, 0, 0, 0, 0),
+                       (0, 0, 0, 0.8, 0.8), (0, 0, 0, 0, 0)))  # fmt: skip
+UNEVEN = Gait("uneven", ((0, 0, 0, 0, 0), (0, 0.75, 0.72, 0, 0), (0.86, 0.75, 0.72, 0, 0),
+                         (0.86, 0, 0, 0.67, 0.63), (0, 0, 0, 0.67, 0.63), (0, 0, 0, 0, 0)))  # fmt: skip
+
+
+@pytest.mark.parametrize(("gait", "law"), [(PULSE, "constant"), (UNEVEN, "coulomb")])
+def test_limbs_under_part_of_the_pressure_go_alike_however_fine_their_links(gait, law):
+    # legs that hardly lift and a belly that just touches: which contact bears what converges
+    pressures = QUADRUPED.peak_pressure * np.array(gait.path(10)[0])
+    far = []
+    for elements in (6, 12):
+        tree, rests = shapes(QUADRUPED, pressures, elements)
+        path = follow(tree, rests, pressures, SURFACES["gelatin"], law)
+        far.append(path.displacement[0] / LENGTH)
+    assert far[0] == pytest.approx(far[1], rel=0.05, abs=2e-4)
