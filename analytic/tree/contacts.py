@@ -1,11 +1,11 @@
 """Where a tree of limbs touches the ground, how strongly that resists, and where it acts.
 
 As for the strip of [Majidi13], section 2.2: a limb whose free end is inflated touches by its tip,
-which resists by V_t and bears all that pushes the limb; one without pressure lies on its side over a length that follows from the
-ground's forces (analytic.contact), which resists by tau times its area; a belly that touches in
-between is a side of no area. A limb that lies flat as a
-whole passes on to its carrier what its side does not carry. Limbs that begin at one place share
-the tip force of an end by their widths.
+which resists by V_t and bears all that pushes the limb; one without pressure lies on its side over
+a length that follows from the ground's forces (analytic.contact), which resists by tau times its
+area; a belly that touches in between is a side of no area. A limb that lies flat as a whole passes
+on to its carrier what its side does not carry. Limbs that begin at one place share the tip force of
+an end by their widths.
 """
 
 from typing import NamedTuple

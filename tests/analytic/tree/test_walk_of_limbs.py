@@ -110,10 +110,12 @@ def test_gaits_for_other_robots_and_parts_out_of_range_are_refused():
         undulation(undulation("wave"))
 
 
-PULSE = Gait("pulse", ((0, 0, 0, 0, 0), (0, 0.69, 0.69, 0, 0), (0.69, 0, 0, 0, 0),
-                       (0, 0, 0, 0.8, 0.8), (0, 0, 0, 0, 0)))  # fmt: skip
-UNEVEN = Gait("uneven", ((0, 0, 0, 0, 0), (0, 0.75, 0.72, 0, 0), (0.86, 0.75, 0.72, 0, 0),
-                         (0.86, 0, 0, 0.67, 0.63), (0, 0, 0, 0.67, 0.63), (0, 0, 0, 0, 0)))  # fmt: skip
+REST, LIFTED = (0, 0, 0, 0, 0), (0, 0.75, 0.72, 0, 0)
+PULSE = Gait("pulse", (REST, (0, 0.69, 0.69, 0, 0), (0.69, 0, 0, 0, 0), (0, 0, 0, 0.8, 0.8), REST))
+UNEVEN = Gait(
+    "uneven",
+    (REST, LIFTED, (0.86, *LIFTED[1:]), (0.86, 0, 0, 0.67, 0.63), (0, 0, 0, 0.67, 0.63), REST),
+)
 
 
 @pytest.mark.parametrize(("gait", "law"), [(PULSE, "constant"), (UNEVEN, "coulomb")])
