@@ -1,6 +1,6 @@
 PY := .venv/bin/python
 
-.PHONY: run test check numbers scenes reach auto promises loop startup bench regression identify models gallery figures \
+.PHONY: run test check numbers scenes reach auto promises quadruped loop startup bench regression identify models gallery figures \
 	chart maps reference architecture clean
 
 run: .venv/ready
@@ -31,6 +31,10 @@ auto: .venv/ready
 # whether error bars and what is said of inertia hold on random scenes
 promises: .venv/ready
 	$(PY) benchmarks/promises.py
+
+# the quadruped against its reference on random scenes
+quadruped: .venv/ready
+	$(PY) benchmarks/quadruped.py
 
 loop: .venv/ready
 	$(PY) benchmarks/loop.py

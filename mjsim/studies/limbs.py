@@ -27,6 +27,7 @@ PARTS = (0.4, 0.6, 0.8, 1.0)  # of the pressure that the left legs get
 STEPS, ELEMENTS = (0.01, 0.02, 0.04, 0.06, 0.08), (4, 6, 8, 12)
 RAMP, STATES = 8.0, 16  # s; of the reference
 LEFT = 0.7  # of the chart's gait
+_SPEEDS = (20, 50, 100, 200, 400)  # ticks
 _PALE = 3e-3  # L; errors below it have a light cell
 UNIFORM = Surface("uniform", friction=FRICTION)  # alike at tips and sides
 GROUNDS = {**SURFACES, UNIFORM.name: UNIFORM}
@@ -169,6 +170,8 @@ def draw_cost(path: Path, reference: list[Point], grid: list[Point]) -> None:
         left.loglog(point.speed, off, markers[point.elements], color=COLOURS[point.surface],
                     ms=5, alpha=0.8)  # fmt: skip
     left.set_xlabel("times real time, one core")
+    left.set_xticks([], minor=True)
+    left.set_xticks(_SPEEDS, [str(speed) for speed in _SPEEDS])
     left.set_ylabel("error of the displacement [L]")
     for elements, marker in markers.items():
         left.plot([], [], marker, color="0.4", label=f"{elements} hinges a limb")
