@@ -12,7 +12,7 @@ from mjsim.video import gl
 
 PROGRAM = "python -m mjsim.gallery"
 _LEFT, _RAMP, _STEP = 0.7, 8.0, 0.02  # of the quadruped: left pressure, s, s
-_SPINS = 3  # cycles of turning on the spot
+_SPINS = 2  # cycles of turning on the spot
 
 
 @dataclass(frozen=True)

@@ -58,8 +58,10 @@ def on_the_spot(gait: str = "wave", part: float = 0.3, ramp_time: float = 2.0) -
     return Gait(f"spin-{gait}-{part:g}", (*there.stages, *back.stages[1:]), ramp_time)
 
 
-# a leg at a time, each rear one with the torso after it, across to the other side: of all orders
-# that which goes farthest, on felt and on gelatin alike (examples/quadruped_gaits.py)
+# Spin: of undulations and parts of the pressure, what turns most a second on gelatin; a full wave
+# turns 7 % more a cycle, which is a fifth longer.
+# Crawl: a leg at a time, each rear one with the torso after it, across to the other side: of all
+# orders that which goes farthest, on felt and on gelatin alike (examples/quadruped_gaits.py).
 _CRAWL = ("rear-left", "rear-left torso", "front-right", "rear-right", "rear-right torso",
           "front-left")  # fmt: skip
 _PRESSED = tuple(tuple(float(limb in words.split()) for limb in ORDER) for words in _CRAWL)

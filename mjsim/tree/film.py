@@ -24,9 +24,9 @@ from mjsim.video.recording import FPS, HEIGHT, LEAD, TAIL, WIDTH, Frame
 
 Array = NDArray[np.float64]
 
-_QUALITY = 29  # x264's constant rate factor: 12 s stay under 500 KB
+_QUALITY = 31  # x264's constant rate factor: 12 s stay under 500 KB
 _BAND, _WHITE = 118, 0.75  # lines behind the words, and how white they are
-_LONGEST = 12.0  # s of a video; slower walks are shown faster
+_LONGEST = 10.0  # s of a video; slower walks are shown faster
 _INSET, _FRAME = (198, 352), 3  # lines and columns of the view from above; lines around it
 _DOTS = 160  # of a track at most
 _RED, _BLUE = (0.78, 0.12, 0.10, 1.0), (0.10, 0.30, 0.75, 1.0)
