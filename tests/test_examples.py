@@ -143,6 +143,7 @@ def test_many_walks_go_farther_with_more_pressure():
     assert (np.diff(example("many_walks")()) > 0).all()
 
 
+@pytest.mark.slow
 def test_a_fit_gives_back_the_robot_that_made_its_track():
     off = example("fitted_robot")()
     assert abs(off["robot.modulus"]) < 0.01
@@ -219,6 +220,7 @@ def test_every_example_is_tested():
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")  # of the notebook's own machinery
+@pytest.mark.slow
 def test_the_notebook_runs_from_top_to_bottom():
     nbformat = pytest.importorskip("nbformat")
     nbclient = pytest.importorskip("nbclient")

@@ -21,6 +21,7 @@ def test_it_then_walks_forward_on_felt_and_backward_on_gelatin(surface, sign):
     assert walk.locomotion.per_cycle / Robot().length == pytest.approx(0.034 * sign, abs=0.001)
 
 
+@pytest.mark.slow
 def test_another_start_finds_the_same_robot_to_the_last_digit_but_one():
     robot = identify(replace(Robot(), weight_per_length=1.6, chamber_height=4.0e-3))
     assert robot.weight_per_length == pytest.approx(Robot.weight_per_length, rel=2e-3)
@@ -29,6 +30,7 @@ def test_another_start_finds_the_same_robot_to_the_last_digit_but_one():
     assert pneunet.turn_number(robot) == pytest.approx(3.53, abs=0.02)
 
 
+@pytest.mark.slow
 def test_one_command_prints_it(capsys):
     assert main() == 0
     said = capsys.readouterr().out

@@ -34,6 +34,7 @@ def test_a_film_alone_walks_as_felt_does_however_fast():
         assert travel(FILM, ramp) == pytest.approx(travel(faint, 2.0), abs=1e-3)
 
 
+@pytest.mark.slow
 def test_wet_ground_is_gelatin_to_a_slow_gait_and_felt_to_a_fast_one():
     slow, fast = travel(WET, 200.0), travel(WET, 0.002)
     gelatin = replace(SURFACES["gelatin"], tip_force=WET.tip_force)
@@ -43,10 +44,12 @@ def test_wet_ground_is_gelatin_to_a_slow_gait_and_felt_to_a_fast_one():
 
 @pytest.mark.parametrize("ground", [SURFACES["polyethylene"], SURFACES["gelatin"]],
                          ids=lambda ground: ground.name)  # fmt: skip
+@pytest.mark.slow
 def test_dry_ground_does_not_ask_how_fast(ground):
     assert travel(ground, 0.5) == travel(ground, 50.0)
 
 
+@pytest.mark.slow
 def test_speed_times_viscosity_is_all_that_counts():
     thick = replace(WET, viscosity=2 * WET.viscosity)
     assert travel(WET, 0.5) == pytest.approx(travel(thick, 1.0), abs=1e-9)

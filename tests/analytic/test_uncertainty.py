@@ -41,6 +41,7 @@ def beyond(seeds):
     return worst, known, sharp
 
 
+@pytest.mark.slow
 def test_modes_are_within_their_bound_of_exact_contact():
     assert beyond(range(100))[0] == []
 

@@ -65,6 +65,7 @@ def travel(friction, gait=GAITS["wave"], ground=GROUND):
     return predict(ROBOT, gait, ground, friction=friction).locomotion.per_cycle / ROBOT.length
 
 
+@pytest.mark.slow
 def test_the_least_slope_decides_the_ties_of_the_paper_s_law_downhill():
     """Tips that resist alike share on level ground; now the lower one slides out, the upper in."""
     weak = GROUND.scaled(1e-3)
@@ -76,6 +77,7 @@ def test_the_least_slope_decides_the_ties_of_the_paper_s_law_downhill():
 
 
 @pytest.mark.parametrize("surface", [GROUND, from_ratios("mud", 1.0, 0.3)], ids=lambda s: s.name)
+@pytest.mark.slow
 def test_under_coulomb_s_law_the_least_slope_is_level_ground(surface):
     level, least = (
         predict(ROBOT, GAITS["wave"], surface, friction=Friction("coulomb", 1.0, slope))
@@ -91,12 +93,14 @@ def mirrored(gait):
 
 @pytest.mark.parametrize("gait", list(GAITS))
 @pytest.mark.parametrize("law", ["constant", "coulomb"])
+@pytest.mark.slow
 def test_the_mirrored_scene_goes_the_mirrored_way(gait, law):
     up = travel(Friction(law, 1.0, 0.04), GAITS[gait])
     down = travel(Friction(law, 1.0, -0.04), mirrored(GAITS[gait]))
     assert up == pytest.approx(-down, abs=2e-4)
 
 
+@pytest.mark.slow
 def test_the_steeper_the_ground_the_less_it_climbs():
     climbs = [travel(Friction(tension=1.0, slope=slope)) for slope in (0.0, 0.03, 0.06)]
     assert climbs[0] > climbs[1] > climbs[2]

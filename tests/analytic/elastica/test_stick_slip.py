@@ -241,6 +241,7 @@ def energy_balance(ground, per_ramp):
     return work.sum(), lost.sum(), np.abs(work).sum()
 
 
+@pytest.mark.slow
 def test_the_work_of_the_pressure_in_a_cycle_is_what_friction_dissipates():
     """Both ends stay tips, so that no bound jumps: then energy is lost besides, at once."""
     grippier_left = Patches("halves", (0.05,), (SURFACES["gelatin"].scaled(4 / PHI),
@@ -256,6 +257,7 @@ def test_the_work_of_the_pressure_in_a_cycle_is_what_friction_dissipates():
 
 @pytest.mark.parametrize("surface", ["polyethylene", "gelatin"])
 @pytest.mark.parametrize("phi", [0.0, 5.0, 20.0, 50.0, 100.0])
+@pytest.mark.slow
 def test_every_strength_has_an_answer_or_says_so(surface, phi):
     ground = SURFACES[surface].scaled(max(phi, 1e-6) / PHI)
     walked = predict(ROBOT, GAITS["wave"], ground, Elastica(30), 25, 1, BENT)
@@ -264,6 +266,7 @@ def test_every_strength_has_an_answer_or_says_so(surface, phi):
         assert not walked.flags
 
 
+@pytest.mark.slow
 def test_a_robot_described_by_twice_the_segments_goes_as_far():
     six = replace(ROBOT, segments=(1.0,) * 6)
     doubled = Gait("doubled", tuple(tuple(np.repeat(s, 2)) for s in GAITS["wave"].stages))

@@ -119,6 +119,7 @@ UNEVEN = Gait(
 
 
 @pytest.mark.parametrize(("gait", "law"), [(PULSE, "constant"), (UNEVEN, "coulomb")])
+@pytest.mark.slow
 def test_limbs_under_part_of_the_pressure_go_alike_however_fine_their_links(gait, law):
     # legs that hardly lift and a belly that just touches: which contact bears what converges
     pressures = QUADRUPED.peak_pressure * np.array(gait.path(10)[0])

@@ -60,6 +60,7 @@ def test_what_follows_does_not_depend_on_how_commands_are_cut(cuts, seed):
     assert np.array_equal(found, whole.follow(commands))
 
 
+@pytest.mark.slow
 def test_valves_that_do_more_than_lag_agree_with_the_theory_along_their_pressures():
     row = record(simulate(replace(BASE, valves=UNLIKE)))
     assert row["status"] == "ok"

@@ -36,6 +36,7 @@ def test_help_explains_every_key_of_json(tmp_path, capsys):
 
 @pytest.mark.parametrize("ramp", [0.2, 0.3, 0.5])
 @pytest.mark.parametrize("surface", ["felt", "polyethylene"])
+@pytest.mark.slow
 def test_what_is_said_of_inertia_is_what_slower_ramps_change_within_a_factor_of_2(surface, ramp):
     fine = Numerics(links=48, timestep=0.001)
     fast, slow = (
@@ -50,6 +51,7 @@ def test_what_is_said_of_inertia_is_what_slower_ramps_change_within_a_factor_of_
 
 
 @pytest.mark.parametrize("surface", list(SURFACES))
+@pytest.mark.slow
 def test_a_slow_walk_has_no_word_of_inertia(surface):
     scene = Scene(gait=replace(GAITS["wave"], ramp_time=4.0), ground=SURFACES[surface])
     assert not any("inertia" in note for note in told(scene)["prediction_notes"])
@@ -83,6 +85,7 @@ def test_the_end_of_the_branch_is_announced_before_it_is_reached():
     assert not any(warned[: last - 1])
 
 
+@pytest.mark.slow
 def test_the_distance_per_cycle_is_that_of_the_limit_cycle():
     """A gait that starts inflated: its first cycle goes somewhere, all that follow nowhere."""
     for ground in (SURFACES["polyethylene"], SURFACES["gelatin"]):
@@ -96,6 +99,7 @@ def test_the_distance_per_cycle_is_that_of_the_limit_cycle():
         assert abs(row["error_over_L"]) < 5e-4
 
 
+@pytest.mark.slow
 def test_one_cycle_of_such_a_gait_says_what_the_next_ones_are_like():
     row = told(Scene(gait=PERIODIC, ground=SURFACES["gelatin"]))
     assert row["displacement_over_L"] == pytest.approx(0.009, abs=0.001)
@@ -103,6 +107,7 @@ def test_one_cycle_of_such_a_gait_says_what_the_next_ones_are_like():
     assert any("from cycle 2 on" in note for note in row["prediction_notes"])
 
 
+@pytest.mark.slow
 def test_cycles_that_begin_at_rest_are_alike_in_theory_and_simulation():
     scene = Scene(ground=SURFACES["gelatin"], cycles=3)
     theory = predict(scene.robot, scene.gait, scene.ground, friction=BENT, cycles=3)
@@ -111,6 +116,7 @@ def test_cycles_that_begin_at_rest_are_alike_in_theory_and_simulation():
 
 
 @pytest.mark.parametrize("surface", list(SURFACES))
+@pytest.mark.slow
 def test_the_reference_s_error_bar_holds_what_a_finer_one_says(surface):
     from analytic import Elastica
 

@@ -49,6 +49,7 @@ def test_a_rollout_is_judged_by_all_its_states_and_not_the_last():
         assert walk.time[-1] < scene.gait.period
 
 
+@pytest.mark.slow
 def test_the_prediction_of_chambers_that_lag_is_per_cycle(tmp_path, capsys):
     words = ["--lag", "0.2", "--links", "12"]
     one = row_of([*words, "--cycles", "1"], tmp_path, capsys)
@@ -58,6 +59,7 @@ def test_the_prediction_of_chambers_that_lag_is_per_cycle(tmp_path, capsys):
 
 
 @pytest.mark.parametrize("words", [["--pressure", "60000"], ["--segments", "1,2,3"]])
+@pytest.mark.slow
 def test_what_auto_picked_is_not_called_a_robot_that_fell(tmp_path, capsys, words):
     row = row_of(["--body", "auto", *words], tmp_path, capsys)
     assert row["status"] == "ok"
@@ -94,6 +96,7 @@ def test_ramps_of_fewer_steps_than_can_be_seen_are_refused(tmp_path, capsys):
     assert "got 0.005 s" in said
 
 
+@pytest.mark.slow
 def test_a_robot_described_by_six_segments_walks_as_by_three(tmp_path, capsys):
     doubled = ",".join("".join(2 * f for f in stage) for stage in
                        ("000", "100", "110", "011", "001", "000"))  # fmt: skip
@@ -107,6 +110,7 @@ def test_a_robot_described_by_six_segments_walks_as_by_three(tmp_path, capsys):
     assert six["displacement_over_L"] == pytest.approx(three["displacement_over_L"], abs=1e-4)
 
 
+@pytest.mark.slow
 def test_what_is_no_number_is_null_in_strict_json(tmp_path, capsys):
     words = ["--surface", "gelatin", "--friction", "coulomb", "--pressure", "100000"]
     row = row_of(words, tmp_path, capsys, code=cli.FAILED)
@@ -114,6 +118,7 @@ def test_what_is_no_number_is_null_in_strict_json(tmp_path, capsys):
     assert row["prediction_undecided_over_L"] is None
 
 
+@pytest.mark.slow
 def test_different_scenes_have_different_files_and_the_same_scene_its_own(tmp_path, capsys):
     for pressure in (20000, 35000, 48000, 20000):
         call(["--pressure", pressure, "--out", tmp_path], capsys)
@@ -122,6 +127,7 @@ def test_different_scenes_have_different_files_and_the_same_scene_its_own(tmp_pa
     assert (tmp_path / "gelatin.nc").is_file()
 
 
+@pytest.mark.slow
 def test_the_same_run_twice_at_once_leaves_one_whole_file(tmp_path):
     words = [sys.executable, "-m", "mjsim.run", "--no-video", "--links", "6", "--out",
              str(tmp_path)]  # fmt: skip
@@ -172,6 +178,7 @@ def test_names_that_no_file_can_have_are_refused(name):
      {"PYTHONIOENCODING": "latin-1"}, {"PYTHONIOENCODING": "ascii"}],
     ids=str,
 )  # fmt: skip
+@pytest.mark.slow
 def test_it_runs_whatever_the_environment_says(tmp_path, environment):
     words = [sys.executable, "-m", "mjsim.run", "--no-video", "--links", "6", "--out",
              str(tmp_path)]  # fmt: skip
@@ -194,6 +201,7 @@ def test_python_is_as_guarded_as_the_command_line():
 
 
 @pytest.mark.parametrize("number", [5, 15, 30, 43])
+@pytest.mark.slow
 def test_the_prediction_is_bent_by_the_scene_s_own_friction_however_strong(number):
     """On polyethylene, where it turns the robot round: weak friction would say 0.000 L."""
     slow = replace(GAITS["wave"], ramp_time=8.0)
@@ -203,6 +211,7 @@ def test_the_prediction_is_bent_by_the_scene_s_own_friction_however_strong(numbe
     assert measure(walk).displacement == pytest.approx(exact, rel=0.02, abs=0.0015)
 
 
+@pytest.mark.slow
 def test_where_friction_lets_go_at_once_the_prediction_says_so(tmp_path, capsys):
     tip = 10 * 3.84e-4 / 0.13**2
     row = row_of(["--surface.tip-force", tip, "--gait.ramp-time", "8"], tmp_path, capsys)
@@ -327,6 +336,7 @@ def test_a_long_robot_whose_friction_is_at_its_ends_alone_is_told_of_the_ground_
     assert not row_of([], tmp_path, capsys)["prediction_notes"]
 
 
+@pytest.mark.slow
 def test_and_else_it_acts_wherever_it_touches_in_both_models(tmp_path, capsys):
     row = row_of([*LONG, "--gait.ramp-time", "8"], tmp_path, capsys)
     assert row["displacement_over_L"] == pytest.approx(-0.0097, abs=0.001)
@@ -334,6 +344,7 @@ def test_and_else_it_acts_wherever_it_touches_in_both_models(tmp_path, capsys):
     assert row["unexplained_over_L"] == pytest.approx(0, abs=0.001)
 
 
+@pytest.mark.slow
 def test_patches_of_one_surface_are_that_surface_for_each_of_two_cycles(tmp_path, capsys):
     path = tmp_path / "scene.toml"
     path.write_text('[[ground.patches]]\nsurface = "felt"\n'

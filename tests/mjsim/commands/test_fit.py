@@ -31,6 +31,7 @@ def runs(tmp_path):
     return path
 
 
+@pytest.mark.slow
 def test_runs_give_back_the_modulus_they_were_made_with_and_a_scene_that_walks(
     runs, tmp_path, capsys
 ):

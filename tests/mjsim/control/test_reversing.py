@@ -80,6 +80,7 @@ def test_the_wave_stalls_at_the_seam_and_so_does_a_map_of_two_ways_but_not_the_c
     assert cycles.reversing(60, 0.01, seed=1).left[-1] / L > alone + 0.08
 
 
+@pytest.mark.slow
 def test_from_gelatin_onto_felt_it_goes_on_and_the_wave_alone_runs_away_backwards():
     theory = Cycles(Robot(), seam(1.15, GELATIN, FELT))
     assert theory.without(40).left[-1] < -1.2 * L
@@ -87,6 +88,7 @@ def test_from_gelatin_onto_felt_it_goes_on_and_the_wave_alone_runs_away_backward
     assert best - 0.1 < found <= best + 0.02
 
 
+@pytest.mark.slow
 def test_on_stripes_of_three_lengths_it_loses_a_tenth_to_one_with_the_map(cycles):
     theory = Cycles(Robot(), stripes(FELT, GELATIN, 3 * L, 5 * L))
     found, best = (walk.left[-1] / L for walk in (theory.reversing(80), theory.knowing(80)))

@@ -40,6 +40,7 @@ def test_angles_of_a_free_segment_give_the_slope_that_least_squares_has_in_close
     assert found.error[0] * slope == pytest.approx(error, rel=0.25)
 
 
+@pytest.mark.slow
 def test_intervals_of_95_per_cent_hold_the_truth_in_90_to_98_of_100_fits():
     found = [bent(angles(np.random.default_rng(seed))) for seed in range(300)]
     held = np.mean([fit.low[0] <= ALPHA <= fit.high[0] for fit in found])

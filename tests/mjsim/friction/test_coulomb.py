@@ -34,6 +34,7 @@ def test_the_distance_is_that_of_the_elastica_bent_by_the_same_friction(surface,
     assert found.displacement == pytest.approx(exact, rel=0.02, abs=0.002)
 
 
+@pytest.mark.slow
 def test_weak_friction_needs_a_slower_gait_and_firmer_contacts():
     """A third of the friction: inertia weighs more, and so does the depth that pads sink to."""
     weak = SURFACES["polyethylene"].scaled(1 / 3)
@@ -83,6 +84,7 @@ def test_pyramids_diverge_where_a_pad_has_no_friction():
     assert result.status in (Status.DIVERGED, Status.TOPPLED)
 
 
+@pytest.mark.slow
 def test_scaling_all_friction_only_changes_how_much_the_strip_is_bent():
     """As Phi goes to 0 the distance goes to the one of no bending."""
     exact = predicted(SURFACES["gelatin"], strength=0.0)
@@ -100,6 +102,7 @@ def test_the_law_decides_how_far_gelatin_is():
     assert coulomb < 3 * paper < 0
 
 
+@pytest.mark.slow
 def test_tips_without_friction_leave_the_distance_on_felt_undecided():
     """Neither tip resists: momentum, speed and links decide, and theory says by how much."""
     walked = predict(Robot(), Scene().gait, SURFACES["felt"], friction=Friction("coulomb"))
@@ -117,6 +120,7 @@ def test_tips_without_friction_leave_the_distance_on_felt_undecided():
     assert "undecided by ±0.1" in table([row])
 
 
+@pytest.mark.slow
 def test_tips_with_friction_leave_nothing_undecided():
     for surface in (SURFACES["polyethylene"], SURFACES["gelatin"]):
         walked = predict(Robot(), Scene().gait, surface, friction=Friction("coulomb", 1.0))

@@ -43,6 +43,7 @@ def until(condition, seconds=60):
         time.sleep(0.3)
 
 
+@pytest.mark.slow
 def test_the_robot_moves_and_a_slider_puts_it_on_other_ground(screen):
     environment = {**os.environ, "DISPLAY": screen}
     environment.pop("MUJOCO_GL", None)

@@ -103,6 +103,7 @@ def test_flagged_states_take_off_all_that_rests_on_them():
     assert flagged_change(walk) == pytest.approx(change)
 
 
+@pytest.mark.slow
 def test_a_search_gets_better_and_is_the_same_for_the_same_seed():
     def course(seed):
         objective = Objective(Scene(), (SURFACES["gelatin"],), model="lifted")
@@ -147,6 +148,7 @@ def test_gaits_that_were_found_go_as_far_as_the_pages_say(name, least):
         assert shift > least.get(ground.name, -1.0)
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_gait_that_the_others_take(tmp_path, capsys):
     arguments = ["--surface", "gelatin", "--model", "lifted", "--evaluations", "32",
                  "--workers", "2", "--out", str(tmp_path), "--json"]  # fmt: skip

@@ -49,6 +49,7 @@ def test_nothing_in_it_is_fetched(written):
 
 @pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed")
 @pytest.mark.parametrize(("scheme", "size"), [("light", (1000, 900)), ("dark", (390, 844))])
+@pytest.mark.slow
 def test_a_browser_shows_charts_and_plays_the_video_without_a_complaint(written, scheme, size):
     playwright = pytest.importorskip("playwright.sync_api")
     flags = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
@@ -93,6 +94,7 @@ def test_a_browser_shows_charts_and_plays_the_video_without_a_complaint(written,
     assert (min(map(int, re.findall(r"\d+", paper)[:3])) > 200) == (scheme == "light")
 
 
+@pytest.mark.slow
 def test_a_failed_run_is_told_as_such(tmp_path):
     pytest.importorskip("plotly")
     from dataclasses import replace

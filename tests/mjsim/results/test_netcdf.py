@@ -72,6 +72,7 @@ def test_recorded_forces_survive_the_file(result, tmp_path):
     assert load(tmp_path / "two.nc").forces is None
 
 
+@pytest.mark.slow
 def test_the_command_records_forces(tmp_path):
     assert run.main(["--surface", "gelatin", "--no-video", "--out", str(tmp_path)]) == 0
     assert load(tmp_path / "gelatin.nc").forces is not None

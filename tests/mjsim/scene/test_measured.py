@@ -35,6 +35,7 @@ def written(path, series, unit="kPa", size=1e3, mark=","):
 
 
 @pytest.mark.parametrize("ground", ["felt", "gelatin"])
+@pytest.mark.slow
 def test_a_noisy_record_of_a_gait_walks_as_the_gait(tmp_path, ground):
     path = written(tmp_path / "walk.csv", recorded(GAITS["wave"], 200, 300.0))
     scene, _ = build({"gait": {"file": str(path)}, "ground": {"surface": ground}})

@@ -25,6 +25,7 @@ FOUR = Scene(
 @pytest.mark.parametrize(
     "scene", [HIGH, UNEVEN, FAST, FOUR], ids=["high", "uneven", "fast", "four"]
 )
+@pytest.mark.slow
 def test_the_distance_is_that_of_fine_numerics_within_the_tolerance(scene):
     found = walk_checked(scene, 0.02)
     fine = measure(simulate(scene, Numerics(links=48, timestep=0.001))).displacement
@@ -51,6 +52,7 @@ def test_each_walk_is_finer_than_the_one_before_and_steps_follow_the_ramps():
     assert all(numerics.links % 4 == 0 for numerics in ladder(FOUR))
 
 
+@pytest.mark.slow
 def test_a_looser_tolerance_never_costs_more():
     for scene in (HIGH, UNEVEN):
         walks = [len(walk_checked(scene, tolerance).tried) for tolerance in (0.005, 0.02, 0.1)]

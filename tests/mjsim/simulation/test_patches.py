@@ -33,6 +33,7 @@ tip_force = 0.034
 
 
 @pytest.mark.parametrize("name", list(GROUNDS))
+@pytest.mark.slow
 def test_where_it_goes_and_stalls_is_the_theory_s_within_2_percent_of_the_length(name):
     scene = Scene(gait=SLOW, ground=GROUNDS[name], cycles=8)
     walk = simulate(scene)
@@ -76,6 +77,7 @@ def test_bad_patches_get_one_line(tmp_path, capsys, text, named):
     assert named in said
 
 
+@pytest.mark.slow
 def test_the_command_walks_over_patches(tmp_path, capsys):
     path = tmp_path / "scene.toml"
     path.write_text(TOML)

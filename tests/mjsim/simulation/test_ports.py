@@ -171,6 +171,7 @@ def test_after_a_failure_nothing_more_happens(monkeypatch):
     assert simulation.step([0.0] * 3).time == first.time
 
 
+@pytest.mark.slow
 def test_one_robot_described_by_3_6_or_9_segments_goes_as_far_on_every_surface():
     """The ground is in SI: it knows nothing of segments."""
     for surface in SURFACES.values():

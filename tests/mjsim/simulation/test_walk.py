@@ -97,6 +97,7 @@ def beside_the_elastica(surface):
 
 
 @pytest.mark.parametrize("surface", list(SURFACES))
+@pytest.mark.slow
 def test_separation_follows_the_elastica_along_the_whole_cycle(surface):
     result, cycle, shapes = beside_the_elastica(surface)
     x, _ = result.nodes()

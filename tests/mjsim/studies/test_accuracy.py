@@ -104,6 +104,7 @@ def test_the_committed_rows_say_where_they_are_from_and_hold_every_method():
 
 
 @pytest.mark.parametrize("case", [WALK, COULOMB])
+@pytest.mark.slow
 def test_the_error_of_a_slow_walk_is_of_second_order_in_the_links(case):
     """Against the elastica that the same friction bends: nothing is left but the numerics."""
     errors = []
@@ -138,6 +139,7 @@ def test_engines_that_share_no_code_agree_with_the_elastica_on_the_distance():
     assert max(best[name] for name in ("planar", "cable", "Drake", "PyElastica")) < 0.01
 
 
+@pytest.mark.slow
 def test_the_command_picks_a_body(tmp_path, capsys):
     words = ["--body", "auto", "--tolerance", "0.05", "--json", "--no-video"]
     assert run.main([*words, "--surface", "gelatin", "--out", str(tmp_path)]) == 0

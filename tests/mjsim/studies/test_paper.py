@@ -54,6 +54,7 @@ def test_modes_iii_and_iv_lie_below_the_ground_and_the_others_do_not():
 
 
 @pytest.mark.parametrize("gamma", [4.0, 8.1])
+@pytest.mark.slow
 def test_with_fine_increments_the_distance_has_no_peak_over_amplitude(gamma):
     shifts = []
     for pressure in np.linspace(25e3, 62e3, 12):

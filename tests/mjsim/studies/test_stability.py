@@ -132,6 +132,7 @@ def test_the_paper_s_modes_sink_where_the_robot_is_heavy():
     ("parameter", "good", "bad"),
     [("ramp_time", 8.0, 0.5), ("side_angle", 1e-3, 0.1), ("friction_number", 1.5, 0.03)],
 )
+@pytest.mark.slow
 def test_a_parameter_changes_the_answer_beyond_its_range_and_not_within(parameter, good, bad):
     near, far = (abs(Varied(parameter, value, "felt").done().error) for value in (good, bad))
     assert near < 0.02

@@ -78,6 +78,7 @@ def check_whole(folder, count=48):
     assert {status for _, status, _ in found} == {"ok"}
 
 
+@pytest.mark.slow
 def test_a_sweep_whose_worker_is_killed_ends_well(folder):
     driver = start(folder, "--workers", "2")
     until(lambda: len(rows(folder)) >= 8, driver)
@@ -88,6 +89,7 @@ def test_a_sweep_whose_worker_is_killed_ends_well(folder):
     check_whole(folder)
 
 
+@pytest.mark.slow
 def test_a_sweep_whose_driver_is_killed_goes_on_by_the_same_command(folder):
     driver = start(folder, "--workers", "2")
     until(lambda: len(rows(folder)) >= 8, driver)

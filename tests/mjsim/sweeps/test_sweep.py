@@ -167,6 +167,7 @@ def test_few_jobs_are_under_way_and_made_only_when_they_are_needed(tmp_path):
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning", "ignore::ResourceWarning")
+@pytest.mark.slow
 def test_a_dask_cluster_gives_the_same_rows(tmp_path):
     from distributed import LocalCluster
 

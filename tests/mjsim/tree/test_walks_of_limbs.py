@@ -54,6 +54,7 @@ def test_left_and_right_swapped_it_goes_the_mirrored_way():
     assert two.displacement == pytest.approx(one.displacement * [1, -1], abs=1e-3 * LENGTH)
 
 
+@pytest.mark.slow
 def test_less_pressure_on_the_left_turns_it_as_in_theory():
     walk = simulate(scene("gelatin", left=0.7), NUMERICS)
     found = quasi_static(quadruped(), undulation("wave", left=0.7), SURFACES["gelatin"], 12, 4)
@@ -135,6 +136,7 @@ def test_what_cannot_be_is_refused_in_one_line():
         TreeSimulation(scene(), NUMERICS).step([0.0, 1.0])
 
 
+@pytest.mark.slow
 def test_where_a_contact_lets_go_it_snaps_but_is_not_thrown():
     # legs that unbend on a ground that only tips feel, under friction by load
     gait = replace(undulation("full-wave", left=0.5), ramp_time=8.0)

@@ -115,6 +115,7 @@ def test_the_camera_follows_a_robot_that_goes_far():
 
 
 @pytest.mark.parametrize("count", [1, 2])
+@pytest.mark.slow
 def test_the_files_play_with_the_right_number_of_frames(tmp_path, monkeypatch, count):
     walks = [walk(surface, ramp_time=0.2) for surface in list(SURFACES)[:count]]
     paths = [tmp_path / f"{result.scene.ground.name}.mp4" for result in walks]
@@ -154,6 +155,7 @@ def test_letters_of_other_alphabets_are_drawn():
 
 
 @pytest.mark.parametrize("surface", ["felt", "felt,gelatin"])
+@pytest.mark.slow
 def test_the_command_makes_its_videos(tmp_path, surface):
     """From a process of its own, as a user starts it."""
     words = [sys.executable, "-m", "mjsim.run", "--surface", surface, "--links", "6",
