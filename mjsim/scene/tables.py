@@ -42,7 +42,7 @@ TRAPEZOID = ("lag", "duty", "ramp")
 LIMBS = {
     "robot": ("name", "limbs"),
     "gait": ("left", "right"),
-    "numerics": ("elements", "tie_time"),
+    "numerics": ("elements", "contact_softness", "tie_time"),
 }
 _KEYS: dict[str, tuple[str, ...]] = {
     "robot": (*(field.name for field in fields(Robot)), *LIMBS["robot"]),

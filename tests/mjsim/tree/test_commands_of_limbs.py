@@ -2,7 +2,7 @@
 
 import json
 import tomllib
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import mujoco
@@ -15,7 +15,7 @@ from analytic.tree.gaits import undulation
 from analytic.tree.limbs import quadruped
 from mjsim import run
 from mjsim.scene.tables import merged, read_tables
-from mjsim.tree.scene import TreeScene
+from mjsim.tree.scene import TreeNumerics, TreeScene
 from mjsim.tree.standalone import standalone_spec
 from mjsim.tree.tables import build_robot, build_tree
 
@@ -109,3 +109,12 @@ def test_it_stands_on_its_legs_in_the_viewer_file_and_mujoco_reads_it(tmp_path):
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "felt.xml"))
     assert [model.actuator(i).name for i in range(model.nu)] == list(quadruped().names)
     assert model.nskin == 5
+
+
+def test_every_number_of_the_numerics_can_be_written_in_a_file(tmp_path):
+    values = [
+        f"{item.name} = {getattr(TreeNumerics(), item.name)}" for item in fields(TreeNumerics)
+    ]
+    path = tmp_path / "scene.toml"
+    path.write_text("\n".join(['[robot]\nname = "quadruped"', "[numerics]", *values]))
+    assert build_tree(read_tables(path))[1] == TreeNumerics()
