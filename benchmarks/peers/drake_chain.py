@@ -54,17 +54,17 @@ def settle(links, timestep):
     """Tip (x, y) over L of the heavy clamped strip, and the time it took."""
     robot, h = strip(), heavy_links(links)
     spring = pneunet.base_rigidity(robot) / h
-    builder, plant = _plant(timestep)
+    builder, plant = new_plant(timestep)
     world = plant.world_frame()
     last, _ = _chain(plant, robot, [h] * links, [spring] * (links - 1), DAMPING,
                      lambda body: plant.WeldFrames(
                          world, body.body_frame(), RigidTransform([-h / 2, 0, 0])))  # fmt: skip
-    _finalize(plant)
+    finalize(plant)
     times = np.array([0.0, DURATION])
-    diagram = _follow(builder, plant, times, np.zeros((2, links - 1)))
+    diagram = follow(builder, plant, times, np.zeros((2, links - 1)))
 
     def go():
-        simulator, mine = _start(diagram, plant)
+        simulator, mine = start(diagram, plant)
         spent = stopwatch()
         simulator.AdvanceTo(DURATION)
         return plant.EvalBodyPoseInWorld(mine, last).multiply([h, 0, 0]), spent()
@@ -78,7 +78,7 @@ def walk(scene, links, timestep):
     robot = scene.robot
     lengths = link_lengths(robot, links)
     springs, _ = joint_springs(robot, links, np.zeros((1, 3)), scene.chamber)
-    builder, plant = _plant(timestep)
+    builder, plant = new_plant(timestep)
     tilt = RotationMatrix.MakeXRotation(np.pi / 2)  # its plane is x-z
 
     def free(body):
@@ -91,19 +91,16 @@ def walk(scene, links, timestep):
 
     last, bodies = _chain(plant, robot, lengths, springs[0], Numerics.damping_time, free)
     tip, side = scene.ground.tip_friction, scene.ground.friction
-    ground = _material(max(tip, side), timestep)
-    plant.RegisterCollisionGeometry(
-        plant.world_body(), RigidTransform(), HalfSpace(), "ground", ground
-    )
+    add_ground(plant, max(tip, side), timestep)
     for i, body in enumerate(bodies):
-        _pad(plant, body, 0.0, tip if i == 0 else side, timestep)
-    _pad(plant, last, lengths[-1], tip, timestep)
-    _finalize(plant)
+        add_pad(plant, body, 0.0, tip if i == 0 else side, timestep)
+    add_pad(plant, last, lengths[-1], tip, timestep)
+    finalize(plant)
     times, rest = knots(scene, lambda p: joint_springs(robot, links, p, scene.chamber)[1])
-    diagram = _follow(builder, plant, times, rest)
+    diagram = follow(builder, plant, times, rest)
 
     def go():
-        simulator, mine = _start(diagram, plant)
+        simulator, mine = start(diagram, plant)
         spent = stopwatch()
         simulator.AdvanceTo(scene.settle_time)
         begin = plant.GetPositions(mine)[0]
@@ -117,7 +114,7 @@ def walk(scene, links, timestep):
     return found, timing
 
 
-def _plant(timestep):
+def new_plant(timestep):
     builder = DiagramBuilder()
     plant, _ = AddMultibodyPlantSceneGraph(builder, timestep)
     plant.set_discrete_contact_approximation(DiscreteContactApproximation.kSap)
@@ -145,12 +142,12 @@ def _chain(plant, robot, lengths, springs, damping_time, hold):
     return bodies[-1], bodies
 
 
-def _finalize(plant):
+def finalize(plant):
     plant.mutable_gravity_field().set_gravity_vector([0, 0, -GRAVITY])
     plant.Finalize()
 
 
-def _follow(builder, plant, times, rest):
+def follow(builder, plant, times, rest):
     """The whole, its hinges driven to rest angles (T, N) at times (T,)."""
     states = np.concatenate([rest, np.zeros_like(rest)], axis=1).T
     source = builder.AddSystem(TrajectorySource(PiecewisePolynomial.FirstOrderHold(times, states)))
@@ -159,7 +156,8 @@ def _follow(builder, plant, times, rest):
     return builder.Build()
 
 
-def _start(diagram, plant):
+def start(diagram, plant):
+    """Its simulator and the plant's context in it."""
     simulator = Simulator(diagram)
     simulator.Initialize()
     return simulator, plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())
@@ -173,7 +171,15 @@ def _material(mu, timestep):
     return properties
 
 
-def _pad(plant, body, x, mu, timestep):
+def add_ground(plant, mu, timestep):
+    """Level ground of a coefficient of friction."""
     plant.RegisterCollisionGeometry(
-        body, RigidTransform([x, 0, 0]), Sphere(PAD), f"pad_{x:g}", _material(mu, timestep)
+        plant.world_body(), RigidTransform(), HalfSpace(), "ground", _material(mu, timestep)
+    )
+
+
+def add_pad(plant, body, x, mu, timestep, y=0.0):
+    """A pad so far along a link, and beside its middle line."""
+    plant.RegisterCollisionGeometry(
+        body, RigidTransform([x, y, 0]), Sphere(PAD), f"pad_{x:g}_{y:g}", _material(mu, timestep)
     )

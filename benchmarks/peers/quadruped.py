@@ -18,8 +18,8 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1])]
 
-from drake_chain import PAD, _finalize, _follow, _material, _plant, _start  # noqa: E402
-from pydrake.geometry import HalfSpace, Sphere  # noqa: E402
+from common import GRAVITY, knots  # noqa: E402
+from drake_chain import PAD, add_ground, add_pad, finalize, follow, new_plant, start  # noqa: E402
 from pydrake.math import RigidTransform, RollPitchYaw  # noqa: E402
 from pydrake.multibody.tree import (  # noqa: E402
     FixedOffsetFrame,
@@ -30,32 +30,26 @@ from pydrake.multibody.tree import (  # noqa: E402
 )
 
 from analytic.chain import joint_springs, link_lengths  # noqa: E402
-from analytic.robot import GRAVITY  # noqa: E402
 from analytic.surface import FRICTION  # noqa: E402
 from analytic.tree.gaits import undulation  # noqa: E402
-from analytic.tree.limbs import LENGTH, quadruped  # noqa: E402
+from analytic.tree.limbs import LENGTH  # noqa: E402
+from mjsim.tree.scene import TreeNumerics, TreeScene  # noqa: E402
 
 ELEMENTS, DOWN = 6, (0, -1, 0)  # hinges of a limb, and their axis: an end turns up
-RAMP, SETTLING, DAMPING = 8.0, 0.5, 0.005  # s; of hinges over their stiffness
+RAMP, DAMPING = 8.0, TreeNumerics.damping_time  # s; of hinges over their stiffness
 STEPS = (0.02, 0.01, 0.005, 0.002, 0.001, 0.0005)
 TABLE = HERE.parents[1] / "docs" / "quadruped_drake.csv"
 
 
-def built(gait, elements, timestep):
+def built(scene, elements, timestep):
     """The diagram, its plant and the torso's first link."""
-    robot = quadruped()
-    builder, plant = _plant(timestep)
-    ends, times = {}, np.concatenate([[0.0], SETTLING + RAMP * np.arange(gait.ramps + 1)])
-    stages = robot.peak_pressure * np.array([gait.stages[0], *gait.stages])
-    rests = []
-    ground = _material(FRICTION, timestep)
-    plant.RegisterCollisionGeometry(
-        plant.world_body(), RigidTransform(), HalfSpace(), "ground", ground
-    )
-    for i, limb in enumerate(robot.limbs):
+    robot = scene.robot
+    builder, plant = new_plant(timestep)
+    add_ground(plant, FRICTION, timestep)
+    ends = {}
+    for limb in robot.limbs:
         lengths = link_lengths(limb.strip, elements)
-        stiffness, rest = joint_springs(limb.strip, elements, stages[:, [i]])
-        rests.append(rest)
+        stiffness, _ = joint_springs(limb.strip, elements, np.zeros((1, 1)))
         angle = limb.angle - (robot.limbs[robot.place(limb.on)].angle if limb.on else 0.0)
         before = None
         for k, length in enumerate(lengths.tolist()):
@@ -80,33 +74,36 @@ def built(gait, elements, timestep):
                     RigidTransform(RollPitchYaw(0, 0, angle), [along, limb.offset, 0]))  # fmt: skip
             for x in (0.0, length) if k == elements else (0.0,):
                 for side in (-0.5, 0.5):
-                    place, name = RigidTransform([x, side * width, 0]), f"{k}_{x:g}_{side:g}"
-                    plant.RegisterCollisionGeometry(body, place, Sphere(PAD), limb.name + name,
-                                                    _material(FRICTION, timestep))  # fmt: skip
+                    add_pad(plant, body, x, FRICTION, timestep, side * width)
             if not k:
                 first = body
             before = body
         ends[limb.name] = {"begin": (first, 0.0), "end": (before, lengths[-1])}
     torso = plant.GetBodyByName("torso_0")
     plant.SetDefaultFloatingBaseBodyPose(torso, RigidTransform([0, 0, PAD]))
-    _finalize(plant)
-    diagram = _follow(builder, plant, times, np.concatenate(rests, axis=1))
-    return diagram, plant, torso, times[-1]
+    finalize(plant)
+
+    def rest(pressures):
+        return np.concatenate([joint_springs(limb.strip, elements, pressures[:, [i]])[1]
+                               for i, limb in enumerate(robot.limbs)], axis=1)  # fmt: skip
+
+    return follow(builder, plant, *knots(scene, rest)), plant, torso
 
 
 def walked(gait, elements, timestep):
     """Displacement over L, ahead and to the left, turn in degrees, times real time."""
-    diagram, plant, torso, end = built(gait, elements, timestep)
-    simulator, mine = _start(diagram, plant)
-    simulator.AdvanceTo(SETTLING)
+    scene = TreeScene(gait=gait)
+    diagram, plant, torso = built(scene, elements, timestep)
+    simulator, mine = start(diagram, plant)
+    simulator.AdvanceTo(scene.settle_time)
     begin = plant.EvalBodyPoseInWorld(mine, torso)
     started = clock.process_time()
-    simulator.AdvanceTo(end)
+    simulator.AdvanceTo(scene.duration)
     spent = clock.process_time() - started
     moved = begin.inverse() @ plant.EvalBodyPoseInWorld(mine, torso)
     x, y, _ = moved.translation() / LENGTH
     yaw = RollPitchYaw(moved.rotation()).yaw_angle()
-    return float(x), float(y), float(np.degrees(yaw)), (end - SETTLING) / spent
+    return float(x), float(y), float(np.degrees(yaw)), gait.period / spent
 
 
 def main():
