@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic import pneunet
 from analytic.contact import flat_length, may_lie_flat
+from analytic.contact import ripple as strip_ripple
 from analytic.friction import LAWS
 from analytic.ground import surfaces_of
 from analytic.robot import Robot
@@ -25,7 +25,6 @@ from analytic.tree.statics import Rest
 
 Array = NDArray[np.float64]
 
-_RIPPLE = 0.2  # of w L h^3 / D0: how high a flat stretch ripples between nodes; as for a strip
 _POINTS = (0.5 - 12**-0.5, 0.5 + 12**-0.5)  # of a side: two that resist turning as all of it does
 _NEAR, _WHOLE = 2, 1e-9  # elements from an end that count as there; of a length: all of it
 _HARDLY = 1e-9  # of a length
@@ -200,9 +199,10 @@ class Contacts:
             return None, 0.0
         tip = at[0 if end == "begin" else -1]
         if not state.may[i]:
-            # bent by pressure it stands on its tip alone, which bears whatever pushes it
-            total = sum(force) if end in self._free[i] and self._carrier[i] >= 0 else total
-            return (Contact(i, 0.0, (tip,), total) if end in self._free[i] else None), 0.0
+            if end not in self._free[i]:
+                return None, 0.0
+            # bent by pressure it stands on its tip alone; only a trunk may have two
+            return Contact(i, 0.0, (tip,), sum(force) if self._carrier[i] >= 0 else total), 0.0
         whole = False
         if run == count and end == "end":
             joint, whole = self._beyond(state, i)
@@ -234,9 +234,8 @@ def _free_ends(robot: TreeRobot, limb: int) -> tuple[str, ...]:
 
 def ripple(strip: Robot, elements: int) -> float:
     """Height to which a limb that lies flat ripples between its nodes [m]."""
-    spacing = strip.length / elements
-    unit = strip.weight_per_length * strip.length * spacing**3 / pneunet.base_rigidity(strip)
-    return _RIPPLE * unit * 4  # wider links are four thirds of an element
+    # wider links are four thirds of an element
+    return 4 * strip_ripple(strip, np.array([0.0, strip.length / elements]))
 
 
 def check_ground(ground: Ground) -> None:

@@ -85,21 +85,34 @@ class TreeRobot:
         return self.names.index(name)
 
     @property
+    def outer(self) -> tuple[str, ...]:
+        """Names of the limbs that carry none."""
+        carriers = {limb.on for limb in self.limbs}
+        return tuple(name for name in self.names if name not in carriers)
+
+    @property
     def weight(self) -> float:
         """Of all limbs [N]."""
         return sum(limb.strip.weight for limb in self.limbs)
 
 
+def plan(robot: TreeRobot) -> dict[str, tuple[Array, Array]]:
+    """Where the middle line of each limb begins and ends, lying flat, by its name, (2,) [m]."""
+    found: dict[str, tuple[Array, Array]] = {}
+    for limb in robot.limbs:
+        begin = np.zeros(2)
+        if limb.on is not None:
+            heading = robot.limbs[robot.place(limb.on)].angle
+            begin = found[limb.on][0 if limb.at == "begin" else 1]
+            begin = begin + limb.offset * np.array([-np.sin(heading), np.cos(heading)])
+        along = limb.strip.length * np.array([np.cos(limb.angle), np.sin(limb.angle)])
+        found[limb.name] = begin, begin + along
+    return found
+
+
 def outline(robot: TreeRobot) -> tuple[float, float]:
     """Length and width of a robot that lies flat, between the ends of middle lines [m]."""
-    ends: dict[tuple[str | None, str], Array] = {(None, "end"): np.zeros(2)}
-    for limb in robot.limbs:
-        heading = 0.0 if limb.on is None else robot.limbs[robot.place(limb.on)].angle
-        aside = limb.offset * np.array([-np.sin(heading), np.cos(heading)])
-        begin = ends[limb.on, limb.at] + aside
-        along = limb.strip.length * np.array([np.cos(limb.angle), np.sin(limb.angle)])
-        ends[limb.name, "begin"], ends[limb.name, "end"] = begin, begin + along
-    x, y = np.ptp(list(ends.values()), axis=0)
+    x, y = np.ptp([place for ends in plan(robot).values() for place in ends], axis=0)
     return float(x), float(y)
 
 

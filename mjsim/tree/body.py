@@ -80,10 +80,6 @@ def tree_spec(
             heading = scene.robot.limbs[scene.robot.place(limb.on)].angle
         first, last, length = _chain(scene, numerics, i, carrier, along, limb.angle - heading)
         ends[limb.name] = {"begin": (first, 0.0), "end": (last, length)}
-    firmness = 1.0 - softness(scene, numerics)
-    for geom in spec.geoms:
-        if "_pad_" in geom.name:
-            geom.solimp[:3] = firmness, firmness, 0.001
     for number in range(len(scene.robot.limbs) if held else 0):
         for place in range(places_of(scene.robot, number)):
             for direction in (0, 1):
@@ -112,6 +108,7 @@ def _chain(
     own, elements = scene.robot.limbs[limb], numerics.elements
     lengths = link_lengths(own.strip, elements)
     stiffness, rest = joint_springs(own.strip, elements, np.zeros((1, 1)))
+    firmness = 1.0 - softness(scene, numerics)
     parent, first = carrier, carrier
     for i, length in enumerate(lengths.tolist()):
         body = parent.add_body(name=limb_body(own.name, i))
@@ -132,9 +129,9 @@ def _chain(
         across, long = mass * width**2 / 12, mass * length**2 / 12
         body.explicitinertial, body.mass, body.ipos = True, mass, (length / 2, 0.0, 0.0)
         body.inertia = (across, long, (across + long) * (1 - _THIN))
-        _add_pads(body, numerics, own.name, i, 0.0, width)
+        _add_pads(body, numerics, firmness, own.name, i, 0.0, width)
         if i == elements:
-            _add_pads(body, numerics, own.name, i + 1, length, width)
+            _add_pads(body, numerics, firmness, own.name, i + 1, length, width)
         parent = body
     return first, parent, float(lengths[-1])
 
@@ -153,7 +150,13 @@ def _add_root(body: mujoco.MjsBody) -> None:
 
 
 def _add_pads(
-    body: mujoco.MjsBody, numerics: TreeNumerics, limb: str, node: int, x: float, width: float
+    body: mujoco.MjsBody,
+    numerics: TreeNumerics,
+    firmness: float,
+    limb: str,
+    node: int,
+    x: float,
+    width: float,
 ) -> None:
     for side, y in (("right", -0.5 * width), ("left", 0.5 * width)):
         pad = body.add_geom(name=f"{PREFIX}{limb}_pad_{node}_{side}")
@@ -161,6 +164,7 @@ def _add_pads(
         pad.size[0], pad.mass, pad.group = numerics.pad_radius, 0.0, 3
         pad.contype, pad.conaffinity, pad.priority, pad.condim = 1, 0, 1, 1
         pad.solref[:] = numerics.contact_time * numerics.timestep, 1.0
+        pad.solimp[:3] = firmness, firmness, 0.001
 
 
 def _add_row(

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 from analytic.tree.kinematics import Tree
-from analytic.tree.limbs import outline
+from analytic.tree.limbs import outline, plan
 from mjsim.bodies.parts import DARK, PALE
 from mjsim.io.files import whole
 from mjsim.tree.walk import TreeWalk
@@ -136,21 +136,21 @@ class Camera:
         size = 0.005 * self._walk.length
         steps, places = self._track
         count = int(np.searchsorted(steps, step, side="right"))
-        for place in places[:count].reshape(-1, 2)[::-1]:
-            start = bool((place == places[0]).all(axis=1).any())
-            big = np.array([size * (1.6 if start else 1.0)] * 3)
-            mujoco.mjv_initGeom(scene.geoms[scene.ngeom], mujoco.mjtGeom.mjGEOM_SPHERE, big,
-                                np.array([*place, 0.3 * size]), np.eye(3).ravel(),
-                                np.array(_RED if start else _BLUE, dtype=np.float32))  # fmt: skip
-            scene.ngeom += 1
+        been = places[1:count].reshape(-1, 2)
+        for dots, radius, rgba in ((been, size, _BLUE), (places[0], 1.6 * size, _RED)):
+            colour = np.array(rgba, dtype=np.float32)
+            for place in dots:
+                mujoco.mjv_initGeom(scene.geoms[scene.ngeom], mujoco.mjtGeom.mjGEOM_SPHERE,
+                                    np.full(3, radius), np.array([*place, 0.3 * size]),
+                                    np.eye(3).ravel(), colour)  # fmt: skip
+                scene.ngeom += 1
 
 
 def _track(walk: TreeWalk) -> tuple[Array, Array]:
     """Steps of a walk, (S,), and the ends of its outer limbs in plan at them, (S, E, 2) [m]."""
     robot, elements = walk.scene.robot, walk.numerics.elements
-    tree, carriers = Tree(robot, elements), {limb.on for limb in robot.limbs}
-    outer = [i for i, limb in enumerate(robot.limbs) if limb.name not in carriers]
-    last = [i * (elements + 2) + elements + 1 for i in outer]
+    tree = Tree(robot, elements)
+    last = [robot.place(name) * (elements + 2) + elements + 1 for name in robot.outer]
     steps = np.unique(np.linspace(walk.start, len(walk.time) - 1, _DOTS).astype(int))
     nodes = np.array([tree.pose(walk.coordinates[step]).nodes for step in steps])
     middle = 0.5 * (nodes[:, : nodes.shape[1] // 2] + nodes[:, nodes.shape[1] // 2 :])
@@ -186,16 +186,15 @@ def _written(walk: TreeWalk, frame: Frame, step: int, faster: float) -> Frame:
 
 def _plan(pen: ImageDraw.ImageDraw, walk: TreeWalk, step: int, centre: tuple[int, int]) -> None:
     """The robot from above, each limb in the colour that it has."""
-    from mjsim.tree.look import origins
-
     robot = walk.scene.robot
+    begins = {name: ends[0] for name, ends in plan(robot).items()}
     scale = 190.0 / outline(robot)[0]
-    middle = np.mean([place[:2] for place in origins(walk.scene).values()], axis=0)
+    middle = np.mean(list(begins.values()), axis=0)
     for limb, pressure in zip(robot.limbs, walk.pressure[step], strict=True):
         fraction = min(abs(float(pressure)) / robot.peak_pressure, 1.0)
         shade = tuple(round(255 * (p + fraction * (d - p)))
                       for p, d in zip(PALE, DARK, strict=True))  # fmt: skip
-        start = origins(walk.scene)[limb.name][:2] - middle
+        start = begins[limb.name] - middle
         along = np.array([np.cos(limb.angle), np.sin(limb.angle)])
         side = 0.5 * limb.strip.width * np.array([-along[1], along[0]])
         corners = [start + side, start + along * limb.strip.length + side,

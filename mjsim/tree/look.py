@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from analytic.chain import link_lengths
 from analytic.robot import Robot
-from analytic.tree.limbs import outline
+from analytic.tree.limbs import outline, plan
 from mjsim.bodies.parts import DARK, PALE
 from mjsim.ground.stage import stage
 from mjsim.tree.body import ROOT, hinge_names, limb_body, tree_spec
@@ -89,16 +89,17 @@ def _add_overhead(spec: mujoco.MjSpec, scene: TreeScene) -> None:
     """A camera straight above the middle of the robot, ahead to the right of the picture."""
     length = outline(scene.robot)[0]
     camera = spec.worldbody.add_camera(name=OVERHEAD, fovy=_WIDE)
-    middle = np.mean([place[:2] for place in ends(scene).values()], axis=0)
+    flat = plan(scene.robot)
+    middle = np.mean([flat[name][1] for name in scene.robot.outer], axis=0)
     camera.pos = (*middle, _HIGH * length)
 
 
 def add_skins(spec: mujoco.MjSpec, scene: TreeScene, numerics: TreeNumerics) -> None:
     """Give each limb of a robot that lies flat the skin of a pneu-net."""
-    begins = origins(scene)
+    flat = plan(scene.robot)
     for limb in scene.robot.limbs:
         shape = segment_skin(limb.strip, numerics.elements, 0, numerics.pad_radius)
-        origin, angle = begins[limb.name], limb.angle
+        origin, angle = np.append(flat[limb.name][0], 0.0), limb.angle
         c, s = np.cos(angle), np.sin(angle)
         turned = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
         starts = np.append(0.0, np.cumsum(_lengths(scene, limb.name, numerics)))
@@ -117,29 +118,3 @@ def add_skins(spec: mujoco.MjSpec, scene: TreeScene, numerics: TreeNumerics) -> 
 
 def _lengths(scene: TreeScene, limb: str, numerics: TreeNumerics) -> Array:
     return link_lengths(scene.robot.limbs[scene.robot.place(limb)].strip, numerics.elements)
-
-
-def ends(scene: TreeScene) -> dict[str, Array]:
-    """Where each limb that carries no other ends, lying flat [m]."""
-    carriers = {limb.on for limb in scene.robot.limbs}
-    begins = origins(scene)
-    return {
-        limb.name: begins[limb.name]
-        + limb.strip.length * np.array([np.cos(limb.angle), np.sin(limb.angle), 0.0])
-        for limb in scene.robot.limbs if limb.name not in carriers
-    }  # fmt: skip
-
-
-def origins(scene: TreeScene) -> dict[str, Array]:
-    """Where each limb begins, in plan [m]."""
-    robot = scene.robot
-    found: dict[str, Array] = {}
-    for limb in robot.limbs:
-        start = np.zeros(3)
-        if limb.on is not None:
-            carrier = robot.limbs[robot.place(limb.on)]
-            along = np.array([np.cos(carrier.angle), np.sin(carrier.angle), 0.0])
-            start = found[carrier.name] + (limb.at == "end") * carrier.strip.length * along
-            start = start + limb.offset * np.array([-along[1], along[0], 0.0])
-        found[limb.name] = start
-    return found

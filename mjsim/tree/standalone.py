@@ -95,17 +95,11 @@ def write(scene: TreeScene, path: Path, numerics: TreeNumerics | None = None) ->
         part.write_text(text, encoding="utf-8")
 
 
-def _free(robot: TreeRobot) -> list[str]:
-    """Limbs that carry none."""
-    carriers = {limb.on for limb in robot.limbs}
-    return [limb.name for limb in robot.limbs if limb.name not in carriers]
-
-
 def _add_tips(
     spec: mujoco.MjSpec, scene: TreeScene, numerics: TreeNumerics, friction: float
 ) -> None:
     robot = scene.robot
-    for name in _free(robot):
+    for name in robot.outer:
         back = _BEFORE * robot.limbs[robot.place(name)].strip.length / numerics.elements
         body = spec.body(limb_body(name, numerics.elements))
         for side in ("left", "right"):
