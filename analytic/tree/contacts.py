@@ -146,7 +146,13 @@ class Contacts:
 
     def resistance(self, contact: Contact, surface: Surface) -> tuple[float, float]:
         """Bound of friction [N] and viscous resistance [N s/m] of each point of a contact."""
-        width, points = self._tree.robot.limbs[contact.limb].strip.width, len(contact.at)
+        strip, points = self._tree.robot.limbs[contact.limb].strip, len(contact.at)
+        width = strip.width
+        if 0 < contact.length <= _HARDLY * strip.length and not self._law.needs_load:
+            return (
+                0.0,
+                0.0,
+            )  # no area: what rounding leaves would be the only bound there is
         bound = self._law.bound(surface, width, contact.length, contact.load)
         if not contact.length and not self._law.needs_load:
             bound *= self._share[contact.limb]

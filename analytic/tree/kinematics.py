@@ -3,8 +3,9 @@
 Each limb is the chain of analytic.chain: n hinges between n + 1 links with Simpson's weights. The
 first link of a limb is clamped to the link that carries it.
 
-Coordinates q: x, y and height of the trunk's beginning, its yaw (to the left), pitch (up) and roll
-(left side up), then the hinges, trunk first; a hinge turns its plane's outward direction up.
+Coordinates q: x, y and height of the trunk's beginning, its yaw (to the left, from where it first
+points), pitch (up) and roll (left side up), then the hinges, trunk first; a hinge turns its plane's
+outward direction up.
 """
 
 from typing import NamedTuple
@@ -62,6 +63,7 @@ class Tree:
         self.parent = np.arange(-1, count - 1)
         self._lengths = [link_lengths(limb.strip, elements) for limb in robot.limbs]
         self.starts = [np.append(0.0, np.cumsum(lengths)[:-1]) for lengths in self._lengths]
+        self._direction = robot.limbs[0].angle
         self._turns = [_turn(_UP, limb.angle - self._heading(limb.on)) for limb in robot.limbs]
         self._places = [-1 if limb.on is None else robot.place(limb.on) for limb in robot.limbs]
         weight, arclength = [], []
@@ -101,7 +103,7 @@ class Tree:
         axes, centres = np.zeros((len(q), 3)), np.zeros((len(q), 3))
         base = np.array(q[:3])
         axes[:3], axes[3] = _EYE, _UP
-        headed = _turn(_UP, q[3])
+        headed = _turn(_UP, self._direction + q[3])
         axes[4] = -headed[:, 1]
         pitched = _turn(axes[4], q[4]) @ headed
         axes[5] = pitched[:, 0]
@@ -139,7 +141,8 @@ class Tree:
         return Pose(np.concatenate([right, left]), axes, centres)
 
     def _heading(self, on: str | None) -> float:
-        return 0.0 if on is None else self.robot.limbs[self.robot.place(on)].angle
+        carrier = 0 if on is None else self.robot.place(on)
+        return self.robot.limbs[carrier].angle
 
     def moves(self, pose: Pose, which: slice | NDArray[np.int_] = slice(None)) -> Array:
         """How places of nodes follow the coordinates, (P, 3, Q); of some nodes if so asked."""

@@ -34,7 +34,7 @@ class Limb:
     at: End = "end"
     """end of that limb where it begins"""
     angle: float = 0.0
-    """in plan from the direction of the trunk, to the left [rad]"""
+    """of its direction in plan, from the ground's x to the left [rad]"""
     offset: float = 0.0
     """of its beginning to the left of the carrier's middle line [m]"""
 
@@ -111,9 +111,16 @@ def plan(robot: TreeRobot) -> dict[str, tuple[Array, Array]]:
 
 
 def outline(robot: TreeRobot) -> tuple[float, float]:
-    """Length and width of a robot that lies flat, between the ends of middle lines [m]."""
-    x, y = np.ptp([place for ends in plan(robot).values() for place in ends], axis=0)
-    return float(x), float(y)
+    """Length along the trunk and width across it, lying flat, between ends of middle lines [m]."""
+    places = np.array([place for ends in plan(robot).values() for place in ends])
+    along, across = np.ptp(places @ rotation(robot.limbs[0].angle), axis=0)
+    return float(along), float(across)
+
+
+def rotation(angle: float) -> Array:
+    """Matrix of a turn to the left in plan, (2, 2)."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s], [s, c]])
 
 
 # the public finite-element mesh of this robot, SofaDefrost/ModelOrderReduction, multiGait

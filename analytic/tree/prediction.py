@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from analytic.gait import Gait
 from analytic.surface import Ground
-from analytic.tree.limbs import TreeRobot
+from analytic.tree.limbs import TreeRobot, rotation
 from analytic.tree.path import Path
 from analytic.tree.walk import walk
 
@@ -18,7 +18,8 @@ class TreePrediction(NamedTuple):
     """A walk by the quasi-static reference.
 
     Attributes:
-        displacement: of the trunk's beginning in all, along x and y, (2,) [m].
+        displacement: of the trunk's beginning in all, ahead and to the left of the trunk's first
+            direction, (2,) [m].
         turn: of the trunk to the left [rad].
         displacement_error, turn_error: what half the states and two hinges less change [m, rad].
         path: the walk itself.
@@ -49,4 +50,5 @@ def predict(
         for count, links in ((states // 2, max(2, elements - 2)), (states, elements))
     )
     change = float(np.hypot(*(fine.displacement - coarse.displacement)))
-    return TreePrediction(fine.displacement, fine.turn, change, abs(fine.turn - coarse.turn), fine)
+    ahead = fine.displacement @ rotation(robot.limbs[0].angle)
+    return TreePrediction(ahead, fine.turn, change, abs(fine.turn - coarse.turn), fine)

@@ -16,6 +16,7 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve, eigh
 from analytic.chain import joint_springs
 from analytic.tree.grip import Grip, held
 from analytic.tree.kinematics import HEIGHT, IN_PLAN, WHOLE, Pose, Tree
+from analytic.tree.limbs import rotation
 
 Array = NDArray[np.float64]
 
@@ -60,7 +61,7 @@ class Statics:
     def __init__(self, tree: Tree) -> None:
         self.tree = tree
         nodes = tree.pose(np.zeros(len(tree.parent))).nodes
-        self.length = float(np.ptp(nodes[:, 0]))
+        self.length = float(np.ptp(nodes[:, :2] @ rotation(tree.robot.limbs[0].angle)[:, 0]))
         self._weight = float(tree.weight.sum())
         self._scale = np.ones(len(tree.parent))
         self._scale[: HEIGHT + 1] = self.length

@@ -15,7 +15,7 @@ from analytic.plane import least_dissipation_in_plane
 from analytic.surface import Ground
 from analytic.tree.contacts import Contact, Contacts, check_ground
 from analytic.tree.kinematics import Tree
-from analytic.tree.limbs import TreeRobot
+from analytic.tree.limbs import TreeRobot, rotation
 from analytic.tree.path import Path
 from analytic.tree.statics import Rest, Statics
 from analytic.tree.stick_slip import drag_along
@@ -98,12 +98,6 @@ def _resistances(
     ]
     bounds, drag = np.array(pairs).T
     return bounds, drag
-
-
-def rotation(angle: float) -> Array:
-    """Matrix of a turn to the left in the plane, (2, 2)."""
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[c, -s], [s, c]])
 
 
 def walk(

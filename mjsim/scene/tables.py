@@ -126,7 +126,9 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
         )
     robot = make(Robot, tables.get("robot", {}), f"{where}[robot] ")
     gait, highest = _gait_of(tables.get("gait", {}), f"{where}[gait] ", len(robot.segments))
-    if highest is not None:
+    if highest is not None and "peak_pressure" in tables.get("robot", {}):
+        gait = _of_peak(gait, highest, robot.peak_pressure, f"{where}[robot] ")
+    elif highest is not None:
         robot = replace(robot, peak_pressure=highest)
     ground = tables.get("ground", {})
     slope = as_type(float, ground.get("slope_deg", 0.0), f"{where}[ground] slope_deg", "deg")
@@ -225,6 +227,17 @@ def _gait_of(table: Table, where: str, segments: int) -> tuple[Gait, float | Non
     gait, highest = read_gait(Path(str(table["file"])))
     gait = replace(gait, name=table.get("name", gait.name))
     return (gait.reversed() if table.get("reverse") else gait), highest
+
+
+def _of_peak(gait: Gait, highest: float, peak: float, where: str) -> Gait:
+    """Measured pressures as fractions of a peak that the robot is said to have."""
+    if highest > peak:
+        raise ValueError(
+            f"{where}peak_pressure must be at least the highest measured pressure, {highest:.6g} "
+            f"Pa of gait {gait.name!r}, which it does not scale; got {peak:.6g} Pa"
+        )
+    part = highest / peak
+    return replace(gait, stages=tuple(tuple(part * f for f in stage) for stage in gait.stages))
 
 
 def _trapezoid(table: Table, where: str, segments: int) -> Gait:

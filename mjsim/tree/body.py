@@ -14,7 +14,7 @@ import numpy as np
 from analytic import pneunet
 from analytic.chain import joint_springs, link_lengths
 from analytic.tree.contacts import ripple
-from analytic.tree.limbs import TreeRobot
+from analytic.tree.limbs import TreeRobot, rotation
 from mjsim.bodies.parts import PREFIX
 from mjsim.mjcf.builder import TOUCH
 from mjsim.tree.scene import TreeNumerics, TreeScene
@@ -92,8 +92,9 @@ def places_of(robot: TreeRobot, limb: int) -> int:
 
     Two of a side, for each end that something may touch the ground by, and one between such ends.
     """
-    carries = {other.at for other in robot.limbs if other.on == robot.limbs[limb].name}
-    return 2 if not carries else 5
+    own = robot.limbs[limb]
+    free_end_alone = own.on is not None and own.name in robot.outer
+    return 2 if free_end_alone else 5
 
 
 def _chain(
@@ -116,7 +117,7 @@ def _chain(
             body.pos = (along, own.offset, _height(scene, numerics) if own.on is None else 0.0)
             body.quat = (np.cos(angle / 2), 0.0, 0.0, np.sin(angle / 2))
             if own.on is None:
-                _add_root(body)
+                _add_root(body, angle)
             first = body
         else:
             body.pos = (lengths[i - 1], 0.0, 0.0)
@@ -141,12 +142,15 @@ def _height(scene: TreeScene, numerics: TreeNumerics) -> float:
     return numerics.pad_radius - TOUCH * scene.robot.limbs[0].strip.length
 
 
-def _add_root(body: mujoco.MjsBody) -> None:
+def _add_root(body: mujoco.MjsBody, angle: float) -> None:
+    """Joints of the whole: along the ground's axes, pitch and roll about the trunk's own."""
     slide, hinge = mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_HINGE
     axes = ((1, 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 1), (0, -1, 0), (1, 0, 0))
     for name, axis in zip(ROOT, axes, strict=True):
         kind = slide if name in "xyz" else hinge
-        body.add_joint(name=PREFIX + name, type=kind, axis=axis)
+        joint = body.add_joint(name=PREFIX + name, type=kind, axis=axis)
+        if name in "xy":
+            joint.axis[:2] = np.array(axis[:2]) @ rotation(angle)
 
 
 def _add_pads(

@@ -3,10 +3,12 @@
 import hashlib
 import json
 import sys
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
+from analytic.surface import SURFACES
+from analytic.tree.gaits import QUADRUPED_GAITS
 from mjsim.io.cli import FAILED, bar, say, strict_json
 from mjsim.tree.record import record, table
 from mjsim.tree.scene import TreeNumerics, TreeScene
@@ -25,12 +27,13 @@ def run(
     """
     records, walks = [], []
     for scene, numerics in cases:
+        name = file_name(scene, numerics)
         simulation = TreeSimulation(scene, numerics)
         total = round(scene.duration / numerics.timestep)
         with bar(f"simulating {scene.ground.name}", total) as advance:
             walk = simulation.run(progress=advance)
         failed = walk.status != "ok"
-        path = out / f"{file_name(walk)}{'-failed' * failed}.nc"
+        path = out / f"{name}{'-failed' * failed}.nc"
         walk.save(path)
         records.append({**record(walk), "trajectory": str(path), "video": None,
                         "provenance": provenance(walk)})  # fmt: skip
@@ -66,13 +69,20 @@ def _film(program: str, walks: list[TreeWalk], records: list[dict[str, Any]]) ->
         records[i]["video"] = str(path)
 
 
-def file_name(walk: TreeWalk) -> str:
-    """File name of a run, alike for the same scene and numerics alone."""
-    scene, usual = walk.scene, TreeScene(ground=walk.scene.ground)
-    words = ["limbs", scene.ground.name]
-    if scene.gait != usual.gait:
-        words.append(scene.gait.name)
-    if (scene, walk.numerics) != (usual, TreeNumerics()):
-        described = json.dumps([repr(scene), asdict(walk.numerics)], sort_keys=True)
+def file_name(scene: TreeScene, numerics: TreeNumerics) -> str:
+    """File name of a run, alike for the same scene and numerics alone.
+
+    The surface; what of gait and friction is not the default; and, where anything else is not, a
+    digest of everything.
+    """
+    usual, words = TreeScene(), ["limbs", scene.ground.name]
+    for word, default in ((scene.gait.name, usual.gait.name), (scene.friction, usual.friction)):
+        words += [word] * (word != default)
+    gaits = [usual.gait, *QUADRUPED_GAITS.values()]
+    named = scene.ground == SURFACES.get(scene.ground.name) and scene.gait in gaits
+    rest = {field.name for field in fields(scene)} - {"ground", "gait", "friction"}
+    alike = all(getattr(scene, name) == getattr(usual, name) for name in rest)
+    if not (named and alike and numerics == TreeNumerics()):
+        described = json.dumps([repr(scene), asdict(numerics)], sort_keys=True)
         words.append(hashlib.sha256(described.encode()).hexdigest()[:8])
     return "-".join(words)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 from analytic.tree.kinematics import Tree
-from analytic.tree.limbs import outline, plan
+from analytic.tree.limbs import outline, plan, rotation
 from mjsim.bodies.parts import DARK, PALE
 from mjsim.io.files import whole
 from mjsim.tree.walk import TreeWalk
@@ -169,7 +169,7 @@ def _written(walk: TreeWalk, frame: Frame, step: int, faster: float) -> Frame:
     time = max(0.0, float(walk.time[step]))
     pen.text((28, 78), f"t = {time:4.1f} s{speed}", font=small, fill=INK)
     _plan(pen, walk, step, (520, 62))
-    gone = walk.coordinates[step, :2] - walk.coordinates[walk.start, :2]
+    gone = walk.moved(walk.start, step)
     ahead, aside = (0.0 if abs(part) < 5e-4 else part for part in (gone / walk.length).tolist())
     turned = float(np.degrees(walk.coordinates[step, 3] - walk.coordinates[walk.start, 3]))
     turned = 0.0 if abs(turned) < 5e-2 else turned
@@ -185,9 +185,10 @@ def _written(walk: TreeWalk, frame: Frame, step: int, faster: float) -> Frame:
 
 
 def _plan(pen: ImageDraw.ImageDraw, walk: TreeWalk, step: int, centre: tuple[int, int]) -> None:
-    """The robot from above, each limb in the colour that it has."""
+    """The robot from above, its trunk ahead, each limb in the colour that it has."""
     robot = walk.scene.robot
-    begins = {name: ends[0] for name, ends in plan(robot).items()}
+    first = robot.limbs[0].angle
+    begins = {name: ends[0] @ rotation(first) for name, ends in plan(robot).items()}
     scale = 190.0 / outline(robot)[0]
     middle = np.mean(list(begins.values()), axis=0)
     for limb, pressure in zip(robot.limbs, walk.pressure[step], strict=True):
@@ -195,7 +196,7 @@ def _plan(pen: ImageDraw.ImageDraw, walk: TreeWalk, step: int, centre: tuple[int
         shade = tuple(round(255 * (p + fraction * (d - p)))
                       for p, d in zip(PALE, DARK, strict=True))  # fmt: skip
         start = begins[limb.name] - middle
-        along = np.array([np.cos(limb.angle), np.sin(limb.angle)])
+        along = rotation(limb.angle - first)[:, 0]
         side = 0.5 * limb.strip.width * np.array([-along[1], along[0]])
         corners = [start + side, start + along * limb.strip.length + side,
                    start + along * limb.strip.length - side, start - side]  # fmt: skip

@@ -32,7 +32,7 @@ _STIFFER = (
 _VISCOUS = 100.0  # b dt; chosen
 _SOFTEST, _FIRMEST = 1e-4, 0.9999  # what MuJoCo takes of a row's firmness
 _AHEAD = (1.0, 0.0)
-_FAINT = 0.005  # of all bounds, that viscosity adds at most; chosen
+_FAINT = 0.005  # of all bounds and drags, that viscosity adds at most; chosen
 _STANDS = 1e-9  # m/s; N: no place is held by less
 _POINT = 1e-8  # m^2; places that are closer do not tell a turn
 
@@ -46,7 +46,7 @@ class Rows:
         body, own: that the place is fast to, and where in its frame along x [m].
         jacobian: of its motion, (3, nv); the coefficients of its motion in plan, (2, J).
         place: in plan, (2,) [m].
-        bound: of its friction [N].
+        bound, drag: of its friction [N]; its viscous resistance [N s/m].
         inverse_mass: that MuJoCo sees across, in the step before [1/kg].
     """
 
@@ -62,7 +62,8 @@ class Rows:
         begin = model.tendon_adr[first]
         self._coefficients = model.wrap_prm[begin : begin + 2 * joints].reshape(2, joints)
         self._dofs = model.jnt_dofadr[model.wrap_objid[begin : begin + joints]]
-        self.way, self.bound, self.body, self.own = (1.0, 0.0), 0.0, 0, 0.0
+        self.way, self.body, self.own = (1.0, 0.0), 0, 0.0
+        self.bound = self.drag = 0.0
         self.place = self.velocity = (0.0, 0.0)
         self.jacobian = np.zeros((3, model.nv))
         self.release()
@@ -82,7 +83,7 @@ class Rows:
 
     def hold(self, bound: float, drag: float) -> None:
         """Resist by so much [N, N s/m] in the next step."""
-        self.bound, (c, s) = bound, self.way
+        self.bound, self.drag, (c, s) = bound, drag, self.way
         across, along = self.jacobian[:2].take(self._dofs, axis=1)[::-1]
         self._coefficients[0] = c * along + s * across
         self._coefficients[1] = c * across - s * along
@@ -197,11 +198,11 @@ class Grips:
 
     def _viscous(self, held: list[Rows]) -> float:
         """Resistance of each place to what the bounds leave open [N s/m]."""
-        bound = sum(rows.bound for rows in held)
+        bound, drag = sum(rows.bound for rows in held), sum(rows.drag for rows in held)
         pace = max((math.hypot(*rows.velocity) for rows in held), default=0.0)
         whole = self._viscosity
-        if bound > 0.0:
-            whole = min(whole, _FAINT * bound / max(pace, _STANDS))
+        if bound > 0.0 or drag > 0.0:
+            whole = min(whole, _FAINT * (bound / max(pace, _STANDS) + drag))
         return whole / max(len(held), 1)
 
     def _rest(self) -> Rest:

@@ -14,7 +14,7 @@ from mjsim.tree.walk import TreeWalk
 REFERENCE = "quasi-static"
 _MATTERS, _APART, _TURNED = 0.05, 2e-3, 0.2  # relative, L, degrees: less needs no word; chosen
 _ROUNDED = 1.01  # a step that was printed to two digits is short enough
-_FEET = 3  # that stand without falling
+_FEET = 3  # that stand without falling, if it has so many
 _STATES = 20  # of the reference, for a change by the peak pressure
 
 
@@ -100,7 +100,8 @@ def _notes(walk: TreeWalk, row: dict[str, Any], found: TreePrediction | None) ->
     step = longest_step(walk.scene, walk.numerics)
     if walk.numerics.timestep > step * _ROUNDED:
         notes.append(f"limbs sink in too deep: take a timestep of at most {step:.2g} s")
-    standing = np.mean(walk.contacts[walk.start :] < _FEET)
+    feet = min(_FEET, len(walk.scene.robot.limbs))
+    standing = np.mean(walk.contacts[walk.start :] < feet)
     if standing > 0:
         notes.append(f"on {row['fewest_limbs_on_ground']} limbs for {standing:.0%} of the time")
     return notes

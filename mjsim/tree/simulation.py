@@ -10,11 +10,11 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.chain import joint_springs
+from analytic.chain import joint_springs, link_lengths
 from analytic.gait import Gait
 from analytic.tree.limbs import outline
 from mjsim.simulation.status import Status
-from mjsim.tree.body import ROOT, hinge_names, tree_spec
+from mjsim.tree.body import ROOT, hinge_names, limb_body, tree_spec
 from mjsim.tree.friction import Grips
 from mjsim.tree.scene import TreeNumerics, TreeScene
 from mjsim.tree.walk import TreeWalk
@@ -22,7 +22,8 @@ from mjsim.tree.walk import TreeWalk
 Array = NDArray[np.float64]
 
 _BARE = Path(__file__).parent.parent / "ground" / "bare.xml"
-_TIPPED = 1.0  # rad of pitch or roll of the trunk: it fell over; chosen
+_TIPPED = 1.0  # rad of pitch or roll of the trunk as a whole: it fell over; chosen
+_STEEP, _LEANS = math.tan(_TIPPED), math.sin(_TIPPED)
 # of the model, rewritten at each step
 _SET = ("jnt_stiffness", "qpos_spring", "wrap_prm", "tendon_frictionloss", "tendon_damping",
         "tendon_solref_fri", "tendon_solimp_fri")  # fmt: skip
@@ -78,6 +79,12 @@ class TreeSimulation:
         self._order = np.array([*range(len(ROOT)), *qpos])
         self._rest_angles = np.array(qpos)
         self._length = outline(scene.robot)[0]
+        trunk, elements = scene.robot.limbs[0], self.numerics.elements
+        self._trunk = (
+            self.model.body(limb_body(trunk.name, 0)).id,
+            self.model.body(limb_body(trunk.name, elements)).id,
+            float(link_lengths(trunk.strip, elements)[-1]),
+        )
         self._compiled = {name: getattr(self.model, name).copy() for name in _SET}
         self.reset()
 
@@ -191,10 +198,21 @@ class TreeSimulation:
         self._wall += clock.perf_counter() - started
 
     def _judge(self) -> None:
-        height, pitch, roll = (self.data.qpos.item(i) for i in (2, 4, 5))
+        """Stop where a coordinate is beyond any walk, or the trunk as a whole has tipped over.
+
+        A long trunk bends by more than that at its beginning, so its ends tell its pitch; its side
+        is level on every link alike.
+        """
+        data, (first, last, length) = self.data, self._trunk
+        height = data.qpos.item(2)
         if not (math.isfinite(height) and abs(height) < self._length):
             self._status = Status.DIVERGED
-        elif abs(pitch) > _TIPPED or abs(roll) > _TIPPED:
+            return
+        (x, y, z), (u, v, w) = data.xpos[first].tolist(), data.xpos[last].tolist()
+        along = data.xmat[last].tolist()
+        ahead = u - x + length * along[0], v - y + length * along[3]
+        rise, aside = w - z + length * along[6], along[7]
+        if abs(rise) > _STEEP * math.hypot(*ahead) or abs(aside) > _LEANS:
             self._status = Status.TOPPLED
 
 

@@ -2,8 +2,8 @@
 
 [robot]         name = "quadruped", and fields that all its limbs share: modulus, thickness, ...
 [[robot.limbs]] in place of a name: name, and for all but the first `on`, the limb that carries
-                it, `at`, its "begin" or "end", `angle_deg` in plan from the first limb's
-                direction to the left, `offset` to the left [m]; and fields of analytic.Robot of
+                it, `at`, its "begin" or "end", `angle_deg` of its direction in plan, from the
+                ground's x to the left, `offset` to the left [m]; and fields of analytic.Robot of
                 its own over the shared ones: length, width, mass, ...
 [gait]          name of an undulation, left and right, parts of the pressure that legs of that
                 side get; or stages of a fraction a limb, ramp_time, or file
@@ -28,7 +28,15 @@ from mjsim.tree.scene import TreeNumerics, TreeScene
 
 ROBOTS = ("quadruped",)
 _PLACED = ("name", "on", "at", "angle_deg", "offset")  # of a limb, beside what its strip is
-_OWN = ("length", "width", "mass", "weight_per_length", "segments")  # that the quadruped knows
+_OWN = {  # that the quadruped knows, and what to give in its place
+    **dict.fromkeys(("length", "width", "mass", "weight_per_length", "segments"),
+                    "[[robot.limbs]] for another"),
+    "rigidity": "modulus, which torso and legs share, or a rigidity in each of [[robot.limbs]]",
+}  # fmt: skip
+_WHOLE = {  # that a limb has no say in
+    "segments": "is not of limbs, which are one segment each; chain limbs by `on` and `at`",
+    "peak_pressure": "is the whole robot's, in [robot]; a gait's stages give each limb its part",
+}
 _SCENE = ("cycles", "friction", "gravity", "settle_time")
 
 
@@ -67,11 +75,11 @@ def build_robot(table: Table, where: str = "") -> TreeRobot:
         one_of(f"{where}name", table["name"], ROBOTS)
         for key in _OWN:
             if key in shared:
-                raise ValueError(
-                    f"{where}{key} is the {table['name']}'s own; give [[robot.limbs]] for another"
-                )
+                raise ValueError(f"{where}{key} is the {table['name']}'s own; give {_OWN[key]}")
         base = make(Robot, shared, where)
         return replace(quadruped(base), peak_pressure=base.peak_pressure)
+    if "segments" in shared:
+        raise ValueError(f"{where}segments {_WHOLE['segments']}")
     limbs = table["limbs"]
     if not (isinstance(limbs, list) and limbs and all(isinstance(limb, dict) for limb in limbs)):
         raise ValueError(f"{where}limbs must be tables, got {limbs!r}")
@@ -89,10 +97,13 @@ def _limb(table: Mapping[str, Any], shared: Table, where: str) -> Limb:
     if "name" not in table:
         raise ValueError(f"{where}name is missing")
     own = {key: value for key, value in table.items() if key not in _PLACED}
+    for key in own.keys() & _WHOLE.keys():
+        raise ValueError(f"{where}{key} {_WHOLE[key]}; got {own[key]!r}")
     for key in ("length", "width"):
         if key not in own and key not in shared:
             raise ValueError(f"{where}{key} is missing")
-    for one, other in (("mass", "weight_per_length"), ("weight_per_length", "mass")):
+    for one, other in (("mass", "weight_per_length"), ("weight_per_length", "mass"),
+                       ("rigidity", "modulus"), ("modulus", "rigidity")):  # fmt: skip
         if one in own:
             shared = {key: value for key, value in shared.items() if key != other}
     strip = make(Robot, {**shared, **own, "segments": (1.0,)}, where)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.tree.limbs import outline
+from analytic.tree.limbs import outline, rotation
 from mjsim.results.netcdf import Variable, write
 from mjsim.scene.provenance import origin
 from mjsim.simulation.status import Status
@@ -64,16 +64,21 @@ class TreeWalk:
         found = np.searchsorted(self.time, ends - 0.5 * self.numerics.timestep)
         return np.minimum(found, len(self.time) - 1)
 
+    def moved(self, one: int, two: int) -> Array:
+        """Displacement of the trunk's beginning between two states, (2,) [m].
+
+        Ahead and to the left of the trunk's direction in the first of them.
+        """
+        gone = self.coordinates[two, :2] - self.coordinates[one, :2]
+        return np.asarray(
+            gone @ rotation(self.scene.robot.limbs[0].angle + self.coordinates[one, 3])
+        )
+
     @property
     def displacement(self) -> Array:
-        """Of the trunk's beginning in the last cycle, ahead and to the left, (2,) [m].
-
-        In the frame of the heading in which the cycle began.
-        """
+        """Displacement of the trunk's beginning in the last cycle, as `moved` has it, (2,) [m]."""
         one, two = self._at_cycles()[-2:]
-        gone = self.coordinates[two, :2] - self.coordinates[one, :2]
-        c, s = np.cos(self.coordinates[one, 3]), np.sin(self.coordinates[one, 3])
-        return np.array([c * gone[0] + s * gone[1], c * gone[1] - s * gone[0]])
+        return self.moved(one, two)
 
     @property
     def turn(self) -> float:

@@ -11,7 +11,7 @@ from mjsim.record import record
 from mjsim.run import main
 from mjsim.scene import Numerics
 from mjsim.scene.measured import Series, as_gait, read_series
-from mjsim.scene.tables import build
+from mjsim.scene.tables import build, merged
 from mjsim.simulation.simulation import simulate
 
 PEAK = 7 * PSI
@@ -141,3 +141,19 @@ def test_a_record_is_walked_once(tmp_path, capsys):
     with pytest.raises(SystemExit):
         main(["--gait", str(path), "--cycles", "2", "--no-video", "--out", str(tmp_path)])
     assert "does not repeat" in capsys.readouterr().err
+
+
+def test_a_peak_beside_a_record_is_the_robot_s_and_never_scales_it(tmp_path):
+    path = tmp_path / "log.csv"
+    rows = ["t [s],a [kPa],b [kPa],c [kPa]", "0,0,0,0", "2,20,0,0", "4,20,20,0", "6,0,0,0"]
+    path.write_text("\n".join(rows))
+    tables = {"gait": {"file": str(path)}}
+    alone, _ = build(merged(tables))
+    beside, _ = build(merged(tables, {"robot": {"peak_pressure": "40 kPa"}}))
+    assert alone.robot.peak_pressure == pytest.approx(20e3)
+    assert beside.robot.peak_pressure == pytest.approx(40e3)
+    for scene in (alone, beside):
+        at = scene.robot.peak_pressure * scene.gait.fractions(np.array([1.0, 4.0]))
+        assert at == pytest.approx(np.array([[10e3, 0, 0], [20e3, 20e3, 0]]), abs=150)
+    with pytest.raises(ValueError, match="at least the highest measured pressure, 20000 Pa"):
+        build(merged(tables, {"robot": {"peak_pressure": "3 kPa"}}))

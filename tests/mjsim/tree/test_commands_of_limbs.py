@@ -10,11 +10,13 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from analytic.surface import SURFACES
+from analytic.pneunet import base_rigidity
+from analytic.surface import SURFACES, Surface
 from analytic.tree.gaits import undulation
 from analytic.tree.limbs import quadruped
 from mjsim import run
 from mjsim.scene.tables import merged, read_tables
+from mjsim.tree.command import file_name
 from mjsim.tree.scene import TreeNumerics, TreeScene
 from mjsim.tree.standalone import standalone_spec
 from mjsim.tree.tables import build_robot, build_tree
@@ -62,6 +64,7 @@ def test_json_has_both_numbers_and_the_file_opens(tmp_path, capsys):
         (["--robot", "quadruped", "--limbs.left", "2"], "left must be a part in [0, 1]"),
         (["--robot", "quadruped", "--links", "12"], "key of a robot of limbs"),
         (["--robot", "quadruped", "--robot.length", "1"], "length is the quadruped's own"),
+        (["--robot", "quadruped", "--robot.rigidity", "3e-4"], "rigidity is the quadruped's own"),
         (["--robot", "quadruped", "--limbs.elements", "3"], "elements must be even"),
         (["--robot", "quadruped", "--gait", "gallop"], "must be one of wave"),
         (["--robot", "quadruped", "--tolerance", "0.1"], "tolerance is for strips"),
@@ -76,6 +79,45 @@ def test_bad_input_is_one_line_and_exit_code_2(words, message, tmp_path, capsys)
     assert message in error
     assert error.count("\n") == 1
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("peak_pressure = 3e3", "limb 1: peak_pressure is the whole robot's, in [robot]"),
+        ("segments = [1, 2]", "limb 1: segments is not of limbs"),
+    ],
+)
+def test_keys_that_a_limb_has_no_say_in_are_refused(line, message, tmp_path, capsys):
+    file = tmp_path / "scene.toml"
+    file.write_text(FILE.read_text().replace('name = "torso"', f'name = "torso"\n{line}'))
+    with pytest.raises(SystemExit) as stop:
+        run.main(["--scene", str(file), "--out", str(tmp_path / "out")])
+    assert stop.value.code == 2
+    assert message in capsys.readouterr().err
+
+
+def test_limbs_may_each_have_a_rigidity_of_their_own():
+    table = tomllib.loads(FILE.read_text())["robot"]
+    for number, limb in enumerate(table["limbs"], start=1):
+        limb["rigidity"] = 1e-4 * number
+    robot = build_robot({"modulus": 1e6, **table})
+    rigidities = [base_rigidity(limb.strip) for limb in robot.limbs]
+    assert rigidities == pytest.approx([1e-4, 2e-4, 3e-4, 4e-4, 5e-4])
+
+
+def test_under_a_coefficient_of_ones_own_limbs_walk_and_the_walk_is_kept(tmp_path, capsys):
+    words = ["--robot", "quadruped", "--surface.friction", "0.6", "--friction", "coulomb", *FAST]
+    assert run.main([*words, "--json", "--out", str(tmp_path)]) == 0
+    row = json.loads(capsys.readouterr().out)
+    assert row["status"] == "ok"
+    assert Path(row["trajectory"]).is_file()
+
+
+def test_grounds_of_one_name_and_other_numbers_have_files_of_their_own():
+    scenes = [TreeScene(ground=Surface("mine", shear_strength=tau)) for tau in (10.0, 20.0)]
+    assert len({file_name(scene, TreeNumerics()) for scene in scenes}) == 2
+    assert file_name(TreeScene(ground=SURFACES["gelatin"]), TreeNumerics()) == "limbs-gelatin"
 
 
 def test_other_commands_say_that_limbs_are_not_theirs(tmp_path, capsys):
