@@ -56,8 +56,28 @@ class Patches:
 
 
 def surfaces_of(ground: Ground) -> tuple[Surface, ...]:
-    """Every surface of patches; of another ground the one at x = 0."""
-    return ground.surfaces if isinstance(ground, Patches) else (ground.at(0.0),)
+    """Every surface that can occur on a ground.
+
+    Raises:
+        ValueError: the ground does not list them.
+    """
+    surfaces = tuple(getattr(ground, "surfaces", ()))
+    if not surfaces:
+        raise ValueError(
+            f"ground {ground.name!r} must list as `surfaces` every surface that its `at` can give"
+        )
+    return surfaces
+
+
+def uniform(ground: Ground) -> Surface:
+    """The surface of a uniform ground.
+
+    Raises:
+        ValueError: the ground changes along x.
+    """
+    if not isinstance(ground, Surface):
+        raise ValueError(f"the ground must be one surface everywhere, got {ground.name!r}")
+    return ground
 
 
 def depends_on_speed(ground: Ground) -> bool:
@@ -66,8 +86,9 @@ def depends_on_speed(ground: Ground) -> bool:
 
 
 def check_adhesion(ground: Ground) -> None:
-    """Raise ValueError for patches that are adhesive anywhere."""
-    if isinstance(ground, Patches) and any(surface.adhesion for surface in ground.surfaces):
+    """Raise ValueError for ground that changes along x and is adhesive anywhere."""
+    sticky = any(surface.adhesion for surface in surfaces_of(ground))
+    if sticky and not isinstance(ground, Surface):
         raise ValueError(f"adhesion must be of uniform ground, got {ground.name!r}")
 
 

@@ -12,7 +12,7 @@ from analytic.checks import one_of
 from analytic.equilibria import ContactShapes, Shapes, Status
 from analytic.friction import Friction
 from analytic.gait import Gait
-from analytic.ground import depends_on_speed
+from analytic.ground import depends_on_speed, surfaces_of
 from analytic.locomotion import WEAK, Locomotion, along, displacements, mean_slip, state_slip
 from analytic.robot import Robot
 from analytic.surface import Ground, Surface
@@ -60,7 +60,7 @@ class _Unbent(ABC):
         times: Array | None,
     ) -> Shapes:
         """See Solver.solve."""
-        if ground.at(0.0).adhesion:
+        if any(surface.adhesion for surface in surfaces_of(ground)):
             raise ValueError(f"{REFERENCE} alone knows adhesive ground, got solver {self.name!r}")
         if friction.tension:
             raise ValueError(

@@ -67,6 +67,11 @@ class Surface:
         """What resists at a place: the same everywhere."""
         return self
 
+    @property
+    def surfaces(self) -> tuple["Surface", ...]:
+        """Itself, as the one surface of this ground."""
+        return (self,)
+
     def scaled(self, factor: float) -> "Surface":
         """The same surface, so many times as resistant in every way."""
         return replace(self, **{name: factor * getattr(self, name) for name in RESISTANCES})
@@ -105,11 +110,19 @@ class Ground(Protocol):
 
     Attributes:
         name: how files and tables call it.
+        surfaces: all that can occur; of a field without steps one of each kind: a wet one if it is
+            wet anywhere, one that resists under the friction law. Which laws and solvers serve a
+            ground is asked of these, wherever the robot begins.
     """
 
     @property
     def name(self) -> str:
         """How files and tables call it."""
+        ...
+
+    @property
+    def surfaces(self) -> tuple[Surface, ...]:
+        """All surfaces that can occur."""
         ...
 
     def at(self, x: float) -> Surface:

@@ -14,6 +14,7 @@ import numpy as np
 
 from analytic import pneunet
 from analytic.chain import link_lengths, segment_overlap
+from analytic.ground import uniform
 from analytic.surface import Surface
 from mjsim.bodies.parts import PALE, PREFIX
 from mjsim.io.assets import MODELS
@@ -32,7 +33,7 @@ def walking_scene(scene: Scene) -> Scene:
     A surface without coefficients gets those with which an end that carries half the weight resists
     as it does by its constant bounds, a side by that of one whole segment.
     """
-    ground = scene.ground.at(0.0)
+    ground = uniform(scene.ground)
     if not ground.friction and not ground.tip_friction:
         half = 0.5 * scene.robot.weight
         area = scene.robot.width * scene.robot.length / len(scene.robot.segments)

@@ -13,6 +13,7 @@ import mujoco
 import numpy as np
 
 from analytic import pneunet
+from analytic.ground import uniform
 from analytic.surface import Surface
 from analytic.tree.limbs import TreeRobot
 from mjsim.bodies.parts import PREFIX
@@ -36,7 +37,7 @@ def walking_scene(scene: TreeScene) -> TreeScene:
     A surface without coefficients gets those with which a tip that carries a quarter of the weight
     resists by its part of the tip force, and a side likewise by its whole limb.
     """
-    ground = scene.ground.at(0.0)
+    ground = uniform(scene.ground)
     if not ground.friction and not ground.tip_friction:
         legs = [limb.strip for limb in scene.robot.limbs[1:]]
         load = scene.robot.weight / max(len(legs), 1)
@@ -56,7 +57,7 @@ def standalone_spec(scene: TreeScene, numerics: TreeNumerics | None = None) -> m
     spec.modelname = scene.ground.name
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.option.impratio = _IMPRATIO
-    surface, time = scene.ground.at(0.0), _TIMESTEP / 2
+    surface, time = uniform(scene.ground), _TIMESTEP / 2
     for geom in spec.geoms:
         if "_pad_" in geom.name:
             geom.condim = 3

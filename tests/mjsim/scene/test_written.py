@@ -47,6 +47,7 @@ def test_a_slope_is_written_in_degrees_and_comments_stand_on_top():
 def test_a_ground_that_tables_do_not_know_is_said():
     class Odd:
         name = "odd"
+        surfaces = (FELT,)
 
         def at(self, x):
             return FELT

@@ -1,15 +1,16 @@
 """A body, a friction law, a ground and a controller of one's own, each registered from outside."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import mujoco
 import numpy as np
 import pytest
 
-from analytic import GAITS, LAWS, SURFACES, Elastica, Robot, predict
+from analytic import GAITS, LAWS, SURFACES, Elastica, Patches, Robot, Surface, predict
 from analytic import friction as laws
 from mjsim import registry
 from mjsim.bodies.planar import Planar
+from mjsim.mjcf.standalone import write
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import Simulation, simulate
@@ -62,6 +63,10 @@ class Halves:
     border: float = 0.0
     left: str = "felt"
     right: str = "gelatin"
+
+    @property
+    def surfaces(self):
+        return SURFACES[self.left], SURFACES[self.right]
 
     def at(self, x):
         return SURFACES[self.left if x < self.border else self.right]
@@ -116,6 +121,65 @@ def test_a_ground_of_ones_own_turns_the_robot_round_at_its_border():
     scene = Scene(ground=Halves(border=0.065))
     exact = predict(scene.robot, scene.gait, scene.ground).locomotion.per_cycle
     assert displacement(scene) == pytest.approx(exact / scene.robot.length, abs=0.003)
+
+
+@dataclass(frozen=True)
+class Beyond:
+    """Felt, and another surface beyond a border."""
+
+    border: float
+    other: Surface
+    name: str = "beyond"
+
+    @property
+    def surfaces(self):
+        return SURFACES["felt"], self.other
+
+    def at(self, x):
+        return self.surfaces[x >= self.border]
+
+
+def test_what_a_ground_of_ones_own_is_where_the_robot_does_not_begin_counts_as_on_patches():
+    wet = replace(SURFACES["felt"], name="wet", viscosity=60.0)
+    own, patches = Beyond(0.065, wet), Patches("p", (0.065,), (SURFACES["felt"], wet))
+    # what a field is over a stretch is sampled, of patches it is exact
+    assert displacement(Scene(ground=own)) == pytest.approx(
+        displacement(Scene(ground=patches)), abs=5e-4
+    )
+    assert displacement(Scene(ground=patches)) == pytest.approx(0.0324, abs=1e-3)
+    robot, gait = Scene().robot, Scene().gait
+    friction, solver = laws.Friction(tension=1.0), Elastica(24)
+    one, two = (
+        predict(robot, gait, ground, solver, 20, friction=friction).locomotion.per_cycle
+        for ground in (own, patches)
+    )
+    assert one == pytest.approx(two, abs=5e-4 * robot.length)
+
+
+def test_a_ground_that_may_be_what_nothing_here_serves_is_refused_wherever_it_begins():
+    sticky = replace(SURFACES["felt"], name="sticky", adhesion=0.01)
+    with pytest.raises(ValueError, match="adhesion must be of uniform ground, got 'beyond'"):
+        Scene(ground=Beyond(1.0, sticky))
+    wet = replace(SURFACES["felt"], name="wet", viscosity=60.0)
+    with pytest.raises(ValueError, match="resists by speed"):
+        Scene(ground=Beyond(1.0, wet), friction="coulomb")
+
+    class Unlisted:
+        name = "unlisted"
+
+        def at(self, x):
+            return SURFACES["felt"]
+
+    with pytest.raises(ValueError, match="'unlisted' must list as `surfaces`"):
+        Scene(ground=Unlisted())
+    with pytest.raises(ValueError, match="'unlisted' must list as `surfaces`"):
+        predict(Scene().robot, Scene().gait, Unlisted())
+
+
+def test_a_file_that_walks_by_itself_is_of_one_surface(tmp_path):
+    with pytest.raises(ValueError, match="one surface everywhere, got 'halves'"):
+        write(Scene(ground=Halves()), tmp_path / "halves.xml")
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_controller_is_asked_at_each_step_and_the_gait_as_one_walks_alike():
