@@ -15,7 +15,7 @@ from analytic.traction import motion
 Array = NDArray[np.float64]
 Direction = Literal["forward", "backward", "none"]
 
-STANDSTILL = 0.005  # |Delta|/L below which a cycle counts as no travel; chosen, 0.65 mm on 130 mm
+STANDSTILL = 0.002  # |Delta|/L below which a cycle counts as no travel; chosen, 0.26 mm on 130 mm
 WEAK = Friction()
 
 
@@ -154,14 +154,19 @@ def undecided(shapes: Shapes, surface: Surface, law: str = "coulomb", alike: flo
     return float(0.5 * np.abs(np.diff(shapes.separation))[tied].sum())
 
 
-def direction(displacement: float, length: float) -> Direction:
-    """Name the way a cycle went: "forward" is +x, "none" is below STANDSTILL of the length.
+def direction(displacement: float, length: float, error: float = 0.0) -> Direction:
+    """Name the way a cycle went: "forward" is +x, "none" is within its error or STANDSTILL.
+
+    Args:
+        displacement: per cycle [m].
+        length: of the robot, of which STANDSTILL is a part [m].
+        error: bar of the displacement [m].
 
     Raises:
         ValueError: the displacement is NaN, so that there is nothing to name.
     """
     if np.isnan(displacement):
         raise ValueError("the displacement is NaN: some state has no solution")
-    if abs(displacement) < STANDSTILL * length:
+    if abs(displacement) < max(STANDSTILL * length, error):
         return "none"
     return "forward" if displacement > 0 else "backward"

@@ -81,6 +81,9 @@ def compare(robot: Robot, gait: Gait, ground: Ground, models: Sequence[str]) -> 
         exact, shift = reference.displacement_over_L, row.displacement_over_L
         if exact is not None and shift is not None:
             row = row._replace(difference_over_L=shift - exact)
+        if shift is not None:
+            way = direction(shift, 1.0, row.uncertainty_over_L or 0.0)
+            row = row._replace(direction=way)
         rows.append(row)
     return rows
 
@@ -97,7 +100,7 @@ def _quasi_static(robot: Robot, gait: Gait, ground: Ground, model: str) -> Row:
         displacement_over_L=shift if known else None,
         uncertainty_over_L=assumed if math.isfinite(assumed) and assumed > 0 else None,
         difference_over_L=None,
-        direction=direction(shift, 1.0) if known else None,
+        direction=None,
         amplitude_over_L=float(walk.shapes.amplitude.max()) / robot.length if known else None,
         status=flags,
     )
@@ -125,7 +128,7 @@ def _simulated(scene: Scene) -> Row:
         displacement_over_L=numbers and numbers.displacement,
         uncertainty_over_L=numbers and abs(numbers.unexplained),
         difference_over_L=None,
-        direction=numbers and numbers.direction,
+        direction=None,
         amplitude_over_L=numbers and numbers.amplitude,
         status=str(walk.status),
     )

@@ -177,7 +177,7 @@ def _record(
 
 
 def _text(record: dict[str, Any]) -> str:
-    unit = {"displacement": "L a cycle", "speed": "mm/s", "air": "-l/m", "work": "-J/m"}
+    unit = {"displacement": "L a cycle", "speed": "m/s", "air": "-l/m", "work": "-J/m"}
     where = ", ".join(record["searched_on"])
     lines = [
         f"{record['evaluations']} gaits by {record['model']} in {record['wall_time_s']:.0f} s; "

@@ -46,12 +46,12 @@ def record(walk: Trajectory) -> dict[str, Any]:
         "displacement_by_cycle_over_L": list(numbers.by_cycle) if numbers else None,
         "displacement_m": meters,
         "speed_m_per_s": None if meters is None else meters / scene.gait.period,
-        "direction": numbers and numbers.direction,
+        "direction": None if shift is None else direction(shift, 1.0, bar or 0.0),
         "predicted_by": REFERENCE,
         "predicted_displacement_over_L": predicted if known else None,
         "predicted_by_cycle_over_L": by_cycle if known else None,
         "prediction_uncertainty_over_L": _number(bar),
-        "predicted_direction": direction(predicted, 1.0) if known else None,
+        "predicted_direction": direction(predicted, 1.0, bar or 0.0) if known else None,
         "prediction_undecided_over_L": tied(scene, prediction) if known else None,
         "prediction_flags": [flag.name for flag in prediction.flags],
         "prediction_notes": _notes(scene, numbers, prediction, predicted, bar or 0.0)
@@ -167,8 +167,10 @@ def _remarks(row: dict[str, Any]) -> str:
     text = f" ({'; '.join(remarks)})" if remarks else ""
     if row["displacement_by_cycle_over_L"] and _differ(row["displacement_by_cycle_over_L"]):
         text += f" first cycle {row['displacement_by_cycle_over_L'][0]:+.4f} L"
-    if row["slid_over_L"] is not None:
-        text += f" {row['slid_over_L']:.3f} L downhill: no bound holds its weight there"
+    if row["status"] == "slid":
+        far = row["slid_over_L"]
+        far = "away before its first cycle" if far is None else f"{far:.3f} L downhill"
+        text += f" {far}: no bound holds its weight there"
     return text
 
 

@@ -33,26 +33,27 @@ class Options(SceneOptions):
     The same gait takes the strip forward on felt, where flat sides hold, and backward on wet
     gelatin, where tips dig in. Prints a table, then writes a video and the trajectory (netCDF).
 
-    Columns of the table: surface; direction (forward, backward, or none below 0.005 L); Δ/L,
-    displacement of the left end per cycle over the length, of the last cycle on uniform ground;
-    elastica, the same by the quasi-static reference; ±, what half its links and states change;
-    error, the difference of the two; unexpl., the part of Δ/L that the anchor rule does not
-    explain, an estimate of what inertia does (none on wet ground); height/L, the greatest height;
-    sim s, wall s, × real: simulated time, time that the stepping took, and their ratio; status, ok
-    or how it failed, and in brackets what makes the number unsure: jumped, friction lets go at once
-    somewhere; branch_end, no stable shape goes on; rolled_up, an end is off the ground; what hangs
-    on ties or on bounds that nearly are; a branch that ends at little more pressure; other cycles
-    that go elsewhere; inertia.
+    Columns of the table: surface; direction (forward, backward, or none: within its error bar or
+    below 0.002 L); Δ/L, displacement of the left end per cycle over the length, of the last cycle
+    on uniform ground; elastica, the same by the quasi-static reference; ±, what half its links
+    and states change; error, the difference of the two; unexpl., the part of Δ/L that the anchor
+    rule does not explain, an estimate of what inertia does (none on wet ground); height/L, the
+    greatest height; sim s, wall s, × real: simulated time, time that the stepping took, and their
+    ratio; status, ok or how it failed, and in brackets what makes the number unsure: jumped,
+    friction lets go at once somewhere; branch_end, no stable shape goes on; rolled_up, an end is
+    off the ground; what hangs on ties or on bounds that nearly are; a branch that ends at little
+    more pressure; other cycles that go elsewhere; inertia.
 
-    Keys of --json: surface, gait, body, friction, cycles, links, timestep_s, peak_pressure_Pa, the
-    scene; displacement_over_L and displacement_by_cycle_over_L, Δ/L and each cycle's,
+    Keys of --json: surface, gait, body, friction, cycles, links, timestep_s, peak_pressure_Pa,
+    the scene; displacement_over_L and displacement_by_cycle_over_L, Δ/L and each cycle's,
     displacement_m, speed_m_per_s, direction; predicted_by, predicted_displacement_over_L,
-    predicted_by_cycle_over_L, predicted_direction, the reference's; prediction_uncertainty_over_L,
-    the column ±; prediction_undecided_over_L, what hangs on ties; prediction_flags, _notes, what is
-    in brackets; error_over_L, unexplained_over_L, amplitude_over_L, as the columns; heading_deg,
-    the angle it turned by to the left; sideways_over_L, how far it was beside its plane;
-    slid_over_L, how far it slid down a slope; sim_time_s, wall_time_s, realtime_factor, status, as
-    the columns; trajectory, video, the files; provenance, versions and every number of the scene.
+    predicted_by_cycle_over_L, predicted_direction, the reference's;
+    prediction_uncertainty_over_L, the column ±; prediction_undecided_over_L, what hangs on ties;
+    prediction_flags, _notes, what is in brackets; error_over_L, unexplained_over_L,
+    amplitude_over_L, as the columns; heading_deg, the angle it turned by to the left;
+    sideways_over_L, how far it was beside its plane; slid_over_L, how far it slid down a slope in
+    its cycles; sim_time_s, wall_time_s, realtime_factor, status, as the columns; trajectory,
+    video, the files; provenance, versions and every number of the scene.
 
     Exit code 0: done; 2: bad input; 3: the simulation failed.
 

@@ -18,13 +18,12 @@ from numpy.typing import NDArray
 
 from analytic.checks import not_negative, positive
 from analytic.gait import GAITS, Gait
-from analytic.locomotion import STANDSTILL
 from analytic.robot import Robot
 from mjsim.simulation.simulation import Observation
 
 Array = NDArray[np.float64]
 
-LEAST = 0.5 * STANDSTILL  # progress a cycle over L that counts as going forward; chosen
+LEAST = 0.0025  # progress a cycle over L that counts as going forward; chosen
 _PATIENCE = 3.0  # cycles without any, before it changes; chosen
 _NOISES = 4.0  # standard deviations that may be missing; chosen
 _ROUNDING = 1e-9

@@ -31,7 +31,7 @@ class Objective:
     Attributes:
         scene: robot and friction; its gait and ground are replaced.
         surfaces: on all of them, the worst counts.
-        aim: displacement per cycle over L; speed [mm/s]; or, with a minus, air [l/m] or work [J/m]
+        aim: displacement per cycle over L; speed [m/s]; or, with a minus, air [l/m] or work [J/m]
             for each metre.
         backward: the way that counts.
         model: mujoco, coarse, or one of the quasi-static solvers.
@@ -55,7 +55,7 @@ class Objective:
         if self.aim == "displacement":
             return shift
         if self.aim == "speed":
-            return 1e3 * shift * robot.length / gait.period
+            return shift * robot.length / gait.period
         if shift < STANDSTILL:
             return -math.inf
         air = air_per_cycle(robot, gait)

@@ -99,7 +99,7 @@ def _sentence(row: dict[str, Any]) -> str:
     shift = row["displacement_over_L"]
     if shift is None:
         return f"{gait}: {row['status']}, so there is no distance."
-    way = "stands still" if row["direction"] == "none" else f"walks {row['direction']}"
+    way = "no direction" if row["direction"] == "none" else f"walks {row['direction']}"
     return f"{gait}: {way}, {1e3 * row['displacement_m']:+.2f} mm = {shift:+.4f} L a cycle."
 
 

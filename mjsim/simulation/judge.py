@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mjsim.simulation.status import FALLEN, Status
+from mjsim.simulation.status import FALLEN, THROWN, Status
 from mjsim.simulation.trajectory import Trajectory
 
 _ASIDE = 0.02  # a vertex this far off the plane, over L, has left it; chosen
@@ -20,8 +20,9 @@ def judge(walk: Trajectory, stopped: bool = False, unsettled: bool = False) -> T
         unsettled: whether it began before the strip had come to rest.
     """
     length = walk.scene.robot.length
-    ends = np.abs(walk.position[:, [0, -1], 2]).max(axis=1)
-    fallen = np.flatnonzero(~(ends < FALLEN * length))
+    height = walk.position[..., 2]
+    ends, lowest = np.abs(height[:, [0, -1]]).max(axis=1), height.min(axis=1)
+    fallen = np.flatnonzero(~((ends < FALLEN * length) & (lowest < THROWN * length)))
     if len(fallen) and not stopped:
         walk = walk.up_to(int(fallen[0]) + 1)
     return replace(walk, status=_status(walk, stopped or len(fallen) > 0, unsettled))
@@ -40,9 +41,9 @@ def _status(walk: Trajectory, stopped: bool, unsettled: bool) -> Status:
     return Status.UNSETTLED if unsettled else Status.OK
 
 
-def slid(walk: Trajectory) -> float:
-    """How far both ends went downhill together [m]."""
+def slid(walk: Trajectory, begin: int = 0) -> float:
+    """Distance that both ends went downhill together from a state on [m]."""
     if not walk.scene.slope:
         return 0.0
-    moves = -np.sign(walk.scene.slope) * np.diff(walk.position[:, [0, -1], 0], axis=0)
+    moves = -np.sign(walk.scene.slope) * np.diff(walk.position[begin:, [0, -1], 0], axis=0)
     return float(np.maximum(moves.min(axis=1), 0.0).sum())

@@ -15,13 +15,13 @@ from mjsim.simulation.trajectory import Trajectory
 
 
 class Measures(NamedTuple):
-    """Numbers of a walk, lengths over L.
+    """Numbers of a walk, lengths over L, the speed in SI units.
 
     Attributes:
         displacement: of the left end per cycle: in the last one on uniform ground, else their mean.
-        speed: the same in mm a second.
+        speed: the same per time [m/s].
         by_cycle: the same in each cycle; the first may differ where a gait starts inflated.
-        direction: of it.
+        direction: of it, "none" below analytic.locomotion.STANDSTILL.
         amplitude: greatest height.
         unexplained: displacement per cycle that the anchor rule does not account for; NaN where
             the ground resists by speed.
@@ -68,7 +68,7 @@ def measure(walk: Trajectory) -> Measures | None:
     along, aside, _ = walk.position[-1, -1] - walk.position[-1, 0]
     return Measures(
         displacement=shift,
-        speed=1e3 * shift * length / scene.gait.period,
+        speed=shift * length / scene.gait.period,
         by_cycle=tuple(by_cycle.tolist()),
         direction=direction(shift, 1.0),
         amplitude=float(z[begin:].max()) / length,
@@ -85,6 +85,8 @@ def _ends_of_cycles(walk: Trajectory) -> NDArray[np.int_]:
     return np.minimum(rows, len(walk.time) - 1)
 
 
-def slid_over_length(walk: Trajectory) -> float:
-    """How far both ends went downhill together, over L."""
-    return slid(walk) / walk.scene.robot.length
+def slid_over_length(walk: Trajectory) -> float | None:
+    """Distance that both ends went downhill together in the cycles, over L; None before them."""
+    if walk.time[-1] <= 0:
+        return None
+    return slid(walk, walk.start) / walk.scene.robot.length

@@ -3,6 +3,7 @@
 from enum import StrEnum
 
 FALLEN = 0.1  # an end this far off the ground, over L, is no foot any more; chosen
+THROWN = 0.01  # the lowest of all points this far off the ground, over L: nothing stands; chosen
 AT_REST = 1e-3  # speed of the ends below which the strip is at rest before time 0 [L/s]; chosen
 
 
@@ -11,7 +12,7 @@ class Status(StrEnum):
 
     OK = "ok"
     DIVERGED = "diverged"  # a coordinate left the range that any walk can have, or is not finite
-    TOPPLED = "toppled"  # an end left the ground: the strip fell over or rolled up
+    TOPPLED = "toppled"  # an end left the ground, or all of it: it fell over or was thrown
     SLID = "slid"  # the whole strip slid down the slope: nothing anchored it
     TURNED = "turned"  # it left its plane: turned away or fell sideways
     UNSETTLED = "unsettled"  # it was not at rest when the first cycle began

@@ -25,7 +25,7 @@ OUTPUTS: dict[str, tuple[str, str, str]] = {  # column: type, unit, what it is
                            "of auto the last change too, of modes and lifted their assumption"),
     "displacement_m": ("REAL", "m", "displacement of the left end per cycle"),
     "speed_m_per_s": ("REAL", "m/s", "the same over the period of the gait"),
-    "direction": ("TEXT", "", "forward, backward, or none below 0.005 of the length"),
+    "direction": ("TEXT", "", "forward, backward, or none: within its uncertainty or 0.002 L"),
     "amplitude_over_L": ("REAL", "1", "greatest height over the length"),
     "cpu_s": ("REAL", "s", "time of all cores that the scene took, set-up included"),
 }  # fmt: skip
@@ -116,6 +116,7 @@ def _checked(job: Job, scene: Scene) -> Row:
         row["status"] = "unconverged" if row["status"] == "ok" else row["status"]
     elif "uncertainty_over_L" in row and math.isfinite(found.error):
         row["uncertainty_over_L"] += found.error
+        row["direction"] = direction(row["displacement_over_L"], 1.0, row["uncertainty_over_L"])
     return row
 
 
@@ -134,7 +135,7 @@ def _walked(walk: Any) -> Row:
         "uncertainty_over_L": None if math.isnan(known) else known,
         "displacement_m": shift,
         "speed_m_per_s": shift / scene.gait.period,
-        "direction": numbers.direction,
+        "direction": direction(numbers.displacement, 1.0, 0.0 if math.isnan(known) else known),
         "amplitude_over_L": numbers.amplitude,
     }
 
@@ -155,13 +156,13 @@ def _predicted(job: Job, scene: Scene) -> Row:
     flags = "+".join(flag.name.lower() for flag in walk.flags if flag.name) or "ok"
     if not math.isfinite(shift):
         return {"status": flags}
-    assumed = modes_error(walk) / length
+    assumed = modes_error(walk) / length if job.model in ("modes", "lifted") else None
     return {
         "status": flags,
         "displacement_over_L": shift / length,
-        "uncertainty_over_L": assumed if job.model in ("modes", "lifted") else None,
+        "uncertainty_over_L": assumed,
         "displacement_m": shift,
         "speed_m_per_s": shift / scene.gait.period,
-        "direction": direction(shift, length),
+        "direction": direction(shift / length, 1.0, assumed or 0.0),
         "amplitude_over_L": float(np.nanmax(walk.shapes.amplitude)) / length,
     }

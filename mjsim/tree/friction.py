@@ -217,6 +217,10 @@ class Grips:
         nodes[:, 2] -= self._numerics.pad_radius
         return Rest(data.qpos, nodes, np.asarray(force, dtype=float), True)
 
+    def lowest(self) -> float:
+        """Height of the lowest node over flat rest [m]."""
+        return float(self._data.geom_xpos[self._pads, 2].min()) - self._numerics.pad_radius
+
     def _turn(self) -> None:
         """Lay the first row of each place along its slip, or where friction holds it."""
         data, count = self._data, self._data.nf

@@ -34,6 +34,7 @@ def record(walk: TreeWalk) -> dict[str, Any]:
     fine = walk.status == "ok"
     ahead, aside = walk.displacement / length if fine else (None, None)
     turn = math.degrees(walk.turn) if fine else None
+    bar = 0.0 if found is None else found.displacement_error / length
     simulated = float(len(walk.time) * walk.numerics.timestep)
     row: dict[str, Any] = {
         "surface": scene.ground.name,
@@ -49,7 +50,7 @@ def record(walk: TreeWalk) -> dict[str, Any]:
         "sideways_over_L": aside,
         "turn_deg": turn,
         "radius_over_L": _finite(walk.radius / length) if fine else None,
-        "direction": direction(ahead, 1.0) if ahead is not None else None,
+        "direction": direction(ahead, 1.0, bar) if ahead is not None else None,
         "speed_m_per_s": None if ahead is None else ahead * length / scene.gait.period,
         "predicted_by": REFERENCE,
         "predicted_displacement_over_L": None,
@@ -73,8 +74,8 @@ def record(walk: TreeWalk) -> dict[str, Any]:
             "predicted_displacement_over_L": forward,
             "predicted_sideways_over_L": sideways,
             "predicted_turn_deg": math.degrees(found.turn),
-            "predicted_direction": direction(forward, 1.0),
-            "prediction_uncertainty_over_L": found.displacement_error / length,
+            "predicted_direction": direction(forward, 1.0, bar),
+            "prediction_uncertainty_over_L": bar,
             "prediction_uncertainty_deg": math.degrees(found.turn_error),
         }
         if ahead is not None and aside is not None and turn is not None:

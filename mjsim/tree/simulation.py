@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from analytic.chain import joint_springs, link_lengths
 from analytic.gait import Gait
 from analytic.tree.limbs import outline
-from mjsim.simulation.status import Status
+from mjsim.simulation.status import THROWN, Status
 from mjsim.tree.body import ROOT, hinge_names, limb_body, tree_spec
 from mjsim.tree.friction import Grips
 from mjsim.tree.scene import TreeNumerics, TreeScene
@@ -198,7 +198,7 @@ class TreeSimulation:
         self._wall += clock.perf_counter() - started
 
     def _judge(self) -> None:
-        """Stop where a coordinate is beyond any walk, or the trunk as a whole has tipped over.
+        """Stop where a coordinate is beyond any walk, all is in the air, or the trunk tipped over.
 
         A long trunk bends by more than that at its beginning, so its ends tell its pitch; its side
         is level on every link alike.
@@ -212,7 +212,8 @@ class TreeSimulation:
         along = data.xmat[last].tolist()
         ahead = u - x + length * along[0], v - y + length * along[3]
         rise, aside = w - z + length * along[6], along[7]
-        if abs(rise) > _STEEP * math.hypot(*ahead) or abs(aside) > _LEANS:
+        tipped = abs(rise) > _STEEP * math.hypot(*ahead) or abs(aside) > _LEANS
+        if tipped or self._grips.lowest() > THROWN * self._length:
             self._status = Status.TOPPLED
 
 

@@ -19,6 +19,7 @@ from mjsim.record import reference
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.provenance import provenance
 from mjsim.simulation.batch import Refused, rollout, simulate_all
+from mjsim.simulation.judge import slid
 from mjsim.simulation.measures import measure, slid_over_length
 from mjsim.simulation.simulation import simulate
 from mjsim.simulation.status import Status
@@ -228,10 +229,20 @@ def test_a_strip_that_slides_down_says_how_far_and_why(tmp_path, capsys):
     assert "L downhill: no bound holds its weight" in said
 
 
+def test_on_a_film_alone_it_slides_at_the_speed_of_the_film_for_as_long_as_its_cycles_last():
+    robot, film = Robot(), Surface("film", viscosity=100.0)
+    still = Gait("still", ((0.0,) * 3, (1e-6, 0.0, 0.0), (0.0,) * 3), 5.0)
+    scene = Scene(robot, still, film, slope=np.deg2rad(5.0))
+    speed = robot.weight_per_length * np.sin(scene.slope) / (film.viscosity * robot.width)
+    distance = speed * still.period / robot.length
+    assert slid_over_length(simulate(scene)) == pytest.approx(distance, rel=1e-3)
+
+
 def test_under_coulomb_too_steep_a_slope_is_a_slide(tmp_path, capsys):
     walk = simulate(Scene(friction="coulomb", slope=np.deg2rad(25.0), ground=SURFACES["felt"]))
     assert walk.status is Status.SLID
-    assert slid_over_length(walk) > 0.1
+    assert slid(walk) > 0.1
+    assert slid_over_length(walk) is None  # its first cycle never began
 
 
 def test_a_heavy_cantilever_is_followed_to_a_load_of_200():

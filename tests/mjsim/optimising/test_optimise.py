@@ -121,7 +121,7 @@ def test_aims_rank_gaits_by_what_they_say():
     wave = GAITS["wave"]
     assert far.worth(wave, 0.03) == 0.03
     speed = replace(far, aim="speed")
-    assert speed.worth(wave, 0.03) == pytest.approx(1e3 * 0.03 * 0.13 / 10)
+    assert speed.worth(wave, 0.03) == pytest.approx(0.03 * 0.13 / 10)
     air = air_per_cycle(scene.robot, wave)
     assert replace(far, aim="air").worth(wave, 0.03) == pytest.approx(
         -1e3 * air.volume / (0.03 * 0.13)

@@ -7,6 +7,9 @@ import pytest
 from walks import HEAVIER, walk
 
 import mjsim.simulation.simulation as simulation
+from analytic.gait import Gait
+from analytic.robot import Robot
+from analytic.surface import SHEAR_STRENGTH, TIP_FORCE, Surface
 from mjsim.record import record
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure
@@ -30,6 +33,22 @@ def test_a_toppled_robot_has_no_displacement():
     assert row["displacement_over_L"] is None
     assert row["direction"] is None
     assert row["status"] == "toppled"
+
+
+STAGES = ((0, 0, 0), (0.2, 0.47, 0), (0.7, 0.57, 0.82), (0.26, 0, 0), (0.93, 0.53, 0),
+          (0.02, 0.95, 0.42), (0, 0, 0))  # fmt: skip
+
+
+@pytest.mark.parametrize("timestep", [0.005, 0.0025])
+def test_a_strip_that_is_thrown_into_the_air_is_no_walk_though_both_ends_stay_low(timestep):
+    robot = Robot(weight_per_length=1.36218760827, peak_pressure=59149.68567)
+    firm = Surface("firm", TIP_FORCE, SHEAR_STRENGTH)
+    scene = Scene(robot, Gait("kick", STAGES, 0.0691822), firm)
+    result = simulation.simulate(scene, Numerics(timestep=timestep))
+    assert result.status is Status.TOPPLED
+    assert measure(result) is None
+    lowest = result.position[..., 2].min(axis=1) / robot.length
+    assert lowest.max() > 0.01
 
 
 @pytest.mark.parametrize("poison", [np.nan, 1e6])

@@ -46,7 +46,7 @@ def test_rows_are_what_the_models_say(tmp_path):
         numbers = measure(simulate(scene, coarse))
         assert row["displacement_over_L"] == pytest.approx(numbers.displacement, abs=1e-9)
         assert row["direction"] == numbers.direction
-        assert row["speed_m_per_s"] == pytest.approx(1e-3 * numbers.speed, rel=1e-6)
+        assert row["speed_m_per_s"] == pytest.approx(numbers.speed, rel=1e-6)
     for row, (number, _) in zip(rows_of(Job(plan.base, "elastica", points, states=25)), points,
                                 strict=True):  # fmt: skip
         scene, _ = plan.scene(number)

@@ -10,6 +10,7 @@ from analytic.gait import Gait
 from analytic.robot import Robot
 from analytic.surface import SURFACES, Surface
 from analytic.tree.gaits import undulation
+from analytic.tree.kinematics import Tree
 from analytic.tree.limbs import LENGTH, Limb, TreeRobot, as_strip, outline, quadruped, rotation
 from analytic.tree.prediction import predict as predict_limbs
 from analytic.tree.walk import walk as quasi_static
@@ -114,9 +115,11 @@ def test_one_long_limb_arches_and_comes_back_to_where_it_lay():
 
 @pytest.mark.parametrize("about", [4, 5])  # pitch, roll
 def test_a_robot_whose_trunk_stands_on_its_end_or_on_its_side_has_toppled(about):
-    simulation = TreeSimulation(TreeScene(), NUMERICS)
+    simulation = TreeSimulation(TreeScene(), replace(NUMERICS, timestep=1e-3))
     for angle, status in ((0.8, Status.OK), (1.2, Status.TOPPLED)):
         simulation.reset()
-        simulation.data.qpos[2] = 0.5 * LENGTH
+        q = np.zeros(len(simulation.data.qpos))
+        q[about] = angle
         simulation.data.qpos[about] = angle
+        simulation.data.qpos[2] = -Tree(quadruped(), 4).pose(q).nodes[:, 2].min()
         assert simulation.step(np.zeros(5)).status is status
