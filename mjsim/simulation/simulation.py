@@ -16,6 +16,7 @@ from mjsim.friction.contact_length import pads_by_node
 from mjsim.friction.laws import traction
 from mjsim.friction.recorder import ContactRecorder
 from mjsim.mjcf.builder import compile_model
+from mjsim.mjcf.compiled import Compiled
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.judge import judge
 from mjsim.simulation.kinematics import ends_may_be, nodes_of, positions
@@ -25,9 +26,6 @@ from mjsim.simulation.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 
-# what bodies and friction set in the model while it is stepped
-_SET = ("qpos_spring", "jnt_stiffness", "flex_bending", "tendon_frictionloss", "geom_solref",
-        "geom_friction", "wrap_prm", "tendon_damping")  # fmt: skip
 _MORE_TIMES = 100  # that the last tenth of the settling time is repeated for want of rest; chosen
 _BLOCK = 1024  # steps that are prepared at once
 
@@ -67,7 +65,7 @@ class Simulation:
 
     Attributes:
         scene, numerics: what is simulated and how, with a number for everything.
-        model, data: MuJoCo's.
+        model, data: MuJoCo's; the model is as compiled after each reset, whatever was set in it.
 
     Raises:
         ValueError: the scene and the numerics do not go together.
@@ -85,7 +83,7 @@ class Simulation:
         check_steps(scene, self.numerics)
         self.model = compile_model(scene, self.numerics)
         self.data = mujoco.MjData(self.model)
-        self._compiled = {name: getattr(self.model, name).copy() for name in _SET}
+        self._compiled = Compiled(self.model)
         self.reset()
 
     def reset(self, seed: int | None = None) -> Observation:
@@ -96,8 +94,7 @@ class Simulation:
         """
         scene, numerics, model = self.scene, self.numerics, self.model
         self.rng = np.random.default_rng(seed)
-        for name, values in self._compiled.items():
-            getattr(model, name)[:] = values
+        self._compiled.restore(model)
         mujoco.mj_resetData(model, self.data)
         mujoco.mj_forward(model, self.data)
         self._joints = registry.find(scene.body).bind(model, self.data, scene, numerics)

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from analytic.chain import joint_springs, link_lengths
 from analytic.gait import Gait
 from analytic.tree.limbs import outline
+from mjsim.mjcf.compiled import Compiled
 from mjsim.simulation.status import THROWN, Status
 from mjsim.tree.body import ROOT, hinge_names, limb_body, tree_spec
 from mjsim.tree.friction import Grips
@@ -24,9 +25,6 @@ Array = NDArray[np.float64]
 _BARE = Path(__file__).parent.parent / "ground" / "bare.xml"
 _TIPPED = 1.0  # rad of pitch or roll of the trunk as a whole: it fell over; chosen
 _STEEP, _LEANS = math.tan(_TIPPED), math.sin(_TIPPED)
-# of the model, rewritten at each step
-_SET = ("jnt_stiffness", "qpos_spring", "wrap_prm", "tendon_frictionloss", "tendon_damping",
-        "tendon_solref_fri", "tendon_solimp_fri")  # fmt: skip
 _BLOCK = 256  # steps between reports of progress
 
 
@@ -85,13 +83,12 @@ class TreeSimulation:
             self.model.body(limb_body(trunk.name, elements)).id,
             float(link_lengths(trunk.strip, elements)[-1]),
         )
-        self._compiled = {name: getattr(self.model, name).copy() for name in _SET}
+        self._compiled = Compiled(self.model)
         self.reset()
 
     def reset(self) -> TreeObservation:
         """Lay the robot on the ground and let it settle."""
-        for name, values in self._compiled.items():
-            getattr(self.model, name)[:] = values
+        self._compiled.restore(self.model)
         mujoco.mj_resetData(self.model, self.data)
         mujoco.mj_forward(self.model, self.data)
         self._grips = Grips(self.scene, self.numerics, self.model, self.data)
