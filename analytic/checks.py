@@ -1,7 +1,7 @@
 """Checks of values that people give: each refuses in one line that names the value."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from numbers import Integral, Real
 from typing import Any
 
@@ -37,6 +37,8 @@ def whole(name: str, value: Any, least: int, most: int | None = None) -> None:
 
 def one_of(name: str, value: Any, valid: Iterable[str]) -> None:
     """Raise ValueError unless it is one of the valid words."""
+    if isinstance(value, str) and isinstance(valid, Collection) and value in valid:
+        return  # a registry need not look for all that it has
     known = list(valid)
     if value not in known:
         raise ValueError(f"{name} must be one of {', '.join(known)}; got {value!r}")

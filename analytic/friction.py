@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
 from analytic.checks import one_of, slope
+from analytic.registry import Registry
 from analytic.robot import Robot
 from analytic.surface import Surface
 
@@ -72,7 +73,10 @@ class Coulomb:
         return surface.friction > 0 or bool(surface.tip_friction)
 
 
-LAWS: dict[str, TractionLaw] = {law.name: law for law in (ConstantBounds(), Coulomb())}
+LAWS: Registry[TractionLaw] = Registry(
+    "undulator.laws",
+    {law.name: f"{__name__}:{law.__name__}" for law in (ConstantBounds, Coulomb)},
+)
 
 
 def register(law: TractionLaw) -> None:

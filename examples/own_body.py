@@ -1,4 +1,7 @@
-"""A body of one's own: the planar chain with a payload on its middle link."""
+"""A body of one's own: the planar chain with a payload on its middle link.
+
+For commands: python -m mjsim.run --plugin examples/own_body.py --body laden
+"""
 
 import mujoco
 
@@ -18,8 +21,10 @@ class Laden(Planar):
         return spec
 
 
+registry.register(Laden())
+
+
 def main() -> dict[str, float]:
-    registry.register(Laden())
     shifts = {}
     for body in ("planar", "laden"):
         numbers = measure(simulate(Scene(body=body)))

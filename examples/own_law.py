@@ -1,4 +1,7 @@
-"""A friction law of one's own, in theory and in MuJoCo: sides hold by the root of their area."""
+"""A friction law of one's own, in theory and in MuJoCo: sides hold by the root of their area.
+
+For commands: python -m mjsim.run --plugin examples/own_law.py --friction rooted
+"""
 
 from typing import Any
 
@@ -21,8 +24,10 @@ class Rooted:
         return surface.tip_force > 0 or surface.shear_strength > 0
 
 
+register(Rooted())
+
+
 def main() -> dict[str, float]:
-    register(Rooted())
     shifts = {}
     for law in ("constant", "rooted"):
         scene = Scene(ground=SURFACES["polyethylene"], friction=law)

@@ -14,13 +14,12 @@ from analytic.prediction import REFERENCE, SOLVERS, Elastica, predict
 from analytic.robot import Robot
 from analytic.surface import SURFACES, Ground
 from analytic.uncertainty import modes_error
-from mjsim import registry
-from mjsim.io.cli import bar, choose, fail, parse, say, strict_json
+from mjsim import plugins, registry
+from mjsim.io.cli import Plugins, bar, choose, fail, parse, say, strict_json
 from mjsim.scene import Scene
 from mjsim.video import gl
 
 PROGRAM = "python -m mjsim.compare"
-MODELS = (*SOLVERS, *registry.names())  # cheapest theory first, then MuJoCo
 
 
 @dataclass(frozen=True)
@@ -42,7 +41,8 @@ class Options:
     gait: str = "all"
     """wave, full-wave, pulse, or all"""
     model: str = "all"
-    """modes, lifted, obstacle, elastica, planar, cable, rod, or all"""
+    """modes, lifted, obstacle, elastica, planar, cable, rod, or all; or a body of your own"""
+    plugin: Plugins = ()
     reverse: bool = False
     """run the gaits backwards too"""
     pressure: float = Robot().peak_pressure
@@ -63,6 +63,11 @@ class Row(NamedTuple):
     direction: str | None
     amplitude_over_L: float | None  # noqa: N815
     status: str
+
+
+def models() -> tuple[str, ...]:
+    """Names of all, cheapest theory first, then MuJoCo."""
+    return (*SOLVERS, *registry.names())
 
 
 def compare(robot: Robot, gait: Gait, ground: Ground, models: Sequence[str]) -> list[Row]:
@@ -162,23 +167,24 @@ def _number(value: float | None, width: int, kind: str) -> str:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv)
+    gl.prepare()
     try:
+        plugins.load(options.plugin)
         surfaces = choose("surface", options.surface, SURFACES)
         gaits = [GAITS[name] for name in choose("gait", options.gait, GAITS)]
-        models = choose("model", options.model, MODELS)
+        chosen = choose("model", options.model, models())
         robot = replace(Robot(), peak_pressure=options.pressure)
         for gait in gaits:
             Scene(robot, gait)  # says whether the pressure is absurd
     except ValueError as error:
         fail(PROGRAM, str(error))
-    gl.prepare()
     if options.reverse:
         gaits = [way for gait in gaits for way in (gait, gait.reversed())]
     rows: list[Row] = []
     with bar("comparing", len(surfaces) * len(gaits)) as advance:
         for gait in gaits:
             for name in surfaces:
-                rows += compare(robot, gait, SURFACES[name], models)
+                rows += compare(robot, gait, SURFACES[name], chosen)
                 advance(1)
     if options.json:
         say(strict_json({"reference": REFERENCE, "rows": [row._asdict() for row in rows]}))

@@ -5,7 +5,6 @@ import os
 import sys
 import time
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -116,17 +115,14 @@ def _model(options: Options) -> str:
 def _found(
     options: Options, objective: "Objective", workers: int
 ) -> "tuple[list[Generation], list[Confirmation], list[Confirmation]]":
-    import multiprocessing
-
     from mjsim.optimising.confirm import confirm
     from mjsim.optimising.search import search
     from mjsim.optimising.space import Space
+    from mjsim.plugins import processes
 
     scene = objective.scene
     space = Space(len(scene.robot.segments), scene.gait.period, options.aim == "speed")
-    context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(["mjsim.optimising.confirm"])
-    with ProcessPoolExecutor(workers, mp_context=context) as pool:
+    with processes("mjsim.optimising.confirm", workers) as pool:
         history: list[Generation] = []
         with bar("search", options.evaluations) as advance:
             for generation in search(objective, space, options.evaluations, options.seed, pool):

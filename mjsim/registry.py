@@ -1,23 +1,26 @@
 """Bodies by name; a body's module is imported when it is first built."""
 
-from importlib import import_module
 from typing import TYPE_CHECKING
+
+from analytic.registry import Registry
 
 if TYPE_CHECKING:
     from mjsim.bodies.body import Body
 
-_MODULES = {name: f"mjsim.bodies.{name}" for name in ("planar", "cable", "rod")}
-_registered: "dict[str, Body]" = {}
+BODIES: "Registry[Body]" = Registry(
+    "undulator.bodies",
+    {name: f"mjsim.bodies.{name}:BODY" for name in ("planar", "cable", "rod")},
+)
 
 
 def names() -> tuple[str, ...]:
     """Every body that a scene can name."""
-    return (*_MODULES, *(name for name in _registered if name not in _MODULES))
+    return tuple(BODIES)
 
 
 def register(body: "Body") -> None:
     """Make a body known by its name."""
-    _registered[body.name] = body
+    BODIES[body.name] = body
 
 
 def find(name: str) -> "Body":
@@ -25,7 +28,6 @@ def find(name: str) -> "Body":
 
     Raises:
         KeyError: there is none.
+        ValueError: it cannot be had in this process; the message says why.
     """
-    if name not in _registered:
-        register(import_module(_MODULES[name]).BODY)
-    return _registered[name]
+    return BODIES[name]

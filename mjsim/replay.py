@@ -8,7 +8,8 @@ from typing import Annotated
 
 import tyro
 
-from mjsim.io.cli import FAILED, fail, parse
+from mjsim import plugins
+from mjsim.io.cli import FAILED, Plugins, fail, parse
 from mjsim.video import gl
 
 PROGRAM = "python -m mjsim.replay"
@@ -23,6 +24,7 @@ class Options:
 
     trajectory: Annotated[Path, tyro.conf.Positional]
     """a .nc file of a run"""
+    plugin: Plugins = ()
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -32,6 +34,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"{PROGRAM}: {gl.HELP}", file=sys.stderr)
         return FAILED
 
+    try:
+        plugins.load(options.plugin)
+    except ValueError as error:
+        fail(PROGRAM, str(error))
     from mjsim.simulation.trajectory import load
     from mjsim.video.recording import write_video
 

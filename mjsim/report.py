@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
-from mjsim.io.cli import FAILED, bar, fail, parse
+from mjsim import plugins
+from mjsim.io.cli import FAILED, Plugins, bar, fail, parse
 from mjsim.io.files import check_folder, whole
 from mjsim.video import gl
 
@@ -38,6 +39,7 @@ class Options:
     """.nc files of runs"""
     out: Path = Path("page.html")
     """the file to write"""
+    plugin: Plugins = ()
     no_video: bool = False
     """without videos"""
 
@@ -51,6 +53,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         fail(PROGRAM, "trajectories must be one or more .nc files of runs, got none")
     gl.prepare()
     try:
+        plugins.load(options.plugin)
         loaded = [_load(path) for path in options.trajectories]
         check_folder(options.out.parent)
     except ValueError as error:

@@ -17,6 +17,7 @@ from mjsim.scene import Numerics, Scene
 from mjsim.scene.auto import check_tolerance
 from mjsim.scene.options import SceneOptions, tables_of
 from mjsim.scene.tables import Tables, build, of_limbs
+from mjsim.video import gl
 
 if TYPE_CHECKING:
     from mjsim.simulation.trajectory import Trajectory
@@ -76,6 +77,7 @@ class Options(SceneOptions):
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv)
+    gl.prepare()
     try:
         tables = tables_of(options)
         if of_limbs(tables[0]):
@@ -111,9 +113,6 @@ def _walk_limbs(tables: list[Tables], options: Options) -> int:
 
     cases = [build_tree(table) for table in tables]
     check_folder(options.out)
-    from mjsim.video import gl
-
-    gl.prepare()
     from mjsim.tree.command import run
 
     return run(PROGRAM, cases, options.out, options.json, not options.no_video)
@@ -145,9 +144,6 @@ def _walk(
     cases: list[tuple[Scene, Numerics]], options: Options, tolerance: float | None
 ) -> "tuple[list[dict[str, Any]], list[Trajectory]]":
     """Simulate each scene and save what came of it."""
-    from mjsim.video import gl
-
-    gl.prepare()
     from mjsim.record import record
     from mjsim.scene.provenance import provenance
 
@@ -188,8 +184,6 @@ def _simulate(
 
 def _film(walks: "list[Trajectory]", records: list[dict[str, Any]], out: Path) -> Path | None:
     """Videos of the walks that came to an end, and the path of one of several in step."""
-    from mjsim.video import gl
-
     if gl.use_backend() is None:
         print(f"{PROGRAM}: {gl.HELP}", file=sys.stderr)
         return None

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import tyro
 
 from analytic.checks import whole
-from mjsim.io.cli import FAILED, bar, fail, parse, say, strict_json
+from mjsim import plugins
+from mjsim.io.cli import BAD_INPUT, FAILED, Plugins, bar, fail, parse, say, strict_json
 from mjsim.io.files import check_folder
 from mjsim.scene import Numerics
 
@@ -35,7 +36,8 @@ class Options:
     goes on where it was by the same command; a scene that fails is a row with its status, a bad
     one a row with its message. `python -m mjsim.analysis` draws what came of it.
 
-    Exit code 0: every scene has a row; 2: bad input; 3: the cluster is gone; 130: interrupted.
+    Exit code 0: every scene has a row, and one a result; 2: bad input, every scene is refused; 3:
+    the cluster is gone, or no scene has a result; 130: interrupted.
 
     Example: python -m mjsim.sweep plan.toml --out results.sqlite --export results.csv
     """
@@ -49,6 +51,7 @@ class Options:
     scheduler: str | None = None
     """a Dask scheduler in place of them, as tcp://host:8786, started by `dask scheduler`, with
     `dask worker tcp://host:8786` on each machine"""
+    plugin: Plugins = ()
     export: Path | None = None
     """write the rows to a .csv, .nc or .parquet file too"""
     json: bool = False
@@ -73,6 +76,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             raise ValueError("plan must be a TOML file; --example prints one")
         if options.workers is not None:
             whole("workers", options.workers, 1)
+        plugins.load(options.plugin)
         plan = read_plan(options.plan)
         for path in (options.out, options.export):
             if path is not None:
@@ -83,6 +87,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         try:
             with Store(options.out, plan) as store:
                 record = sweep(plan, store, workers)
+                code, why = _end(record, store)
         finally:
             workers.close()
         if options.export:
@@ -95,7 +100,20 @@ def main(argv: Sequence[str] | None = None) -> int:
         return FAILED if isinstance(error, LostError) else INTERRUPTED
     files = [str(path) for path in (options.out, options.export) if path]
     say(strict_json({**record, "files": files}) if options.json else _text(record, files))
-    return 0
+    if why:
+        print(f"{PROGRAM}: error: {why}", file=sys.stderr)
+    return code
+
+
+def _end(record: dict[str, Any], store: "Store") -> tuple[int, str]:
+    """Exit code, and why it is not 0: no scene has a result."""
+    from mjsim.sweeps.rows import CRASHED, REFUSED
+
+    if record["status"].keys() - {REFUSED, CRASHED}:
+        return 0, ""
+    ((first,),) = store.select("select message from scenes order by id limit 1")
+    why = f"no scene has a result; give another out once this is mended: {first}"
+    return FAILED if CRASHED in record["status"] else BAD_INPUT, why
 
 
 def _workers(options: Options) -> "Workers":

@@ -1,7 +1,10 @@
 import os
 
+import pytest
 from hypothesis import HealthCheck, settings
 
+from analytic.friction import LAWS
+from mjsim import registry
 from mjsim.video import gl
 
 settings.register_profile(
@@ -12,3 +15,10 @@ settings.load_profile("project")
 # decided once, before any test imports mujoco
 BACKEND = gl.find_backend()
 os.environ[gl.VARIABLE] = BACKEND or gl.NONE
+
+
+@pytest.fixture
+def forgets(monkeypatch):
+    """What a test registers is forgotten after it."""
+    for known in (LAWS, registry.BODIES):
+        monkeypatch.setattr(known, "_registered", known.registered)

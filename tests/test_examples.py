@@ -8,20 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analytic.friction import LAWS
 from analytic.tree.gaits import undulation
-from mjsim import registry
 
 FOLDER = Path(__file__).resolve().parent.parent / "examples"
 
 
-@pytest.fixture(autouse=True)
-def _forget(monkeypatch):
-    monkeypatch.setattr(registry, "_registered", dict(registry._registered))
-    before = dict(LAWS)
-    yield
-    LAWS.clear()
-    LAWS.update(before)
+pytestmark = pytest.mark.usefixtures("forgets")
 
 
 def module_of(name):

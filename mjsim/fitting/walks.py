@@ -2,7 +2,6 @@
 
 import json
 import math
-import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field, replace
@@ -15,6 +14,7 @@ from scipy.interpolate import CubicSpline
 from analytic import pneunet
 from analytic.chain import node_positions
 from analytic.prediction import Elastica, predict
+from mjsim import plugins
 from mjsim.fitting.observations import Run, Series
 from mjsim.fitting.parameters import with_values
 from mjsim.scene import Numerics, Scene
@@ -208,10 +208,6 @@ def _number(series: Series, motion: Motion | None) -> float:
 
 def processes(runs: int, parameters: int) -> ProcessPoolExecutor | None:
     """Processes for the walks of a Jacobian, if they are many."""
-    import multiprocessing
-
     if runs * 2 * parameters < _MANY:
         return None
-    context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(["mjsim.fitting.walks"])
-    return ProcessPoolExecutor(os.cpu_count(), mp_context=context)
+    return plugins.processes("mjsim.fitting.walks")

@@ -7,11 +7,21 @@ import math
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import NoReturn, TypeVar
+from typing import Annotated, NoReturn, TypeVar
 
 import tyro
 
 Options = TypeVar("Options")
+Plugins = Annotated[
+    tyro.conf.UseAppendAction[tuple[str, ...]],
+    tyro.conf.arg(
+        metavar="MODULE",
+        help="a module, or a .py file, that registers bodies or friction laws when it is imported; "
+        "given again, or several with commas between",
+        help_behavior_hint="",
+    ),
+]
+"""Of every command that takes a scene, as its field `plugin`; see mjsim.plugins.load."""
 
 BAD_INPUT, FAILED = 2, 3  # exit codes, beside 0
 ALL = "all"

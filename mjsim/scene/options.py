@@ -9,7 +9,8 @@ import tyro
 from analytic.checks import one_of
 from analytic.robot import Robot
 from analytic.surface import SURFACES, Surface
-from mjsim.io.cli import ALL
+from mjsim import plugins
+from mjsim.io.cli import ALL, Plugins
 from mjsim.io.fields import field_docs
 from mjsim.io.options import given, option, optional, parts
 from mjsim.scene.numerics import Numerics
@@ -101,6 +102,7 @@ class SceneOptions:
     """run the gait's stages backwards"""
     robot: Annotated[str | None, _bare] = None
     """strip, or quadruped: a torso and four legs in space, by mjsim.run and mjsim.export"""
+    plugin: Plugins = ()
     limbs_: Annotated[_LimbOptions, tyro.conf.arg(name="limbs")] = field(
         default_factory=_LimbOptions
     )
@@ -130,11 +132,12 @@ class SceneOptions:
 
 
 def tables_of(options: SceneOptions) -> list[Tables]:
-    """The tables of each scene that is asked for, one a surface.
+    """The tables of each scene that is asked for, one a surface, once plugins are imported.
 
     Raises:
-        ValueError: the scene file or an option is not what it should be.
+        ValueError: the scene file, an option or a plugin is not what it should be.
     """
+    plugins.load(options.plugin)
     ground: dict[str, Any] = {**given(options.surface_), **given(options.ground_)}
     robot, gait = given(options.robot_), given(options.gait_)
     if "segments" in robot:

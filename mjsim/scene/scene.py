@@ -62,7 +62,7 @@ class Scene:
     """at rest before the first cycle [s]; chosen"""
 
     def __post_init__(self) -> None:
-        one_of("body", self.body, registry.names())
+        one_of("body", self.body, registry.BODIES)
         one_of("friction", self.friction, LAWS)
         one_of("chamber", self.chamber, CHAMBER_LAWS)
         one_of("actuation", self.actuation, ACTUATIONS)

@@ -9,7 +9,6 @@ import multiprocessing
 import os
 import time as clock
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from typing import NamedTuple
 
@@ -21,6 +20,7 @@ from numpy.typing import NDArray
 from mjsim.bodies.chambers import Chambers
 from mjsim.bodies.pneumatics import controls
 from mjsim.mjcf.builder import compile_model
+from mjsim.plugins import processes
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.judge import judge
 from mjsim.simulation.kinematics import positions
@@ -54,6 +54,8 @@ def simulate_all(
 ) -> list[Trajectory | Refused]:
     """`simulate` for each scene, in order, in processes that take a second to start.
 
+    They know the laws and bodies that are registered here, see mjsim.plugins.
+
     Args:
         scenes: the walks.
         numerics: for all of them; chosen for each if None.
@@ -67,9 +69,7 @@ def simulate_all(
     """
     if getattr(multiprocessing.current_process(), "_inheriting", False):
         raise SystemExit(_UNGUARDED)  # the parent says it, in one line
-    context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(["mjsim.simulation.simulation"])
-    with ProcessPoolExecutor(workers or os.cpu_count(), mp_context=context) as pool:
+    with processes("mjsim.simulation.simulation", workers) as pool:
         futures = [pool.submit(_attempt, scene, numerics) for scene in scenes]
         try:
             return [future.result() for future in futures]

@@ -13,7 +13,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic.friction import LAWS
 from analytic.surface import FRICTION, SURFACES, Surface
 from analytic.tree.gaits import undulation
 from analytic.tree.limbs import LENGTH
@@ -24,6 +23,7 @@ from mjsim.studies.workers import pool
 
 PROGRAM = "python -m mjsim.studies.limbs"
 PARTS = (0.4, 0.6, 0.8, 1.0)  # of the pressure that the left legs get
+LAWS = ("constant", "coulomb")
 STEPS, ELEMENTS = (0.01, 0.02, 0.04, 0.06, 0.08), (4, 6, 8, 12)
 RAMP, STATES = 8.0, 16  # s; of the reference
 LEFT = 0.7  # of the chart's gait

@@ -5,9 +5,11 @@ import multiprocessing
 import os
 import threading
 from collections.abc import Callable
-from concurrent.futures import CancelledError, Executor, Future, ProcessPoolExecutor
+from concurrent.futures import CancelledError, Executor, Future
 from multiprocessing.connection import wait as wait_for
 from typing import Any, Protocol
+
+from mjsim.plugins import Carried, adopt, carried, processes
 
 _PATIENCE = "10s"  # for a scheduler to answer
 
@@ -54,9 +56,7 @@ class Processes:
         return self._count
 
     def _new(self) -> Executor:
-        context = multiprocessing.get_context("forkserver")
-        context.set_forkserver_preload(["mjsim.sweeps.rows"])
-        return ProcessPoolExecutor(self._count, mp_context=context, initializer=_begin)
+        return processes("mjsim.sweeps.rows", self._count, _begin)
 
     def submit(self, work: Callable[[Any], Any], job: Any) -> "Future[Any]":
         """See Workers.submit."""
@@ -108,7 +108,7 @@ class Cluster:
 
     def submit(self, work: Callable[[Any], Any], job: Any) -> "Future[Any]":
         """See Workers.submit."""
-        return self._executor.submit(work, job)
+        return self._executor.submit(_knowing, carried(), work, job)
 
     def check(self) -> None:
         """See Workers.check."""
@@ -121,6 +121,12 @@ class Cluster:
     def close(self) -> None:
         """See Workers.close."""
         self._client.close(timeout=2)
+
+
+def _knowing(given: Carried, work: Callable[[Any], Any], job: Any) -> Any:
+    """Work with the laws and bodies of the driver, in a process that others started."""
+    adopt(given)
+    return work(job)
 
 
 def _begin() -> None:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from analytic import GAITS, SURFACES, Robot
-from mjsim.compare import MODELS, Row, compare, main
+from mjsim.compare import Row, compare, main, models
 from mjsim.io import cli
 
 STANDSTILL = 0.005  # of L; less is no travel, see analytic.locomotion
@@ -31,7 +31,7 @@ def test_a_row_a_model_with_its_difference_from_the_reference(capsys):
     assert main(["--surface", "felt", "--gait", "wave", "--json"]) == 0
     said = json.loads(capsys.readouterr().out)
     assert said["reference"] == "elastica"
-    assert [row["model"] for row in said["rows"]] == list(MODELS)
+    assert [row["model"] for row in said["rows"]] == list(models())
     assert set(said["rows"][0]) == set(Row._fields)
     by_model = {row["model"]: row for row in said["rows"]}
     assert by_model["elastica"]["difference_over_L"] == 0

@@ -72,14 +72,7 @@ class Halves:
         return SURFACES[self.left if x < self.border else self.right]
 
 
-@pytest.fixture(autouse=True)
-def _forget(monkeypatch):
-    monkeypatch.setattr(registry, "_registered", dict(registry._registered))
-    monkeypatch.setattr(laws, "LAWS", laws.LAWS)
-    before = dict(laws.LAWS)
-    yield
-    laws.LAWS.clear()
-    laws.LAWS.update(before)
+pytestmark = pytest.mark.usefixtures("forgets")
 
 
 def displacement(scene, numerics=None):

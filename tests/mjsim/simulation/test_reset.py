@@ -24,18 +24,13 @@ class Damped(Planar):
         return super().bind(model, data, scene, numerics)
 
 
-@pytest.fixture
-def damped(monkeypatch):
-    monkeypatch.setattr(registry, "_registered", dict(registry._registered))
-    registry.register(Damped())
-
-
 def numbers_of(model):
     arrays = [getattr(model, name) for name in dir(model) if not name.startswith("_")]
     return [array.copy() for array in arrays if isinstance(array, np.ndarray)]
 
 
-def test_a_body_that_scales_the_model_walks_alike_each_time(damped):
+def test_a_body_that_scales_the_model_walks_alike_each_time(forgets):
+    registry.register(Damped())
     scene, numerics = Scene(body="damped"), Numerics(links=6)
     compiled = compile_model(scene, numerics.resolved(scene.body, scene.friction))
     simulation = Simulation(scene, numerics)
