@@ -85,6 +85,9 @@ class Strips:
         self._chambers: list[Chambers] = [self._at_rest(scene) for scene in scenes]
         self._lay(every)
 
+    def __getstate__(self) -> None:
+        raise TypeError("strips that are stepped side by side cannot be copied, single ones can")
+
     def _at_rest(self, scene: Scene) -> Chambers:
         return Chambers(scene.valves, len(scene.robot.segments), self.numerics.timestep)
 

@@ -1,5 +1,6 @@
 """The task as a dm_control environment."""
 
+import copy
 from collections import OrderedDict
 from typing import Any
 
@@ -21,7 +22,8 @@ Array = NDArray[np.float64]
 class Physics(dm_mujoco.Physics):  # type: ignore[misc]
     """A Simulation, friction law and chambers included, as dm_control's Physics.
 
-    Make one with `Physics.of(scene, settings)`. It has no actuators: `set_control` takes actions.
+    Make one with `Physics.of(scene, settings)`. It has no actuators: `set_control` takes actions. A
+    copy goes on where this one is.
     """
 
     simulation: Simulation
@@ -40,6 +42,23 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
         self.simulation, self._settings = simulation, settings
         self._valves = np.zeros(settings.segments)
         self._seen = simulation.observe()
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: vars(self)[name] for name in ("simulation", "_settings", "_valves", "_seen")}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        super().__setstate__(wrapper.MjData(state["simulation"].data))
+        self.__dict__.update(state)
+
+    def copy(self, share_model: bool = False) -> "Physics":
+        """Another one in the same state.
+
+        Raises:
+            ValueError: it is to share the model, which bodies and friction write to.
+        """
+        if share_model:
+            raise ValueError("share_model must be False: bodies and friction write to the model")
+        return copy.deepcopy(self)
 
     def start(self, scene: Scene) -> None:
         """Lay another strip on another ground and let it settle."""

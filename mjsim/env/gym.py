@@ -38,6 +38,8 @@ def spaces(settings: Settings) -> tuple[gymnasium.spaces.Box, gymnasium.spaces.B
 class WalkEnv(gymnasium.Env):  # type: ignore[misc]
     """One robot; see mjsim.env.task for actions, observations and the reward.
 
+    A deep copy, or one by pickle, goes on where this one is; it draws with a renderer of its own.
+
     Args:
         render_mode: "rgb_array", or None.
         settings: see mjsim.env.task.Settings.
@@ -98,6 +100,9 @@ class WalkEnv(gymnasium.Env):  # type: ignore[misc]
         if self._picture is not None:
             self._picture.close()
             self._picture = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**vars(self), "_picture": None}
 
     def _middle(self) -> float:
         assert self._simulation is not None

@@ -24,7 +24,7 @@ class Compiled:
 
 
 def _put(kept: Any, live: Any) -> None:
-    for name in _fields(kept.__class__):
+    for name in fields(kept.__class__):
         value = getattr(kept, name)
         if isinstance(value, np.ndarray):
             getattr(live, name)[...] = value
@@ -35,7 +35,7 @@ def _put(kept: Any, live: Any) -> None:
 
 
 @cache
-def _fields(kind: type) -> tuple[str, ...]:
+def fields(kind: type) -> tuple[str, ...]:
     """What MuJoCo's structure holds, without its methods."""
     return tuple(
         name for name in dir(kind)

@@ -17,6 +17,7 @@ from mjsim.friction.laws import traction
 from mjsim.friction.recorder import ContactRecorder
 from mjsim.mjcf.builder import compile_model
 from mjsim.mjcf.compiled import Compiled
+from mjsim.mjcf.copies import Copied
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.judge import judge
 from mjsim.simulation.kinematics import ends_may_be, nodes_of, positions
@@ -54,8 +55,8 @@ Policy = Callable[[Observation], ArrayLike]
 """From what is seen to what the valves are commanded, (S,) [Pa]; a Gait is the open-loop one."""
 
 
-class Simulation:
-    """One scene, compiled once and stepped as often as needed.
+class Simulation(Copied):
+    """One scene, compiled once and stepped as often as needed; copies walk on as it would.
 
     Args:
         scene: the walk.

@@ -14,6 +14,7 @@ from analytic.chain import joint_springs, link_lengths
 from analytic.gait import Gait
 from analytic.tree.limbs import outline
 from mjsim.mjcf.compiled import Compiled
+from mjsim.mjcf.copies import Copied
 from mjsim.simulation.status import THROWN, Status
 from mjsim.tree.body import ROOT, hinge_names, limb_body, tree_spec
 from mjsim.tree.friction import Grips
@@ -48,8 +49,8 @@ class TreeObservation(NamedTuple):
     status: Status
 
 
-class TreeSimulation:
-    """One scene.
+class TreeSimulation(Copied):
+    """One scene; copies walk on as it would.
 
     Args:
         scene: the walk.

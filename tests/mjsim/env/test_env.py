@@ -1,6 +1,8 @@
 """Environments walk as simulations do, all three kinds alike, and keep their libraries' rules."""
 
+import copy
 import os
+import pickle
 import subprocess
 import sys
 import unittest
@@ -82,6 +84,65 @@ def test_dm_controls_environment_walks_as_gymnasiums():
         seen = step.observation
         assert step.reward == pytest.approx(reward, abs=1e-9)
     assert tuple(seen) == names(3)._fields
+
+
+WAYS = pytest.mark.parametrize("way", [copy.deepcopy, lambda env: pickle.loads(pickle.dumps(env))])
+
+
+def steps(env, actions):
+    """What is felt and what is paid, of either library's environment."""
+    seen = []
+    for action in actions:
+        felt = env.step(action)
+        if hasattr(felt, "observation"):
+            felt = np.concatenate(list(felt.observation.values())), felt.reward
+        seen.append(np.append(felt[0], felt[1]))
+    return np.array(seen)
+
+
+@WAYS
+@pytest.mark.parametrize("library", ["gym", "dm"])
+def test_a_copy_in_an_episode_goes_on_as_its_original_would(library, way):
+    def make():
+        if library == "dm":
+            env = mjsim.env.load("gelatin", "felt", seed=3, duration=3.0)
+            env.reset()
+        else:
+            env = gymnasium.make("Undulator/AnyGround-v0", duration=3.0)
+            env.reset(seed=3)
+        return env
+
+    actions = np.random.default_rng(2).random((24, 3))
+    env, usual = make(), make()
+    expected = steps(usual, actions)
+    steps(env, actions[:12])
+    copied = way(env)
+    assert np.array_equal(steps(copied, actions[12:]), expected[12:])
+    assert np.array_equal(steps(env, actions[12:]), expected[12:])
+    for one in (usual, copied):
+        one.reset()
+    assert np.array_equal(steps(copied, actions[:3]), steps(usual, actions[:3]))
+
+
+def test_dm_controls_own_copy_is_one_and_shares_no_model():
+    env = mjsim.env.load("gelatin", seed=3)
+    env.reset()
+    actions = np.random.default_rng(2).random((6, 3))
+    steps(env, actions[:3])
+    physics = env.physics.copy()
+    for one in (physics, env.physics):
+        one.set_control(actions[3])
+        one.step(20)
+    assert np.array_equal(physics.data.qpos, env.physics.data.qpos)
+    assert np.array_equal(physics.named.data.qpos, physics.simulation.data.qpos)
+    with pytest.raises(ValueError, match="share_model must be False"):
+        physics.copy(share_model=True)
+
+
+@WAYS
+def test_many_side_by_side_refuse_to_be_copied(way):
+    with pytest.raises(TypeError, match="side by side cannot be copied"):
+        way(WalkVectorEnv(num_envs=2))
 
 
 def test_a_gait_as_actions_goes_as_far_as_its_simulation():
