@@ -1,31 +1,48 @@
 """Hold a redesign to the numbers recorded before it: `make regression`.
 
-Theory within 1e-9 L, MuJoCo within 1e-6 L; a run that failed fails in the same way at the same
-time. Prints what differs and leaves with 1 if anything does. `--record` writes the numbers anew.
+    check.py [NAMES]            walk the recorded scenes, those whose name holds a word of NAMES
+    check.py --record [NAMES]   record scenes that are not recorded yet, and those named
+
+Theory within 1e-9 L, MuJoCo within 1e-6 L, turns alike in radians; a scene that scatters by more
+when its weight changes by 1e-8 of itself, within ten times that. A run that failed fails in the
+same way at the same time. Prints what differs and leaves with 1 if anything does. A row's `awaits`
+says what its number is known to lack.
 """
 
 import json
 import math
 import sys
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import limbs
 import numpy as np
-from cases import Case, cases
+import strips
 
 from analytic import SOLVERS, Elastica, Friction, Gait, Robot, Surface, predict
+from analytic.tree.limbs import rotation
+from analytic.tree.walk import walk as walk_of_limbs
 from mjsim.scene import Numerics, Scene, Valves
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
+from mjsim.tree.scene import TreeNumerics, TreeScene
+from mjsim.tree.simulation import simulate as simulate_limbs
+from mjsim.tree.tables import build_tree
+
+Case = dict[str, Any]
+Row = dict[str, Any]
 
 NUMBERS = Path(__file__).with_name("numbers.json")
 THEORY, MUJOCO = 1e-9, 1e-6  # over L
 SAME_TIME = 0.011  # s; steps
-# scenes that scatter by as much when the weight or the friction is changed by 1e-8 of itself
-SCATTER = {"rod coulomb polyethylene": 1e-3, "rod coulomb gelatin": 1e-3, "planar Euler": 1e-2}
+CHANGE, SCATTERS = 1e-8, 10.0  # of the weight, to see scatter by; of it, that a bound is
+STATES = 8  # of the theory of limbs, in a change by the peak pressure
+ROWS = {"theory": THEORY, "mujoco": MUJOCO}
 
 
-def quasi_static(case: Case, robot: Robot, gait: Gait) -> dict[str, Any]:
+def quasi_static(case: Case, robot: Robot, gait: Gait) -> Row:
     solver = SOLVERS[case["model"]]()
     if case["model"] == "elastica":
         solver = Elastica(case["numerics"].get("links", 60), case["chamber"])
@@ -45,7 +62,7 @@ def quasi_static(case: Case, robot: Robot, gait: Gait) -> dict[str, Any]:
     }
 
 
-def simulated(case: Case, robot: Robot, gait: Gait) -> dict[str, Any]:
+def simulated(case: Case, robot: Robot, gait: Gait) -> Row:
     scene = Scene(
         robot, gait, Surface("any", **case["ground"]), cycles=case["cycles"], body=case["model"],
         friction=case["friction"], slope=case["slope"], chamber=case["chamber"],
@@ -54,7 +71,7 @@ def simulated(case: Case, robot: Robot, gait: Gait) -> dict[str, Any]:
     )  # fmt: skip
     numerics = Numerics(tie_bound=case["phi"], **case["numerics"])
     walk = simulate(scene, numerics)
-    row: dict[str, Any] = {"status": str(walk.status), "end_time": float(walk.time[-1])}
+    row: Row = {"status": str(walk.status), "end_time": float(walk.time[-1])}
     numbers = measure(walk)
     if numbers:
         x = walk.position[:, :, 0]
@@ -67,14 +84,75 @@ def simulated(case: Case, robot: Robot, gait: Gait) -> dict[str, Any]:
     return row
 
 
-def result(case: Case) -> dict[str, Any]:
-    robot = Robot(**case["robot"])
+def of_strip(case: Case, change: float = 0.0) -> dict[str, Row]:
+    weight = case["robot"]["weight_per_length"] * (1 + change)
+    robot = Robot(**{**case["robot"], "weight_per_length": weight})
     gait = Gait("any", tuple(map(tuple, case["stages"])), case["ramp"])
-    theory = case["model"] in ("modes", "obstacle", "elastica")
-    return (quasi_static if theory else simulated)(case, robot, gait)
+    if case["model"] in ("modes", "obstacle", "elastica"):
+        return {"theory": quasi_static(case, robot, gait)}
+    return {"mujoco": simulated(case, robot, gait)}
 
 
-def differences(name: str, before: dict[str, Any], now: dict[str, Any], bound: float) -> list[str]:
+def of_limbs(case: Case, change: float = 0.0) -> dict[str, Row]:
+    tables = {**case["tables"], "numerics": {**case["tables"]["numerics"],
+                                             "elements": case["hinges"]}}  # fmt: skip
+    scene, numerics = build_tree(tables)
+    heavier = tuple(
+        replace(limb, strip=replace(limb.strip, weight_per_length=(1 + change)
+                                    * limb.strip.weight_per_length))
+        for limb in scene.robot.limbs
+    )  # fmt: skip
+    scene = replace(scene, robot=replace(scene.robot, limbs=heavier))
+    rows = {"mujoco": simulated_limbs(scene, numerics)}
+    if case["theory"]:
+        rows["theory"] = quasi_static_limbs(scene, case["hinges"], rows["mujoco"]["length"])
+    return rows
+
+
+def simulated_limbs(scene: TreeScene, numerics: TreeNumerics) -> Row:
+    walk = simulate_limbs(scene, numerics)
+    row: Row = {"status": str(walk.status), "end_time": float(walk.time[-1]),
+                "length": walk.length}  # fmt: skip
+    if walk.status == "ok":
+        ahead, aside = (walk.displacement / walk.length).tolist()
+        row |= {"displacement": ahead, "sideways": aside, "turn": float(walk.turn),
+                "height": float(walk.coordinates[:, 2].max()) / walk.length}  # fmt: skip
+    return row
+
+
+def quasi_static_limbs(scene: TreeScene, hinges: int, length: float) -> Row:
+    path = walk_of_limbs(scene.robot, scene.gait, scene.ground, STATES, hinges, law=scene.friction)
+    ahead, aside = (path.displacement @ rotation(scene.robot.limbs[0].angle) / length).tolist()
+    return {"displacement": ahead, "sideways": aside, "turn": float(path.turn),
+            "height": max(float(rest.q[2]) for rest in path.rests) / length,
+            "status": "ok" if path.converged else "unconverged",
+            "states": len(path.rests)}  # fmt: skip
+
+
+FAMILIES: dict[str, tuple[Callable[..., Any], Callable[..., dict[str, Row]]]] = {
+    "strips": (strips.cases, of_strip),
+    "limbs": (limbs.cases, of_limbs),
+}
+
+
+def scatter(one: Row, two: Row) -> float:
+    """Largest difference of two rows' numbers."""
+    keys = [key for key in one if isinstance(one[key], float) and key not in ("end_time", "length")]
+    return max((abs(one[key] - two.get(key, math.nan)) for key in keys), default=0.0)
+
+
+def recorded(result: Callable[..., dict[str, Row]], case: Case) -> Row:
+    """Numbers of a scene, and the bounds to hold them to."""
+    rows = result(case)
+    others = [result(case, change) for change in (-CHANGE, CHANGE)]
+    bounds = {
+        name: max(ROWS[name], SCATTERS * max(scatter(row, other[name]) for other in others))
+        for name, row in rows.items()
+    }
+    return {**rows, "bounds": bounds, "awaits": list(case.get("awaits", ()))}
+
+
+def differences(name: str, before: Row, now: Row, bound: float) -> list[str]:
     lines = []
     for key in before.keys() | now.keys():
         one, two = before.get(key), now.get(key)
@@ -86,24 +164,32 @@ def differences(name: str, before: dict[str, Any], now: dict[str, Any], bound: f
                 continue
         elif one == two:
             continue
-        lines.append(f"{name}: {key} was {one}, is {two}")
+        lines.append(f"{name}: {key} was {one}, is {two} (bound {bound:.1e})")
     return lines
 
 
-def main() -> int:
-    now, lines = {}, []
-    recorded = json.loads(NUMBERS.read_text()) if NUMBERS.is_file() else {}
-    for name, case in cases():
-        now[name] = result(case)
-        theory = case["model"] in ("modes", "obstacle", "elastica")
-        bound = SCATTER.get(name, THEORY if theory else MUJOCO)
-        if name in recorded:
-            lines += differences(name, recorded[name], now[name], bound)
-    if "--record" in sys.argv:
-        NUMBERS.write_text(json.dumps(now, indent=1) + "\n")
-    print(*lines, f"{len(now)} scenes, {len(lines)} differences", sep="\n")
+def main(words: list[str]) -> int:
+    record = words[:1] == ["--record"]
+    words = words[1:] if record else words
+    numbers = json.loads(NUMBERS.read_text()) if NUMBERS.is_file() else {}
+    lines, count = [], 0
+    for cases, result in FAMILIES.values():
+        for name, case in cases():
+            named = any(word in name for word in words)
+            if record and (named or name not in numbers):
+                numbers[name] = recorded(result, case)
+                print(f"{name}: recorded, bounds {numbers[name]['bounds']}", flush=True)
+            elif name in numbers and not record and (named or not words):
+                count += 1
+                before, now = numbers[name], result(case)
+                for kind, row in now.items():
+                    bound = before["bounds"][kind]
+                    lines += differences(f"{name}, {kind}", before[kind], row, bound)
+    if record:
+        NUMBERS.write_text(json.dumps(numbers, indent=1) + "\n")
+    print(*lines, f"{count} scenes, {len(lines)} differences", sep="\n")
     return 1 if lines else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))
