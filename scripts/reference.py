@@ -1,5 +1,6 @@
 """Build the API reference from the docstrings, any warning an error: `make reference`."""
 
+import importlib
 import os
 import pkgutil
 import sys
@@ -12,6 +13,7 @@ import pdoc
 
 import analytic
 import mjsim
+from mjsim.io.cli import fail
 
 
 def modules() -> list[str]:
@@ -27,7 +29,11 @@ def modules() -> list[str]:
 
 
 def main(folder: Path) -> None:
-    """Write HTML."""
+    """Write HTML, of the modules for dm_control too."""
+    try:
+        importlib.import_module("mjsim.simulation.dm")
+    except ImportError as error:
+        fail("scripts/reference.py", str(error))
     for package in (analytic, mjsim):
         for name in package.__all__:
             getattr(package, name)  # names that are imported when they are first used

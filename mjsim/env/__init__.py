@@ -8,7 +8,12 @@ from typing import Any
 
 
 def load(*surfaces: str, seed: int | None = None, **settings: Any) -> Any:
-    """A dm_control environment, see mjsim.env.dm.load."""
+    """A dm_control environment, see mjsim.env.dm.load.
+
+    Raises:
+        ImportError: dm_control is not installed, or does not know the MuJoCo that is.
+        ValueError: a setting is out of its range.
+    """
     from mjsim.env.dm import load as load_dm
 
     return load_dm(*surfaces, seed=seed, **settings)

@@ -5,14 +5,12 @@ from collections import OrderedDict
 from typing import Any
 
 import numpy as np
-from dm_control import mujoco as dm_mujoco
-from dm_control.mujoco import wrapper
-from dm_control.rl import control
-from dm_env import specs
 from numpy.typing import NDArray
 
 from mjsim.env.task import FALL, Settings, commands, middle, names, sense
 from mjsim.scene import Scene
+from mjsim.simulation.dm import control, specs, wrapper
+from mjsim.simulation.dm import mujoco as dm_mujoco
 from mjsim.simulation.simulation import Simulation
 from mjsim.simulation.status import Status
 

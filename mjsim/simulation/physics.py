@@ -4,8 +4,6 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from dm_control import mujoco as dm_mujoco
-from dm_control.mujoco import wrapper
 from numpy.typing import NDArray
 
 from analytic.contact import may_lie_flat
@@ -13,6 +11,8 @@ from mjsim.friction.contact_length import ContactForces, pads_by_node
 from mjsim.mjcf.builder import compile_model
 from mjsim.mjcf.standalone import walking_scene
 from mjsim.scene import Numerics, Scene
+from mjsim.simulation.dm import mujoco as dm_mujoco
+from mjsim.simulation.dm import wrapper
 
 Array = NDArray[np.float64]
 
