@@ -1,7 +1,10 @@
 PY := .venv/bin/python
 
-.PHONY: run test check numbers scenes reach auto promises quadruped loop startup bench regression identify models gallery figures \
-	chart maps reference architecture clean
+# the newest that was tested; the default is in constraints.txt
+MUJOCO_4 := 4.0.0
+
+.PHONY: run test check check-mujoco4 numbers scenes reach auto promises quadruped loop startup bench regression identify \
+	models gallery figures chart maps reference architecture clean
 
 run: .venv/ready
 	$(PY) -m mjsim.run --surface all
@@ -10,11 +13,17 @@ test: .venv/ready
 	$(PY) -m pytest
 
 # what .ci/run runs after `make test`
-check: .venv/ready
+check: .venv/ready check-mujoco4
 	$(PY) -m ruff check .
 	$(PY) -m ruff format --check .
 	$(PY) -m mypy
 	$(PY) -m pytest -m slow
+
+# the bodies walk by MuJoCo 4 as they do by the MuJoCo of constraints.txt
+check-mujoco4: .venv/mujoco4/ready
+	PYTHONPATH=$(CURDIR)/.venv/mujoco4 $(PY) benchmarks/regression/check.py cable rod planar actuators
+	PYTHONPATH=$(CURDIR)/.venv/mujoco4 $(PY) -m pytest tests/mjsim/bodies/test_bodies.py \
+		tests/mjsim/commands/test_export.py tests/mjsim/tree/test_walks_of_limbs.py
 
 numbers: .venv/ready
 	$(PY) benchmarks/convergence.py
@@ -83,6 +92,12 @@ architecture: .venv/ready
 
 .venv/ready: pyproject.toml constraints.txt scripts/setup.sh
 	bash scripts/setup.sh
+	touch $@
+
+.venv/mujoco4/ready: .venv/ready Makefile
+	rm -rf $(@D)
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps --target $(@D) \
+		mujoco==$(MUJOCO_4) mujoco-core==$(MUJOCO_4) mujoco-studio==$(MUJOCO_4)
 	touch $@
 
 clean:

@@ -1,9 +1,8 @@
-"""The cable body: MJCF's `<composite type="cable">`, rigid links in space joined by ball joints.
+"""The cable body: rigid links in space joined by ball joints, as in MuJoCo 3's composite cable.
 
-Bending is by springs of the ball joints, not by the elasticity plugin: that has the rest curvature
-it was compiled with, while a pneu-net's follows the pressure. Ball springs are isotropic, so the
-strip resists twist and sideways bending as it does bending in its plane. Two rows of pads, at both
-edges of the strip's width, keep it from rolling over.
+Bending is by springs of the ball joints, whose rest follows the pressure. Ball springs are
+isotropic, so the strip resists twist and sideways bending as it does bending in its plane. Two rows
+of pads, at both edges of the strip's width, keep it from rolling over.
 """
 
 from collections.abc import Sequence
@@ -24,19 +23,6 @@ _FIRST_JOINT = 4  # the joints are x, y, z, the ball of the whole, then those be
 _WHOLE_BALL = 3  # coordinate where the quaternion of the whole is, after 3 slides
 _FIRST_BALL = 7  # and that of the first joint between links
 
-_COMPOSITE = """
-<mujoco model="robot">
-  <compiler angle="radian" autolimits="true"/>
-  <default><site size="0.0006" group="4" rgba="0.8 0.2 0.2 1"/></default>
-  <worldbody>
-    <composite prefix="cable_" type="cable" initial="none" vertex="{vertex}">
-      <joint kind="main" stiffness="1" damping="1"/>
-      <geom type="box" size="0.001 0.001 0.001" rgba="0.2 0.2 0.2 1"/>
-    </composite>
-  </worldbody>
-</mujoco>
-"""
-
 
 class Cable:
     """See mjsim.bodies.body.Body."""
@@ -48,16 +34,22 @@ class Cable:
         parts.refuse_planar_only(self.name, scene)
 
     def spec(self, scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
-        """The composite, its links given their joints, masses, pads and friction."""
+        """Links that hang from each other, the first one free in space."""
         robot, links = scene.robot, numerics.links
-        spec = mujoco.MjSpec.from_string(_COMPOSITE.format(vertex=parts.vertices(scene, numerics)))
+        spec = parts.template()
         stiffness, _ = joint_springs(robot, links, np.zeros((1, len(robot.segments))))
-        bodies = [spec.body(f"cable_B_{name}") for name in ("first", *range(1, links), "last")]
         edges = [(0.5 * side * robot.width, 0.0) for side in (-1, 1)]
         lengths = link_lengths(robot, links).tolist()
-        for i, (body, length) in enumerate(zip(bodies, lengths, strict=True)):
-            for geom in list(body.geoms):
-                spec.delete(geom)
+        parent, offset = spec.worldbody, 0.0
+        bodies = []
+        for i, length in enumerate(lengths):
+            body = parent.add_body(name=f"link_{i}", pos=(offset, 0, 0))
+            if i == 0:
+                _free(body)
+            else:
+                joint = body.add_joint(name=f"ball_{i}", type=mujoco.mjtJoint.mjJNT_BALL)
+                joint.stiffness[0] = stiffness[0, i - 1]
+                joint.damping[0] = numerics.damping_time * stiffness[0, i - 1]
             mass = robot.weight_per_length / scene.gravity * length
             wide, long = mass * robot.width**2 / 12, mass * length**2 / 12
             body.explicitinertial, body.mass, body.ipos = True, mass, (length / 2, 0.0, 0.0)
@@ -66,15 +58,11 @@ class Cable:
             if i == links:
                 ends = [(length, *edge) for edge in edges]
                 parts.add_pads(body, scene, numerics, i + 1, ends)
-            if i == 0:
-                _free(body)
-            else:
-                joint = body.joints[0]
-                joint.stiffness[0] = stiffness[0, i - 1]
-                joint.damping[0] = numerics.damping_time * stiffness[0, i - 1]
+            bodies.append(body)
+            parent, offset = body, length
         origin = (0.0, 0.0, 0.0)
         nodes = [(body, origin) for body in bodies]
-        parts.add_ends(spec, scene, [*nodes, (bodies[-1], (lengths[-1], 0.0, 0.0))])
+        parts.add_ends(spec, scene, [*nodes, (bodies[-1], (offset, 0.0, 0.0))])
         parts.hold_sideways(spec, scene, numerics)
         return spec
 

@@ -14,7 +14,7 @@ import mujoco
 import numpy as np
 
 from analytic import pneunet
-from analytic.chain import link_lengths, node_positions
+from analytic.chain import link_lengths
 from mjsim.scene import Numerics, Scene
 
 PALE, DARK = (0.86, 0.82, 0.72), (0.16, 0.17, 0.20)  # passive and inflated, as in Figure 4
@@ -31,13 +31,6 @@ Place = tuple[float, float, float]
 def template() -> mujoco.MjSpec:
     """Defaults of the strip."""
     return mujoco.MjSpec.from_file(str(TEMPLATE))
-
-
-def vertices(scene: Scene, numerics: Numerics) -> str:
-    """Places of the flat strip's vertices, as MJCF writes them."""
-    x = node_positions(scene.robot, numerics.links)
-    places = np.column_stack([x, np.zeros((len(x), 2))])
-    return " ".join(f"{place:.17g}" for place in places.ravel())
 
 
 def refuse_planar_only(body: str, scene: Scene) -> None:

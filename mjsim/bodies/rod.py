@@ -1,4 +1,4 @@
-"""The rod body: MJCF's `<flexcomp dim="1">`, MuJoCo's discrete elastic rod of point masses.
+"""The rod body: MJCF's `<flex dim="1">`, MuJoCo's discrete elastic rod of point masses.
 
 MuJoCo bends it as an isotropic rod without twist that is straight at rest, with the moment
 D/h g(phi), g(phi) = 2 tan(phi/2) / cos(phi/2)^2, at a vertex where it turns by phi. Pressure is put
@@ -7,7 +7,7 @@ rest angle r. The rigidity is divided by g'(r), so that the stiffness about that
 pneu-net's. Edges are held by equality constraints: a strain-limiting layer does not stretch.
 
 A rod has no width to stand on. The couples are in the x-z plane whatever the rod does, and so hold
-it upright.
+it upright. The flex is written out, since MuJoCo 4's `<flexcomp>` adds a joint a twisting edge.
 """
 
 from collections.abc import Sequence
@@ -17,30 +17,15 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.chain import joint_springs, link_lengths
+from analytic.chain import joint_springs, link_lengths, node_positions
 from mjsim.bodies import parts
 from mjsim.bodies.body import Joints
 from mjsim.scene import Numerics, Scene
 
 Array = NDArray[np.float64]
 
+_RIGIDITY = {4: 3, 10: 4}  # where it is in a vertex's numbers of flex_bending, MuJoCo 3's and 4's
 _RADIUS = 1e-3  # of the section MuJoCo thinks of, whose rigidity is overwritten [m]
-_PER_VERTEX = 4  # numbers of flex_bending a vertex, after the count: three vertices and a rigidity
-
-_FLEXCOMP = """
-<mujoco model="robot">
-  <compiler angle="radian" autolimits="true"/>
-  <default><site size="0.0006" group="4" rgba="0.8 0.2 0.2 1"/></default>
-  <worldbody>
-    <flexcomp name="rod" type="direct" dim="1" point="{point}" element="{element}"
-              radius="{radius}" mass="1">
-      <edge equality="true" solref="{edge_time:.17g} 1" solimp="0.9999 0.9999 0.001 0.5 2"/>
-      <elasticity young="1" poisson="0" damping="{damping:.17g}"/>
-      <contact contype="0" conaffinity="0" selfcollide="none"/>
-    </flexcomp>
-  </worldbody>
-</mujoco>
-"""
 
 
 class Rod:
@@ -53,26 +38,21 @@ class Rod:
         parts.refuse_planar_only(self.name, scene)
 
     def spec(self, scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
-        """The flexcomp, its vertices given their masses, pads and friction."""
+        """Point masses on slides along each axis, and the flex through them."""
         robot, links = scene.robot, numerics.links
-        edges = np.column_stack([np.arange(links + 1), np.arange(1, links + 2)]).ravel()
-        assert numerics.edge_time is not None
-        spec = mujoco.MjSpec.from_string(
-            _FLEXCOMP.format(
-                point=parts.vertices(scene, numerics),
-                element=" ".join(map(str, edges.tolist())),
-                radius=_RADIUS,
-                edge_time=numerics.edge_time * numerics.timestep,
-                damping=numerics.damping_time,
-            )
-        )
+        spec = parts.template()
         half = 0.5 * robot.weight_per_length / scene.gravity * link_lengths(robot, links)
         mass = np.concatenate([[0.0], half]) + np.concatenate([half, [0.0]])
-        bodies = [spec.body(f"rod_{i}") for i in range(links + 2)]
-        for i, body in enumerate(bodies):
-            body.explicitinertial, body.mass = True, mass[i]
+        bodies = []
+        for i, x in enumerate(node_positions(robot, links).tolist()):
+            body = spec.worldbody.add_body(name=f"rod_{i}", pos=(x, 0, 0))
+            for axis in np.eye(3):
+                body.add_joint(type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
+            body.explicitinertial, body.mass, body.ipos = True, mass[i], (0.0, 0.0, 0.0)
             body.inertia = [mass[i] * _RADIUS**2] * 3  # a point does not turn
             parts.add_pads(body, scene, numerics, i, [(0.0, 0.0, 0.0)])
+            bodies.append(body)
+        _join(spec, bodies, numerics)
         parts.add_ends(spec, scene, [(body, (0.0, 0.0, 0.0)) for body in bodies])
         for i, body in enumerate(bodies):
             # a rod has no width: every vertex is kept in the plane, not its ends alone
@@ -88,9 +68,25 @@ class Rod:
         return _Vertices(model, data, scene, numerics)
 
 
+def _join(spec: mujoco.MjSpec, bodies: Sequence[mujoco.MjsBody], numerics: Numerics) -> None:
+    """Let the edges between bodies resist bending, and hold their lengths."""
+    flex = spec.add_flex(name="rod", dim=1, radius=_RADIUS, young=1.0)
+    flex.damping, flex.contype, flex.conaffinity = numerics.damping_time, 0, 0
+    flex.selfcollide = mujoco.mjtFlexSelf.mjFLEXSELF_NONE
+    flex.vertbody = [body.name for body in bodies]
+    vertices = np.arange(len(bodies))
+    flex.elem = np.column_stack([vertices[:-1], vertices[1:]]).ravel()
+    assert numerics.edge_time is not None
+    held = spec.add_equality(type=mujoco.mjtEq.mjEQ_FLEX, name1=flex.name)
+    held.solref[:] = numerics.edge_time * numerics.timestep, 1.0
+    held.solimp[:3] = 0.9999, 0.9999, 0.001
+
+
 def half_stiffness(model: mujoco.MjModel) -> Array:
     """Half the stiffness of each inner vertex, (N,) [N m/rad], to be written to."""
-    return model.flex_bending[_PER_VERTEX::_PER_VERTEX]
+    count = int(model.flex_bending[0])
+    records = model.flex_bending[1:].reshape(count, -1)
+    return records[:, _RIGIDITY[records.shape[1]]]
 
 
 def rest_stiffness(model: mujoco.MjModel, scene: Scene, links: int) -> None:

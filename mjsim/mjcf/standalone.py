@@ -53,7 +53,7 @@ def standalone_spec(scene: Scene, numerics: Numerics | None = None) -> mujoco.Mj
     scene = walking_scene(scene)
     numerics = (numerics or Numerics()).resolved(scene.body, scene.friction)
     spec = scene_spec(scene, numerics)
-    if scene.body == "planar":
+    if scene.body in ("planar", "cable"):
         _show_links(spec, scene, numerics)
     if scene.body == "cable":
         _actuate_balls(spec, scene, numerics)
@@ -113,7 +113,7 @@ def _actuate_balls(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> Non
     for body in spec.bodies:
         if body.explicitinertial:
             body.inertia[2] *= _INERTIA
-    joints = [joint for joint in spec.joints if joint.name.startswith(f"{PREFIX}cable_J")]
+    joints = [joint for joint in spec.joints if joint.name.startswith(f"{PREFIX}ball_")]
     for number, joint in enumerate(joints, start=1):
         motor = spec.add_actuator(name=f"{PREFIX}chamber_{number}", target=joint.name)
         motor.trntype, motor.gear[:3] = mujoco.mjtTrn.mjTRN_JOINT, (0.0, 1.0, 0.0)

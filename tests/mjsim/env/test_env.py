@@ -105,6 +105,7 @@ def test_a_copy_in_an_episode_goes_on_as_its_original_would(library, way):
 
 
 def test_dm_controls_own_copy_is_one_and_shares_no_model():
+    pytest.importorskip("mjsim.simulation.dm", exc_type=ImportError)
     env = mjsim.env.load("gelatin", seed=3)
     env.reset()
     actions = np.random.default_rng(2).random((6, 3))

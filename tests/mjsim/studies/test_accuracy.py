@@ -4,6 +4,7 @@ import json
 import math
 from dataclasses import replace
 
+import mujoco
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -26,6 +27,8 @@ def test_the_exact_tip_is_the_published_one():
 
 @pytest.mark.parametrize("method", ["elastica", "planar", "cable", "stock cable"])
 def test_a_settled_strip_is_of_second_order_in_its_elements(method):
+    if method == cantilever_bodies.STOCK and mujoco.mj_version() >= 4_000_000:
+        pytest.skip("MuJoCo 4 has no composite cable")
     errors = []
     for links in (6, 12, 24):
         timestep, integrator = (0.0, "") if method == "elastica" else (0.02, "discrete")

@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import mujoco
 import pytest
 
 from mjsim import registry
@@ -21,10 +22,16 @@ from mjsim.studies.stability.parameters import Varied
 UNDAMPED = 1e-6  # s; as good as none
 
 
+def skip_what_mujoco_refuses(body, integrator):
+    if (body, integrator[:8]) == ("rod", "implicit") and mujoco.mj_version() >= 4_000_000:
+        pytest.skip("MuJoCo 4 takes no rod under implicit and implicitfast")
+
+
 @pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "implicit", "RK4"])
 @pytest.mark.parametrize("damping", [UNDAMPED, Numerics().damping_time])
 @pytest.mark.parametrize(("body", "links"), [("planar", 12), ("cable", 12), ("rod", 6)])
 def test_a_body_diverges_where_its_highest_mode_is_predicted_to(body, links, integrator, damping):
+    skip_what_mujoco_refuses(body, integrator)
     numerics = Numerics(links=links, damping_time=damping).resolved(body, "constant")
     omega = highest_frequency(Scene(body=body), numerics)
     predicted = predicted_limit(integrator, omega, damping, body)
@@ -74,6 +81,7 @@ FAILED = {"diverged", "toppled"}
      ("rod", "Euler", 12, 0.002, FAILED), ("rod", "implicit", 12, 0.002, FAILED)],
 )  # fmt: skip
 def test_walks_fail_as_the_map_says(body, integrator, links, timestep, expected):
+    skip_what_mujoco_refuses(body, integrator)
     assert tried(body, integrator, links, timestep) in expected
 
 
@@ -95,6 +103,7 @@ def test_a_walk_diverges_where_the_strip_on_its_ends_is_predicted_to(body):
 
 def test_a_rod_that_diverges_within_a_step_is_an_outcome_and_no_error():
     """Its vertices are kilometres apart before its ends are seen to leave the ground."""
+    skip_what_mujoco_refuses("rod", "implicit")
     assert tried("rod", "implicit", 12, 0.1, 43.29) in ("diverged", "toppled")
 
 
