@@ -7,7 +7,6 @@ besides by pickle: by reference to the module of its class, the main one include
 import hashlib
 import importlib
 import importlib.util
-import multiprocessing
 import os
 import pickle
 import sys
@@ -18,6 +17,7 @@ from typing import Any, NamedTuple
 
 from analytic.friction import LAWS
 from analytic.registry import Registry
+from mjsim.io.processes import clean_start
 from mjsim.registry import BODIES
 
 _KINDS: dict[str, Registry[Any]] = {"friction": LAWS, "body": BODIES}  # as a scene calls them
@@ -136,11 +136,10 @@ def processes(
         count: how many; one a core if None.
         begin: what each does first.
     """
-    context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload([preload])
     return ProcessPoolExecutor(
-        count or os.cpu_count(), mp_context=context, initializer=_begin, initargs=(begin, carried())
-    )
+        count or os.cpu_count(), mp_context=clean_start(preload),
+        initializer=_begin, initargs=(begin, carried()),
+    )  # fmt: skip
 
 
 def _begin(begin: Callable[[], None] | None, given: Carried) -> None:

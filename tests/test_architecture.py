@@ -52,6 +52,24 @@ def test_importing_the_package_leaves_the_environment_alone():
     assert run.stdout.strip() == "True"
 
 
+def test_every_module_is_imported_where_the_system_is_not_posix():
+    code = (
+        "import importlib, pkgutil, sys\n"
+        "for name in ('fcntl', 'grp', 'pwd', 'resource', 'termios'):\n"
+        "    sys.modules[name] = None\n"
+        "import analytic, mjsim\n"
+        "for package in (analytic, mjsim):\n"
+        "    for module in pkgutil.walk_packages(package.__path__, f'{package.__name__}.'):\n"
+        "        try:\n"
+        "            importlib.import_module(module.name)\n"
+        "        except ImportError as error:\n"
+        "            if error.name != 'dm_control':\n"
+        "                raise\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
 def test_links_of_the_pages_lead_somewhere():
     for page in (*TOP.glob("*.md"), *(TOP / "docs").glob("*.md")):
         for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):

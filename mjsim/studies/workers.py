@@ -1,15 +1,15 @@
 """Processes that studies share their walks among."""
 
 import logging
-import multiprocessing
 import os
 from concurrent.futures import ProcessPoolExecutor
+
+from mjsim.io.processes import clean_start
 
 
 def pool() -> ProcessPoolExecutor:
     """One process a core, in which divergence is an outcome and not a warning."""
-    context = multiprocessing.get_context("forkserver")
-    return ProcessPoolExecutor(os.cpu_count(), mp_context=context, initializer=_quiet)
+    return ProcessPoolExecutor(os.cpu_count(), mp_context=clean_start(), initializer=_quiet)
 
 
 def _quiet() -> None:

@@ -7,14 +7,14 @@ Tables: `scenes`, a row a scene, numbers in the units of `columns`; `plan`, what
 writes, whole chunks in one transaction each: whatever dies leaves whole rows behind.
 """
 
-import fcntl
 import json
 import sqlite3
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import IO, Any
 
 from mjsim.scene.provenance import machine, origin
 from mjsim.scene.quantities import field_text, field_unit
@@ -22,7 +22,8 @@ from mjsim.sweeps.plan import Plan
 from mjsim.sweeps.rows import OUTPUTS, Row
 
 KIND = "undulator sweep 1"  # of file; the number is that of its layout
-_TIES = ("python", "commit")  # what may differ between sessions of one sweep
+_UNUSED = 2**30 + 512  # a byte that SQLite never reads: in its page of locks, behind its own
+_TIES = ("python", "commit", "dm_control")  # what may differ between sessions of one sweep
 
 
 class Store:
@@ -45,7 +46,7 @@ class Store:
         except OSError as error:
             raise ValueError(f"out {str(path)!r} cannot be written: {error.strerror}") from error
         try:
-            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            _hold(self._lock)
         except OSError as error:
             self._lock.close()
             raise ValueError(f"out {str(path)!r} is being written by another sweep") from error
@@ -150,6 +151,23 @@ class Store:
         trace: TracebackType | None,
     ) -> None:  # fmt: skip
         self.close()
+
+
+def _hold(file: IO[bytes]) -> None:
+    """Lock a file against other sweeps, until it is closed or this process ends, by kill too.
+
+    Raises:
+        OSError: another sweep has it.
+    """
+    if sys.platform == "win32":  # where what is locked cannot be read by anybody else
+        import msvcrt
+
+        file.seek(_UNUSED)
+        msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+    else:
+        import fcntl
+
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def _kind(plan: Plan, name: str) -> str:

@@ -1,10 +1,14 @@
 """A sweep: every scene has its row, whatever dies, and none is done twice."""
 
 import json
+import multiprocessing
+import os
 import sqlite3
+import sys
 import threading
 from collections import Counter
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,10 +16,12 @@ import xarray as xr
 from poison import work
 
 from analytic.prediction import predict
+from mjsim.io.processes import clean_start
 from mjsim.scene import Numerics
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 from mjsim.sweep import main, sweep
+from mjsim.sweeps import store
 from mjsim.sweeps.drive import drive, jobs
 from mjsim.sweeps.executors import Cluster, Processes
 from mjsim.sweeps.plan import make_plan
@@ -225,6 +231,34 @@ def test_the_command_sweeps_and_exports_in_three_forms(tmp_path, capsys):
     np.testing.assert_array_equal(far, data["displacement_m"].values)
     assert float(by_csv[0]["displacement_m [m]"]) == far[0]
     data.close()
+
+
+def test_on_windows_a_byte_is_locked_that_sqlite_neither_reads_nor_locks(tmp_path, monkeypatch):
+    """It never reads the page at 2^30, and locks 512 bytes there."""
+    held = set()
+
+    def locking(handle, mode, count):
+        place = os.lseek(handle, 0, os.SEEK_CUR)
+        if place in held:
+            raise OSError
+        held.update(range(place, place + count))
+
+    monkeypatch.setitem(sys.modules, "msvcrt", SimpleNamespace(LK_NBLCK=2, locking=locking))
+    monkeypatch.setattr(store, "sys", SimpleNamespace(platform="win32"))
+    path, plan = tmp_path / "r.sqlite", make_plan(SMALL)
+    with Store(path, plan), pytest.raises(ValueError, match="being written by another sweep"):
+        Store(path, plan)
+    ((page,),) = select(path, "pragma page_size")
+    assert 2**30 + 512 <= min(held) <= max(held) < 2**30 + page
+
+
+def test_without_a_forkserver_processes_are_begun_anew(monkeypatch):
+    monkeypatch.setattr(multiprocessing, "get_all_start_methods", lambda: ["spawn"])
+    pool = Processes(1)
+    assert pool.submit(os.path.basename, "a/b").result() == "b"
+    pool.close()
+    monkeypatch.undo()
+    assert clean_start("mjsim").get_start_method() == "forkserver"
 
 
 def test_a_file_of_another_plan_or_kind_or_in_use_is_refused(tmp_path):
