@@ -22,3 +22,11 @@ def forgets(monkeypatch):
     """What a test registers is forgotten after it."""
     for known in (LAWS, registry.BODIES):
         monkeypatch.setattr(known, "_registered", known.registered)
+
+
+@pytest.fixture
+def coarse(monkeypatch):
+    """Coarse references, for tests whose claim is no digit of them."""
+    from walks import coarsen
+
+    coarsen(monkeypatch)

@@ -5,17 +5,19 @@ from functools import cache
 
 import pytest
 
-from analytic import GAITS, SURFACES, Robot, Surface
-from mjsim import run
+from analytic import GAITS, SURFACES, Elastica, Friction, Gait, Robot, Surface, predict
+from mjsim import record, run
 from mjsim.io import cli
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import Measures, measure
 from mjsim.simulation.simulation import simulate
 from mjsim.simulation.status import Status
 from mjsim.simulation.trajectory import Trajectory
+from mjsim.tree import record as record_of_limbs
 
 # heavier and more curved than the default robot: its stable branch ends at 65 kPa
 HEAVIER = Robot(weight_per_length=2.0, chamber_height=4.1e-3)
+BENT = Friction(tension=1.0)
 
 
 @cache
@@ -49,6 +51,25 @@ def measured(*args, **kwargs) -> Measures:
     numbers = measure(result)
     assert numbers is not None
     return numbers
+
+
+@cache
+def predicted(
+    robot: Robot, gait: Gait, ground: Surface, friction: Friction = BENT, links: int = 36
+) -> float:
+    """Displacement per cycle over L by an elastica that is resolved to a part of a thousandth."""
+    walk = predict(robot, gait, ground, Elastica(links), 25, refinement=16, friction=friction)
+    return walk.locomotion.per_cycle / robot.length
+
+
+def coarsen(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Make the references of records coarse: few links and states."""
+    for module, values in (
+        (record, {"_LINKS": 18, "_STATES": 10, "_PARTS": 4}),
+        (record_of_limbs, {"_STATES": 8}),
+    ):
+        for name, value in values.items():
+            monkeypatch.setattr(module, name, value)
 
 
 def refusal(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:

@@ -87,7 +87,7 @@ def test_mujoco_s_filters_hold_the_pressure_and_its_square():
 @pytest.mark.parametrize("chamber", ["linearized", "sealed", "constant-pressure"])
 def test_each_gas_meets_the_reference_that_bends_by_the_same_law(chamber):
     scene = replace(BASE, chamber=chamber)
-    exact = predict(HEAVIER, scene.gait, scene.ground, Elastica(chamber=chamber),
+    exact = predict(HEAVIER, scene.gait, scene.ground, Elastica(36, chamber), 25,
                     friction=Friction(tension=1.0))  # fmt: skip
     exact = exact.locomotion.per_cycle
     assert displacement(scene) == pytest.approx(exact / HEAVIER.length, rel=0.02)

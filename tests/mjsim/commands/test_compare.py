@@ -9,10 +9,10 @@ from analytic import GAITS, SURFACES, Robot
 from mjsim.compare import Row, compare, main, models
 from mjsim.io import cli
 
-STANDSTILL = 0.005  # of L; less is no travel, see analytic.locomotion
+STANDSTILL = 0.002  # of L; less is no travel, see analytic.locomotion
 
 
-@pytest.mark.parametrize("part", [0.6, 0.8, 1.0])
+@pytest.mark.parametrize("part", [0.6, 1.0])
 @pytest.mark.parametrize("reverse", [False, True])
 @pytest.mark.parametrize("gait", list(GAITS))
 @pytest.mark.parametrize("surface", list(SURFACES))

@@ -220,6 +220,7 @@ def test_where_friction_lets_go_at_once_the_prediction_says_so(tmp_path, capsys)
     assert row["error_over_L"] == pytest.approx(0, abs=0.003)
 
 
+@pytest.mark.usefixtures("coarse")
 def test_a_strip_that_slides_down_says_how_far_and_why(tmp_path, capsys):
     row = row_of(["--slope", "1"], tmp_path, capsys)
     assert row["status"] == "slid"
@@ -286,6 +287,7 @@ def test_without_a_main_guard_it_says_so_in_one_line(tmp_path):
     assert "Traceback" not in done.stdout
 
 
+@pytest.mark.usefixtures("coarse")
 def test_a_byte_order_mark_is_no_trouble(tmp_path, capsys):
     scene = tmp_path / "scene.toml"
     scene.write_bytes(b'\xef\xbb\xbf[ground]\nsurface = "gelatin"\n')

@@ -13,6 +13,8 @@ from mjsim import replay, run
 from mjsim.io import cli
 from mjsim.video import gl
 
+pytestmark = pytest.mark.usefixtures("coarse")
+
 CONTRACT = {
     "surface": str, "gait": str, "body": str, "friction": str, "cycles": int, "links": int,
     "timestep_s": float, "displacement_over_L": float, "direction": str,

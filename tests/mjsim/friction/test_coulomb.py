@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import walks
 from walks import measured, walk
 
 from analytic import SURFACES, Friction, Gait, Robot, predict
@@ -21,8 +22,7 @@ SCENE = Scene()
 def predicted(surface, strength=1.0, gait=SCENE.gait):
     """By the elastica, bent by friction so many times as strong as the surface's."""
     friction = Friction("coulomb", 1.0 if strength else 0.0)
-    walked = predict(Robot(), gait, surface.scaled(strength or 1.0), friction=friction)
-    return walked.locomotion.per_cycle / Robot().length
+    return walks.predicted(Robot(), gait, surface.scaled(strength or 1.0), friction)
 
 
 @pytest.mark.parametrize("surface", ["polyethylene", "gelatin"])

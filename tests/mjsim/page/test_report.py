@@ -4,7 +4,7 @@ import re
 import shutil
 
 import pytest
-from walks import walk
+from walks import coarsen, walk
 
 from mjsim import report, run
 
@@ -16,7 +16,14 @@ def commanded(words):
 
 
 @pytest.fixture(scope="module")
-def saved(tmp_path_factory):
+def coarse_references():
+    with pytest.MonkeyPatch.context() as patch:
+        coarsen(patch)
+        yield
+
+
+@pytest.fixture(scope="module")
+def saved(tmp_path_factory, coarse_references):
     folder = tmp_path_factory.mktemp("runs")
     words = ["--surface", "gelatin", "--no-video", "--links", "12", "--timestep", "0.01",
              "--gait.ramp-time", "0.5"]  # fmt: skip

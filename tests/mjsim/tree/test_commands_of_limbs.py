@@ -16,6 +16,7 @@ from analytic.tree.gaits import undulation
 from analytic.tree.limbs import quadruped
 from mjsim import run
 from mjsim.scene.tables import merged, read_tables
+from mjsim.tree import command
 from mjsim.tree.command import file_name
 from mjsim.tree.scene import TreeNumerics, TreeScene
 from mjsim.tree.standalone import standalone_spec
@@ -45,6 +46,7 @@ def test_a_scene_file_gives_gait_ground_and_numerics():
     assert scene.gait.segments == 5
 
 
+@pytest.mark.usefixtures("coarse")
 def test_json_has_both_numbers_and_the_file_opens(tmp_path, capsys):
     words = ["--robot", "quadruped", "--surface", "felt", "--limbs.left", "0.8", *FAST]
     assert run.main([*words, "--out", str(tmp_path), "--json"]) == 0
@@ -106,12 +108,22 @@ def test_limbs_may_each_have_a_rigidity_of_their_own():
     assert rigidities == pytest.approx([1e-4, 2e-4, 3e-4, 4e-4, 5e-4])
 
 
-def test_under_a_coefficient_of_ones_own_limbs_walk_and_the_walk_is_kept(tmp_path, capsys):
+def test_a_walk_under_a_coefficient_of_ones_own_is_kept_whatever_fails_after_it(
+    tmp_path, capsys, monkeypatch
+):
+    def broken(walk):
+        raise ValueError(f"no reference of a walk that is {walk.status}")
+
+    monkeypatch.setattr(command, "record", broken)
     words = ["--robot", "quadruped", "--surface.friction", "0.6", "--friction", "coulomb", *FAST]
-    assert run.main([*words, "--json", "--out", str(tmp_path)]) == 0
-    row = json.loads(capsys.readouterr().out)
-    assert row["status"] == "ok"
-    assert Path(row["trajectory"]).is_file()
+    with pytest.raises(SystemExit) as stop:
+        run.main([*words, "--out", str(tmp_path)])
+    assert stop.value.code == 2
+    assert "no reference of a walk that is ok" in capsys.readouterr().err
+    (path,) = tmp_path.iterdir()
+    data = xr.open_dataset(path)
+    assert float(data.time[-1]) == pytest.approx(5.0)
+    assert abs(float(data.x[-1])) > 1e-3
 
 
 def test_grounds_of_one_name_and_other_numbers_have_files_of_their_own():
