@@ -60,28 +60,28 @@ regression: .venv/ready
 
 # the paper's robot, from two of its statements
 identify: .venv/ready
-	$(PY) -m analytic.identification
+	$(PY) -m studies.identification
 
 # write models/ anew after a change of the generator or of the default robot
 models: .venv/ready
-	$(PY) -m mjsim.ground.textures models/textures
+	$(PY) -m studies.textures models/textures
 	$(PY) -m mjsim.export --models --out models
 
 # the paper's figures, as docs/figures.md shows them
 figures: .venv/ready
-	$(PY) -m mjsim.studies.paper --out docs
+	$(PY) -m studies.paper --out docs
 
 # speed against accuracy: what is not yet in docs/accuracy.csv, and the figures
 chart: .venv/ready
-	$(PY) -m mjsim.studies.accuracy
+	$(PY) -m studies.accuracy
 
 # where methods fail
 maps: .venv/ready
-	$(PY) -m mjsim.studies.stability
+	$(PY) -m studies.stability
 
 # the videos and the picture of the README
 gallery: .venv/ready
-	$(PY) -m mjsim.gallery
+	$(PY) -m studies.gallery
 
 # the API reference, from the docstrings
 reference: .venv/ready

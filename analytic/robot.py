@@ -17,7 +17,7 @@ class Robot:
     """A planar strip of segments, each one a pneu-net of the same design.
 
     The weight and the chamber height of the default robot are identified from two statements of
-    [Majidi13] by `python -m analytic.identification`; the other values are chosen.
+    [Majidi13] by `python -m studies.identification`; the other values are chosen.
 
     What was measured may be given in place of what it follows from: mass for weight_per_length,
     rigidity for modulus (both are turned into the other at once), curvature_per_pressure and

@@ -18,8 +18,8 @@ from imageio_ffmpeg import get_ffmpeg_exe
 from matplotlib.figure import Figure
 
 from mjsim import SURFACES, Numerics, Patches, Robot, Scene, Simulation
-from mjsim.control.cycles import Cycles, stripes
-from mjsim.control.reversing import REPERTOIRE, Reversing
+from studies.control.cycles import Cycles, stripes
+from studies.control.reversing import REPERTOIRE, Reversing
 
 FELT, GELATIN = SURFACES["felt"], SURFACES["gelatin"]
 SEAM, CYCLES, NOISE = 1.05, 120, 0.01  # L, and of the sensor a cycle over L

@@ -6,6 +6,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 TOP = Path(__file__).resolve().parent.parent
+PACKAGES = ("analytic", "mjsim", "studies")
 _COLUMNS = {  # where a package is drawn: column, row
     "analytic": (0, 2), "analytic.modes": (0, 3.3), "analytic.elastica": (0, 0.7),
     "analytic.tree": (0.7, 0.3),
@@ -14,15 +15,14 @@ _COLUMNS = {  # where a package is drawn: column, row
     "mjsim.ground": (2, 3.7), "mjsim.bodies": (2, 2.2), "mjsim.mjcf": (3, 3.4),
     "mjsim.friction": (3, 1.2), "mjsim.results": (4, 0.7),
     "mjsim.simulation": (4, 2.4), "mjsim.batch": (4.4, 3.95),
-    "mjsim.sweeps": (5.7, 3.95), "mjsim.env": (6, 3.2), "mjsim.control": (5.6, 2.9),
+    "mjsim.sweeps": (5.7, 3.95), "mjsim.env": (6, 3.2),
     "mjsim.optimising": (6, 1.4),
     "mjsim.video": (5, 3.4),
     "mjsim.tree": (6, 0.55), "mjsim.live": (5, 2.3), "mjsim.page": (4.4, 1.5),
-    "mjsim": (5, 1.0), "mjsim.studies": (6, 2.2),
+    "mjsim": (5, 1.0), "studies": (6, 2.6),
 }  # fmt: skip
 _LABEL = {
-    "mjsim": "commands\nrun fit view compare\nsweep analysis optimise\n"
-    "replay export\ngallery report",
+    "mjsim": "commands\nrun fit view compare\nsweep analysis optimise\nreplay export report",
     "analytic": "analytic\n(theory)",
 }
 
@@ -40,9 +40,9 @@ def package_of(module: str) -> str:
 def imports() -> set[tuple[str, str]]:
     """Pairs of modules, importer first, those inside functions included."""
     pairs = set()
-    for path in (*(TOP / "analytic").rglob("*.py"), *(TOP / "mjsim").rglob("*.py")):
+    for path in (path for package in PACKAGES for path in (TOP / package).rglob("*.py")):
         module = ".".join(path.relative_to(TOP).with_suffix("").parts).removesuffix(".__init__")
-        if module in ("analytic", "mjsim"):
+        if module in PACKAGES:
             continue  # names that are imported when they are first used
         tree = ast.parse(path.read_text(encoding="utf-8"))
         tree.body = [node for node in tree.body if not _for_types_only(node)]
@@ -52,7 +52,7 @@ def imports() -> set[tuple[str, str]]:
                 known = [name for name in names if (TOP / name.replace(".", "/")).is_dir()
                          or (TOP / (name.replace(".", "/") + ".py")).is_file()]  # fmt: skip
                 targets = known[-1:] or names[:1]
-                pairs |= {(module, t) for t in targets if t.split(".")[0] in ("analytic", "mjsim")}
+                pairs |= {(module, t) for t in targets if t.split(".")[0] in PACKAGES}
     return pairs
 
 

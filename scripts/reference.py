@@ -23,7 +23,7 @@ def modules() -> list[str]:
         names += [
             module.name
             for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
-            if "studies" not in module.name and "__main__" not in module.name
+            if "__main__" not in module.name
         ]
     return names
 

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from mjsim.scene import Scene
-from mjsim.studies.accuracy.heavy_cantilever import DAMPING, DURATION, strip
-from mjsim.studies.accuracy.timing import Spent, repeated, stopwatch
+from studies.accuracy.heavy_cantilever import DAMPING, DURATION, strip
+from studies.accuracy.timing import Spent, repeated, stopwatch
 
 __all__ = ["DAMPING", "DURATION", "GRAVITY", "Walked", "heavy_links", "knots", "repeated",
            "stopwatch", "strip"]  # fmt: skip

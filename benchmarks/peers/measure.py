@@ -17,9 +17,9 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1])]
 
 from mjsim.scene.provenance import machine, origin  # noqa: E402
-from mjsim.studies.accuracy import benchmark_cases, heavy_cantilever  # noqa: E402
-from mjsim.studies.accuracy.rows import MEASURED, append, read  # noqa: E402
-from mjsim.studies.accuracy.setting import Setting  # noqa: E402
+from studies.accuracy import benchmark_cases, heavy_cantilever  # noqa: E402
+from studies.accuracy.rows import MEASURED, append, read  # noqa: E402
+from studies.accuracy.setting import Setting  # noqa: E402
 
 FAR = 0.1  # over L: of a tip from its place, or of an end from the ground
 GROUND = "gelatin"

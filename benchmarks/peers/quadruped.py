@@ -4,7 +4,7 @@
 
 Links, hinges, springs, gait and pads are those of mjsim.tree; friction is Drake's own at each pad,
 of one coefficient everywhere, so that no rule of what is a tip enters. Writes a row a setting to
-docs/quadruped_drake.csv, which mjsim.studies.limbs draws: about ten minutes on one core.
+docs/quadruped_drake.csv, which studies.limbs draws: about ten minutes on one core.
 """
 
 import csv

@@ -9,13 +9,13 @@ from mujoco import rollout
 
 from analytic import GAITS, SURFACES, Robot
 from mjsim import export, registry
-from mjsim.ground.textures import write_textures
 from mjsim.io import cli
 from mjsim.io.assets import MODELS
 from mjsim.mjcf.standalone import standalone_spec, walking_scene
 from mjsim.scene import Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
+from studies.textures import write_textures
 
 STANDING = 100  # steps before the gait begins
 GAIT = GAITS["wave"]

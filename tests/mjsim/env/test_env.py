@@ -225,7 +225,7 @@ def test_a_picture_shows_the_robot():
 
 @pytest.mark.slow
 def test_a_trained_rhythm_beats_the_gait_of_the_paper_on_gelatin():
-    from mjsim.env.rhythm import press, train
+    from studies.control.rhythm import press, train
 
     envs = WalkVectorEnv(num_envs=40, surfaces=("gelatin",))
     trained = train(envs, generations=8, seed=0)

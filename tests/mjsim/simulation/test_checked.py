@@ -10,7 +10,7 @@ from mjsim.scene import Numerics, Scene
 from mjsim.simulation.checked import ladder, walk_checked
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
-from mjsim.studies.accuracy.benchmark_cases import GROUNDS, WALK, exact, scene_of
+from studies.accuracy.benchmark_cases import GROUNDS, WALK, exact, scene_of
 
 HIGH = Scene(Robot(peak_pressure=60e3), ground=SURFACES["felt"])
 UNEVEN = Scene(Robot(segments=(1.0, 2.0, 3.0)), ground=SURFACES["gelatin"])

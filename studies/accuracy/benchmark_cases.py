@@ -1,0 +1,69 @@
+"""What walking is measured on, and what it should come to; needs no MuJoCo.
+
+The default gait of the default robot, under Coulomb friction of a heavier one, on level ground,
+its ramps so slow that the quasi-static
+reference is what a method should find: what is measured is its numerical error, and not what
+inertia does at 2 s a ramp.
+"""
+
+from dataclasses import replace
+from functools import cache
+
+from analytic import SURFACES, Elastica, Friction, Robot, predict
+from analytic.surface import SHEAR_STRENGTH, TIP_FORCE
+from mjsim.scene import Scene
+from studies.accuracy.rows import Row, row
+from studies.accuracy.setting import Setting
+from studies.accuracy.timing import Timing
+
+# of the case that other engines were measured on: kept, so that their rows compare
+HEAVIER = replace(Robot(), weight_per_length=2.0, chamber_height=4.1e-3)
+# an end that carries half its weight resists by V0
+FRICTION = TIP_FORCE / (0.5 * HEAVIER.weight)
+WALK, COULOMB = "walk", "coulomb"
+GROUNDS = {WALK: ("felt", "gelatin"), COULOMB: ("gelatin",)}  # Coulomb's law leaves felt undecided
+FAR = 0.5  # relative error of a displacement that is none; chosen
+_RAMP = 16.0  # s; chosen, inertia is below 0.1 % by then, and below 0.4 % under Coulomb's law
+
+
+def scene_of(case: str, ground: str, body: str = "planar") -> Scene:
+    """A case's scene on a ground: constant bounds, or a law that other engines know as well.
+
+    That is Coulomb's, with chambers at constant pressure: the rest curvature alone follows them.
+    """
+    named = SURFACES[ground]
+    tip, side = named.tip_force / TIP_FORCE, named.shear_strength / SHEAR_STRENGTH
+    surface = replace(named, tip_friction=tip * FRICTION, friction=side * FRICTION)
+    robot = HEAVIER if case == COULOMB else Robot()
+    scene = Scene(robot, ground=surface, body=body)
+    scene = replace(scene, gait=replace(scene.gait, ramp_time=_RAMP))
+    return (
+        replace(scene, friction="coulomb", chamber="constant-pressure")
+        if case == COULOMB
+        else scene
+    )
+
+
+def friction_of(case: str) -> Friction:
+    """What the reference takes: friction that bends the strip as strongly as in the simulation."""
+    return Friction("coulomb" if case == COULOMB else "constant", 1.0)
+
+
+@cache
+def exact(case: str, ground: str) -> float:
+    """Displacement per cycle over L of the elastica, twice as fine as usual."""
+    scene = scene_of(case, ground)
+    walk = predict(scene.robot, scene.gait, scene.ground, Elastica(120, scene.chamber),
+                   states_per_ramp=100, friction=friction_of(case))  # fmt: skip
+    return walk.locomotion.per_cycle / scene.robot.length
+
+
+def walked(
+    case: str, ground: str, setting: Setting, value: float, timing: Timing, status: str
+) -> Row:
+    """The row of a displacement per cycle over L; one that is FAR off is no walk of this gait."""
+    reference = exact(case, ground)
+    error = abs(value / reference - 1)
+    if status == "ok" and error > FAR:
+        status = "drifting"
+    return row(case, ground, setting, value, reference, error, timing, status)

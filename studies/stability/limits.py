@@ -1,0 +1,123 @@
+"""The time step beyond which a body's highest mode grows: as predicted, and as it does."""
+
+import math
+from dataclasses import replace
+from functools import cache
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import eigh, null_space
+
+from analytic import SURFACES
+from mjsim.bodies.rod import rest_stiffness
+from mjsim.mjcf.builder import compile_model
+from mjsim.scene import Numerics, Scene
+from studies.accuracy.setting import Setting
+
+Array = NDArray[np.float64]
+
+_TURN = 1e-6  # of a coordinate, to see what force it makes [m or rad]
+_GROWN, _STEPS = 30.0, 400  # a body is stable that never moves so many times faster, in so long
+
+
+@cache
+def highest_frequency(scene: Scene, numerics: Numerics, standing: bool = False) -> float:
+    """omega_max of the flat strip, from the model's own mass and stiffness matrices [rad/s].
+
+    Args:
+        scene, numerics: of the body.
+        standing: on its two ends, which stay at their height; else free.
+    """
+    model = _at_rest(scene, numerics)
+    data = mujoco.MjData(model)
+    stiffness = np.column_stack([_force(model, data, i) for i in range(model.nv)])
+    mujoco.mj_resetData(model, data)
+    mujoco.mj_forward(model, data)
+    mass = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, mass)
+    if standing:
+        may = null_space([_rise(model, data, end) for end in ("left", "right")])
+        stiffness, mass = may.T @ stiffness @ may, may.T @ mass @ may
+    squares = eigh(0.5 * (stiffness + stiffness.T), mass, eigvals_only=True)
+    return math.sqrt(float(squares[-1]))
+
+
+def predicted_limit(
+    integrator: str, omega: float, damping_time: float, body: str = "planar"
+) -> float:
+    """Largest stable time step of a mode, inf where there is none [s].
+
+    x'' + damping_time omega^2 x' + omega^2 x = 0. Euler's step is semi-implicit and takes the
+    damping of joints at the step's end: it is stable while dt^2 omega^2 < 2 a + 2 with
+    a = 1 + dt damping_time omega^2. That of a flex it takes at the start, and is stable while
+    dt^2 omega^2 < 4 - 2 dt damping_time omega^2. Both are 2/omega without damping. implicitfast and
+    implicit do the same here. RK4 is stable to 2.785 on the negative real axis, where
+    damping_time omega > 2 puts it, and to 2 sqrt(2) / omega without damping.
+    """
+    if integrator == "discrete":
+        return math.inf
+    if integrator == "RK4":
+        fast = damping_time * omega**2
+        root = max(fast**2 - 4 * omega**2, 0.0)
+        return 2.785 / max(0.5 * (fast + math.sqrt(root)), omega)
+    sign = -1 if body == "rod" else 1
+    return sign * damping_time + math.sqrt(damping_time**2 + 4 / omega**2)
+
+
+def measured_limit(integrator: str, links: int, damping_time: float, body: str = "planar") -> float:
+    """Largest time step at which a strip free of ground and weight stays finite [s], to 5 %."""
+    # Coulomb's: no dry friction on the ends
+    scene = Scene(friction="coulomb", ground=SURFACES["gelatin"], body=body)
+
+    def stable(timestep: float) -> bool:
+        numerics = Setting(body, links, timestep, integrator).numerics()
+        model = _at_rest(scene, replace(numerics, damping_time=damping_time))
+        model.opt.gravity[:] = 0
+        off = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_AUTORESET
+        model.opt.disableflags |= int(off)
+        data = mujoco.MjData(model)
+        data.qvel[:] = _TURN * np.random.default_rng(1).standard_normal(model.nv)
+        start = float(np.linalg.norm(data.qvel))
+        for _ in range(_STEPS):
+            mujoco.mj_step(model, data)
+            if not np.linalg.norm(data.qvel) < _GROWN * start:
+                return False
+        return True
+
+    low, high = 1e-7, 0.1
+    if stable(high):
+        return math.inf
+    while high / low > 1.05:
+        middle = math.sqrt(low * high)
+        low, high = (middle, high) if stable(middle) else (low, middle)
+    return low
+
+
+def _at_rest(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
+    """The model with the stiffness of a strip without pressure."""
+    model = compile_model(scene, numerics)
+    if scene.body == "rod":
+        rest_stiffness(model, scene, numerics.links)
+    return model
+
+
+def _rise(model: mujoco.MjModel, data: mujoco.MjData, end: str) -> Array:
+    """How fast an end rises with each velocity of the flat strip, (nv,)."""
+    moves = np.zeros((3, model.nv))
+    mujoco.mj_jacSite(model, data, moves, None, model.site(f"robot_end_{end}").id)
+    return np.asarray(moves[2])
+
+
+def _force(model: mujoco.MjModel, data: mujoco.MjData, coordinate: int) -> Array:
+    """Minus the change of the springs' forces with one coordinate of the flat strip, (nv,)."""
+    forces = []
+    for turn in (_TURN, -_TURN):
+        mujoco.mj_resetData(model, data)
+        along = np.zeros(model.nv)
+        along[coordinate] = turn
+        mujoco.mj_integratePos(model, data.qpos, along, 1.0)
+        mujoco.mj_fwdPosition(model, data)
+        mujoco.mj_fwdVelocity(model, data)
+        forces.append(data.qfrc_spring.copy())
+    return np.asarray((forces[1] - forces[0]) / (2 * _TURN))

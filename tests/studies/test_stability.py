@@ -1,0 +1,166 @@
+"""Where methods fail: predicted limits of the time step, and outcomes either side of boundaries."""
+
+import math
+from dataclasses import replace
+
+import mujoco
+import pytest
+
+from mjsim import registry
+from mjsim.io import cli
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.simulation import simulate
+from mjsim.simulation.status import Status
+from studies.accuracy.benchmark_cases import WALK, exact, scene_of
+from studies.accuracy.setting import Setting
+from studies.stability import __main__ as stability
+from studies.stability.limits import highest_frequency, measured_limit, predicted_limit
+from studies.stability.maps import Standing
+from studies.stability.outcome import outcome, stiffened, tried
+from studies.stability.parameters import Varied
+
+UNDAMPED = 1e-6  # s; as good as none
+
+
+def skip_what_mujoco_refuses(body, integrator):
+    if (body, integrator[:8]) == ("rod", "implicit") and mujoco.mj_version() >= 4_000_000:
+        pytest.skip("MuJoCo 4 takes no rod under implicit and implicitfast")
+
+
+@pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "implicit", "RK4"])
+@pytest.mark.parametrize("damping", [UNDAMPED, Numerics().damping_time])
+@pytest.mark.parametrize(("body", "links"), [("planar", 12), ("cable", 12), ("rod", 6)])
+def test_a_body_diverges_where_its_highest_mode_is_predicted_to(body, links, integrator, damping):
+    skip_what_mujoco_refuses(body, integrator)
+    numerics = Numerics(links=links, damping_time=damping).resolved(body, "constant")
+    omega = highest_frequency(Scene(body=body), numerics)
+    predicted = predicted_limit(integrator, omega, damping, body)
+    assert measured_limit(integrator, links, damping, body) == pytest.approx(predicted, rel=0.1)
+
+
+def test_without_damping_that_is_2_over_omega_max():
+    omega = highest_frequency(Scene(), Numerics(links=12).resolved("planar", "constant"))
+    assert predicted_limit("Euler", omega, 0.0) == pytest.approx(2 / omega)
+    assert measured_limit("Euler", 12, UNDAMPED) == pytest.approx(2 / omega, rel=0.1)
+
+
+@pytest.mark.parametrize("body", registry.names())
+def test_the_discrete_integrator_has_no_limit(body):
+    assert measured_limit("discrete", 12, UNDAMPED, body) == math.inf
+
+
+def test_twice_the_links_have_four_times_the_highest_frequency():
+    low, high = (
+        highest_frequency(Scene(), Numerics(links=n).resolved("planar", "constant"))
+        for n in (12, 24)
+    )
+    assert high == pytest.approx(4 * low, rel=0.01)
+
+
+def test_stiffness_raises_frequencies_by_its_root():
+    numerics = Numerics(links=12).resolved("planar", "constant")
+    soft, stiff = (highest_frequency(stiffened(f), numerics) for f in (1.0, 100.0))
+    assert stiff == pytest.approx(10 * soft, rel=1e-6)
+
+
+FAILED = {"diverged", "toppled"}
+
+
+@pytest.mark.parametrize(
+    ("body", "integrator", "links", "timestep", "expected"),
+    [("planar", "discrete", 12, 0.02, {"accurate"}),
+     ("planar", "discrete", 6, 0.1, {"accurate", "drifting"}),
+     ("planar", "RK4", 12, 0.002, FAILED), ("planar", "Euler", 24, 0.02, FAILED),
+     ("planar", "Euler", 12, 0.005, {"drifting", "wrong direction", *FAILED}),
+     ("planar", "implicitfast", 12, 0.02, FAILED), ("planar", "implicit", 12, 0.02, FAILED),
+     ("cable", "discrete", 12, 0.005, {"accurate", "drifting"}),
+     ("cable", "Euler", 12, 0.02, FAILED),
+     ("cable", "RK4", 12, 0.002, FAILED),
+     ("rod", "discrete", 6, 0.01, {"accurate", "drifting"}),
+     ("rod", "discrete", 18, 0.01, {"accurate"}),
+     ("rod", "Euler", 12, 0.002, FAILED), ("rod", "implicit", 12, 0.002, FAILED)],
+)  # fmt: skip
+def test_walks_fail_as_the_map_says(body, integrator, links, timestep, expected):
+    skip_what_mujoco_refuses(body, integrator)
+    assert tried(body, integrator, links, timestep) in expected
+
+
+def test_a_walk_that_is_accurate_stays_so_for_20_cycles():
+    assert tried("planar", "discrete", 12, 0.02, cycles=20) == "accurate"
+
+
+@pytest.mark.parametrize("body", ["planar", "cable"])
+def test_a_walk_diverges_where_the_strip_on_its_ends_is_predicted_to(body):
+    """Within a factor of 1.5 either way; its light end links are what is fast, and they stand."""
+    numerics = Numerics(links=6).resolved(body, "constant")
+    omega = highest_frequency(Scene(body=body), numerics, standing=True)
+    limit = predicted_limit("RK4", omega, numerics.damping_time, body)
+    free = highest_frequency(Scene(body=body), numerics)
+    assert limit > 2 * predicted_limit("RK4", free, numerics.damping_time, body)
+    assert tried(body, "RK4", 6, round(limit / 1.5, 6)) in ("accurate", "drifting")
+    assert tried(body, "RK4", 6, round(limit * 1.5, 6)) in ("diverged", "toppled")
+
+
+def test_a_rod_that_diverges_within_a_step_is_an_outcome_and_no_error():
+    """Its vertices are kilometres apart before its ends are seen to leave the ground."""
+    skip_what_mujoco_refuses("rod", "implicit")
+    assert tried("rod", "implicit", 12, 0.1, 43.29) in ("diverged", "toppled")
+
+
+def test_what_is_accurate_is_so_by_the_written_bound():
+    scene, numerics = scene_of(WALK, "gelatin"), Numerics(links=12)
+    value = exact(WALK, "gelatin")
+    assert outcome(scene, numerics, value) == "accurate"
+    assert outcome(scene, numerics, 1.2 * value) == "drifting"
+    assert outcome(scene, numerics, -value) == "wrong direction"
+    high = replace(scene, robot=replace(scene.robot, peak_pressure=90e3))
+    assert outcome(high, numerics, value) == "toppled"
+
+
+@pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "RK4"])
+def test_a_walk_that_diverges_is_never_called_ok(integrator):
+    """Left alone, MuJoCo starts anew from its first state, which looks like a robot at rest."""
+    numerics = Setting("planar", 24, 0.05, integrator).numerics()
+    assert simulate(Scene(), numerics).status in (Status.DIVERGED, Status.TOPPLED)
+
+
+def test_a_heavier_robot_stands_at_55_kilopascals_and_not_at_85():
+    """Either side of the end of the stable branch, by theory and in MuJoCo."""
+    low, high = (Standing(11.44, pressure).done() for pressure in (55e3, 85e3))
+    assert (low.elastica, low.planar) == ("ok", "accurate")
+    assert high.elastica in ("branch_end", "rolled_up")
+    assert high.planar == "toppled"
+
+
+def test_the_paper_s_modes_sink_where_the_robot_is_heavy():
+    assert Standing(8.0, 40e3).done().sunk < 1e-3
+    assert Standing(30.0, 40e3).done().sunk > 0.01
+
+
+@pytest.mark.parametrize(
+    ("parameter", "good", "bad"),
+    [("ramp_time", 8.0, 0.5), ("side_angle", 1e-3, 0.1), ("friction_number", 1.5, 0.03)],
+)
+@pytest.mark.slow
+def test_a_parameter_changes_the_answer_beyond_its_range_and_not_within(parameter, good, bad):
+    near, far = (abs(Varied(parameter, value, "felt").done().error) for value in (good, bad))
+    assert near < 0.02
+    assert not far < 0.05
+
+
+def test_an_unknown_map_gets_one_line(tmp_path, capsys):
+    with pytest.raises(SystemExit) as stop:
+        stability.main(["--map", "atlas", "--out", str(tmp_path)])
+    assert stop.value.code == cli.BAD_INPUT
+    assert len(capsys.readouterr().err.strip().splitlines()) == 1
+
+
+@pytest.mark.slow
+def test_the_quick_maps_are_made_and_go_on_where_they_were(tmp_path):
+    words = ["--quick", "--out", str(tmp_path)]
+    assert stability.main(words) == 0
+    tables = {path: path.read_text() for path in tmp_path.glob("*.csv")}
+    assert len(tables) == 5
+    assert stability.main(words) == 0
+    assert all(path.read_text() == text for path, text in tables.items())
+    assert len(list(tmp_path.glob("*.png"))) == 5
