@@ -12,15 +12,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from analytic.elastica import solve_elastica
-    from analytic.equilibria import ContactShapes, Mode, Shapes, Status
-    from analytic.friction import LAWS, Friction, TractionLaw
-    from analytic.gait import GAITS, Gait
-    from analytic.ground import Patches
-    from analytic.lifted import solve_lifted
+    from analytic.friction.laws import LAWS, Friction, TractionLaw
     from analytic.locomotion import Direction, Locomotion, direction, displacements
-    from analytic.modes import solve_modes
-    from analytic.obstacle import solve_obstacle
     from analytic.prediction import (
         REFERENCE,
         SOLVERS,
@@ -32,23 +25,30 @@ if TYPE_CHECKING:
         Solver,
         predict,
     )
-    from analytic.robot import Robot
-    from analytic.surface import SURFACES, Ground, Surface
+    from analytic.scene.gait import GAITS, Gait
+    from analytic.scene.ground import Patches
+    from analytic.scene.robot import Robot
+    from analytic.scene.surface import SURFACES, Ground, Surface
+    from analytic.solvers.elastica import solve_elastica
+    from analytic.solvers.lifted import solve_lifted
+    from analytic.solvers.modes import solve_modes
+    from analytic.solvers.obstacle import solve_obstacle
+    from analytic.solvers.shapes import ContactShapes, Mode, Shapes, Status
 
 _HOMES = {
-    "elastica": ("solve_elastica",),
-    "equilibria": ("ContactShapes", "Mode", "Shapes", "Status"),
-    "friction": ("LAWS", "Friction", "TractionLaw"),
-    "gait": ("GAITS", "Gait"),
-    "ground": ("Patches",),
+    "solvers.elastica": ("solve_elastica",),
+    "solvers.shapes": ("ContactShapes", "Mode", "Shapes", "Status"),
+    "friction.laws": ("LAWS", "Friction", "TractionLaw"),
+    "scene.gait": ("GAITS", "Gait"),
+    "scene.ground": ("Patches",),
     "locomotion": ("Direction", "Locomotion", "direction", "displacements"),
-    "modes": ("solve_modes",),
-    "obstacle": ("solve_obstacle",),
-    "lifted": ("solve_lifted",),
+    "solvers.modes": ("solve_modes",),
+    "solvers.obstacle": ("solve_obstacle",),
+    "solvers.lifted": ("solve_lifted",),
     "prediction": ("REFERENCE", "SOLVERS", "Elastica", "Lifted", "Modes", "Obstacle", "Prediction",
                    "Solver", "predict"),
-    "robot": ("Robot",),
-    "surface": ("SURFACES", "Ground", "Surface"),
+    "scene.robot": ("Robot",),
+    "scene.surface": ("SURFACES", "Ground", "Surface"),
 }  # fmt: skip
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 

@@ -5,12 +5,12 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.contact import end_loads
-from analytic.equilibria import ContactShapes, Shapes
-from analytic.friction import LAWS, Friction, slip_fraction
-from analytic.ground import over
-from analytic.surface import Ground, Surface
-from analytic.traction import motion
+from analytic.friction.contact_length import end_loads
+from analytic.friction.laws import LAWS, Friction, slip_fraction
+from analytic.friction.motion import motion
+from analytic.scene.ground import over
+from analytic.scene.surface import Ground, Surface
+from analytic.solvers.shapes import ContactShapes, Shapes
 
 Array = NDArray[np.float64]
 Direction = Literal["forward", "backward", "none"]
@@ -39,7 +39,7 @@ def displacements(
     """Apply the anchor rule of section 2.2 to a sequence of states.
 
     Each change of separation is taken up by the end whose bound is less, by both alike where they
-    are alike; with friction at all contacts by least dissipation, see analytic.traction. An
+    are alike; with friction at all contacts by least dissipation, see analytic.friction.motion. An
     increment uses the mean of the rule at its two states, so that the reversed sequence gives
     exactly the opposite displacement, on uniform level ground.
 

@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from analytic.checks import one_of
-from analytic.equilibria import ContactShapes, Shapes, Status
-from analytic.friction import Friction
-from analytic.gait import Gait
-from analytic.ground import depends_on_speed, surfaces_of
+from analytic.friction.laws import Friction
+from analytic.friction.motion import motion
 from analytic.locomotion import WEAK, Locomotion, along, displacements, mean_slip, state_slip
-from analytic.robot import Robot
-from analytic.surface import Ground, Surface
-from analytic.traction import motion
+from analytic.scene.gait import Gait
+from analytic.scene.ground import depends_on_speed, surfaces_of
+from analytic.scene.robot import Robot
+from analytic.scene.surface import Ground, Surface
+from analytic.solvers.shapes import ContactShapes, Shapes, Status
 
 Array = NDArray[np.float64]
 
@@ -81,7 +81,7 @@ class Modes(_Unbent):
 
     def shapes(self, robot: Robot, pressures: Array) -> Shapes:
         """Equilibria at pressures of shape (B, S) [Pa]."""
-        from analytic.modes import solve_modes
+        from analytic.solvers.modes import solve_modes
 
         return solve_modes(robot, pressures)
 
@@ -94,7 +94,7 @@ class Lifted(_Unbent):
 
     def shapes(self, robot: Robot, pressures: Array) -> Shapes:
         """Equilibria at pressures of shape (B, S) [Pa]."""
-        from analytic.lifted import solve_lifted
+        from analytic.solvers.lifted import solve_lifted
 
         return solve_lifted(robot, pressures)
 
@@ -108,7 +108,7 @@ class Obstacle(_Unbent):
 
     def shapes(self, robot: Robot, pressures: Array) -> Shapes:
         """Equilibria at pressures of shape (B, S) [Pa]."""
-        from analytic.obstacle import solve_obstacle
+        from analytic.solvers.obstacle import solve_obstacle
 
         return solve_obstacle(robot, pressures, self.elements)
 
@@ -119,7 +119,7 @@ class Elastica:
 
     Args:
         links: of the chain.
-        chamber: law of the chambers, see analytic.chain.
+        chamber: law of the chambers, see analytic.scene.chain.
     """
 
     name: ClassVar[str] = "elastica"
@@ -135,7 +135,7 @@ class Elastica:
         times: Array | None,
     ) -> Shapes:
         """See Solver.solve."""
-        from analytic.elastica import solve_elastica
+        from analytic.solvers.elastica import solve_elastica
 
         return solve_elastica(robot, pressures, self.links, self.chamber, ground, friction, times)
 

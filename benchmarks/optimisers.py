@@ -9,7 +9,7 @@ from concurrent.futures import ProcessPoolExecutor
 import numpy as np
 from scipy.optimize import differential_evolution
 
-from analytic.surface import SURFACES
+from analytic.scene.surface import SURFACES
 from mjsim.optimising.objective import Objective
 from mjsim.optimising.search import POPULATION, search
 from mjsim.optimising.space import Space

@@ -13,11 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic.gait import Gait
-from analytic.surface import SHEAR_STRENGTH, SURFACES, TIP_FORCE, Surface
-from analytic.tree.gaits import UNDULATIONS, undulation
-from analytic.tree.limbs import LENGTH
-from analytic.tree.prediction import predict
+from analytic.scene.gait import Gait
+from analytic.scene.surface import SHEAR_STRENGTH, SURFACES, TIP_FORCE, Surface
+from analytic.solvers.limbs.gaits import UNDULATIONS, undulation
+from analytic.solvers.limbs.limbs import LENGTH
+from analytic.solvers.limbs.prediction import predict
 from mjsim.tree.scene import TreeNumerics, TreeScene
 from mjsim.tree.simulation import simulate
 

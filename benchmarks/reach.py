@@ -12,8 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic import Elastica, Gait, Patches, Robot, Surface, pneunet, predict
-from analytic.equilibria import Status
+from analytic import Elastica, Gait, Patches, Robot, Surface, predict
+from analytic.scene import pneunet
+from analytic.solvers.shapes import Status
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate

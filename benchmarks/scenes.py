@@ -9,9 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic import GAITS, Friction, Gait, Robot, Surface, pneunet, predict
-from analytic.friction import neutral_ratio
-from analytic.surface import from_ratios
+from analytic import GAITS, Friction, Gait, Robot, Surface, predict
+from analytic.friction.laws import neutral_ratio
+from analytic.scene import pneunet
+from analytic.scene.surface import from_ratios
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate

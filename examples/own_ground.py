@@ -1,6 +1,6 @@
 """A ground that was measured, in SI, and where it lies between felt and gelatin."""
 
-from analytic.friction import neutral_ratio
+from analytic.friction.laws import neutral_ratio
 from mjsim import SURFACES, Robot, Scene, Surface, measure, simulate
 
 

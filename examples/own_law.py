@@ -5,12 +5,12 @@ For commands: python -m mjsim.run --plugin examples/own_law.py --friction rooted
 
 from typing import Any
 
-from analytic.friction import Friction, register
+from analytic.friction.laws import Friction, register
 from mjsim import SURFACES, Scene, Surface, measure, predict, simulate
 
 
 class Rooted:
-    """See analytic.friction.TractionLaw; floats and arrays come alike."""
+    """See analytic.friction.laws.TractionLaw; floats and arrays come alike."""
 
     name, needs_load = "rooted", False
     unit = 1e-3  # m^2

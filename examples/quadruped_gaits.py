@@ -13,10 +13,10 @@ from itertools import permutations, product
 
 import numpy as np
 
-from analytic.gait import Gait
-from analytic.surface import SURFACES
-from analytic.tree.gaits import UNDULATIONS, on_the_spot
-from analytic.tree.limbs import ORDER
+from analytic.scene.gait import Gait
+from analytic.scene.surface import SURFACES
+from analytic.solvers.limbs.gaits import UNDULATIONS, on_the_spot
+from analytic.solvers.limbs.limbs import ORDER
 from mjsim.tree.scene import TreeNumerics, TreeScene
 from mjsim.tree.simulation import simulate
 

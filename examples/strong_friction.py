@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from analytic import pneunet
-from analytic.friction import friction_number
+from analytic.friction.laws import friction_number
+from analytic.scene import pneunet
 from mjsim import GAITS, SURFACES, Friction, Robot, Scene, measure, predict, simulate
 
 

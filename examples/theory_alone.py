@@ -4,7 +4,7 @@ from scipy.optimize import brentq
 
 from analytic import GAITS, SOLVERS, SURFACES, Robot, displacements, solve_elastica
 from analytic.prediction import predict
-from analytic.surface import from_ratios
+from analytic.scene.surface import from_ratios
 
 
 def main() -> float:

@@ -13,12 +13,12 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from analytic.friction import Friction
-    from analytic.gait import GAITS, Gait
-    from analytic.ground import Patches
+    from analytic.friction.laws import Friction
     from analytic.prediction import predict
-    from analytic.robot import Robot
-    from analytic.surface import SURFACES, Ground, Surface
+    from analytic.scene.gait import GAITS, Gait
+    from analytic.scene.ground import Patches
+    from analytic.scene.robot import Robot
+    from analytic.scene.surface import SURFACES, Ground, Surface
     from mjsim.scene import Numerics, Scene
     from mjsim.simulation.batch import rollout, simulate_all
     from mjsim.simulation.measures import Measures, measure
@@ -27,12 +27,12 @@ if TYPE_CHECKING:
     from mjsim.simulation.trajectory import Trajectory, load
 
 _HOMES = {
-    "analytic.friction": ("Friction",),
-    "analytic.gait": ("GAITS", "Gait"),
-    "analytic.ground": ("Patches",),
+    "analytic.friction.laws": ("Friction",),
+    "analytic.scene.gait": ("GAITS", "Gait"),
+    "analytic.scene.ground": ("Patches",),
     "analytic.prediction": ("predict",),
-    "analytic.robot": ("Robot",),
-    "analytic.surface": ("SURFACES", "Ground", "Surface"),
+    "analytic.scene.robot": ("Robot",),
+    "analytic.scene.surface": ("SURFACES", "Ground", "Surface"),
     "mjsim.scene": ("Numerics", "Scene"),
     "mjsim.simulation.batch": ("rollout", "simulate_all"),
     "mjsim.simulation.measures": ("Measures", "measure"),

@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from analytic.equilibria import Status
-from analytic.friction import Friction
+from analytic.friction.laws import Friction
 from analytic.locomotion import undecided
 from analytic.prediction import Elastica, Prediction, predict
-from analytic.surface import Surface
+from analytic.scene.surface import Surface
+from analytic.solvers.shapes import Status
 from mjsim.scene import Scene
 from mjsim.simulation.measures import Measures
 

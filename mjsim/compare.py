@@ -8,11 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic.gait import GAITS, Gait
 from analytic.locomotion import direction
 from analytic.prediction import REFERENCE, SOLVERS, Elastica, predict
-from analytic.robot import Robot
-from analytic.surface import SURFACES, Ground
+from analytic.scene.gait import GAITS, Gait
+from analytic.scene.robot import Robot
+from analytic.scene.surface import SURFACES, Ground
 from analytic.uncertainty import modes_error
 from mjsim import plugins, registry
 from mjsim.io.cli import Plugins, bar, choose, fail, parse, say, strict_json

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from analytic.surface import SURFACES
+from analytic.scene.surface import SURFACES
 from mjsim.io.cli import fail, parse
 from mjsim.io.files import check_folder
 from mjsim.scene import Numerics, Scene

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from analytic.checks import whole
-from analytic.gait import Gait
-from analytic.surface import SURFACES, Surface
+from analytic.scene.gait import Gait
+from analytic.scene.surface import SURFACES, Surface
 from mjsim.io.cli import FAILED, bar, fail, parse, say, strict_json
 from mjsim.io.files import check_folder
 from mjsim.io.files import whole as whole_file
@@ -157,7 +157,7 @@ def _record(
     options: Options, objective: "Objective", last: "Generation", rows: "list[Confirmation]",
     wave: "list[Confirmation]",
 ) -> dict[str, Any]:  # fmt: skip
-    from analytic.air import air_per_cycle
+    from analytic.scene.air import air_per_cycle
 
     gait: Gait = last.best
     air = air_per_cycle(objective.scene.robot, gait)

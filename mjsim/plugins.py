@@ -15,7 +15,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from analytic.friction import LAWS
+from analytic.friction.laws import LAWS
 from analytic.registry import Registry
 from mjsim.io.processes import clean_start
 from mjsim.registry import BODIES

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from analytic.locomotion import direction
 from analytic.prediction import REFERENCE, Elastica, Prediction, predict
-from analytic.surface import Surface
+from analytic.scene.surface import Surface
 from mjsim.cautions import APART, cautions, elsewhere, tied
 from mjsim.scene import Scene
 from mjsim.simulation.measures import Measures, measure, slid_over_length

@@ -9,8 +9,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from analytic.gait import GAITS
-from analytic.surface import SURFACES
+from analytic.scene.gait import GAITS
+from analytic.scene.surface import SURFACES
 from mjsim.io.cli import FAILED, bar, fail, parse, say, strict_json
 from mjsim.io.files import check_folder
 from mjsim.scene import Numerics, Scene

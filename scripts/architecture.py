@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 TOP = Path(__file__).resolve().parent.parent
 PACKAGES = ("analytic", "mjsim", "studies")
 _COLUMNS = {  # where a package is drawn: column, row
-    "analytic": (0, 2), "analytic.modes": (0, 3.3), "analytic.elastica": (0, 0.7),
-    "analytic.tree": (0.7, 0.3),
+    "analytic": (0, 2), "analytic.solvers.modes": (0, 3.3), "analytic.solvers.elastica": (0, 0.7),
+    "analytic.solvers.limbs": (0.7, 0.3),
     "mjsim.io": (1, 3.7), "mjsim.registry": (1, 2.6), "mjsim.plugins": (1, 3.15),
     "mjsim.scene": (1, 1.4),
     "mjsim.ground": (2, 3.7), "mjsim.bodies": (2, 2.2), "mjsim.mjcf": (3, 3.4),

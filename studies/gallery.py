@@ -40,7 +40,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return FAILED
     os.environ.pop("PYOPENGL_PLATFORM", None)
 
-    from analytic.surface import SURFACES
+    from analytic.scene.surface import SURFACES
     from mjsim.scene import Scene
     from mjsim.simulation.simulation import simulate
     from mjsim.video.poster import poster
@@ -56,8 +56,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _quadruped(out: Path) -> None:
-    from analytic.surface import SURFACES
-    from analytic.tree.gaits import QUADRUPED_GAITS, undulation
+    from analytic.scene.surface import SURFACES
+    from analytic.solvers.limbs.gaits import QUADRUPED_GAITS, undulation
     from mjsim.tree.film import film, stages
     from mjsim.tree.scene import TreeNumerics, TreeScene
     from mjsim.tree.simulation import simulate

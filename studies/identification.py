@@ -14,11 +14,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic import pneunet
-from analytic.gait import GAITS, Gait
 from analytic.prediction import Elastica, Prediction, predict
-from analytic.robot import Robot
-from analytic.surface import SURFACES, Surface
+from analytic.scene import pneunet
+from analytic.scene.gait import GAITS, Gait
+from analytic.scene.robot import Robot
+from analytic.scene.surface import SURFACES, Surface
 
 Array = NDArray[np.float64]
 

@@ -13,10 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic.surface import FRICTION, SURFACES, Surface
-from analytic.tree.gaits import undulation
-from analytic.tree.limbs import LENGTH
-from analytic.tree.walk import walk as quasi_static
+from analytic.scene.surface import FRICTION, SURFACES, Surface
+from analytic.solvers.limbs.gaits import undulation
+from analytic.solvers.limbs.limbs import LENGTH
+from analytic.solvers.limbs.walk import walk as quasi_static
 from mjsim.io.cli import parse
 from mjsim.io.files import check_folder, whole
 from studies.workers import pool
@@ -79,7 +79,7 @@ def predicted(
     surface: str, law: str, left: float, states: int = STATES, elements: int = 6
 ) -> Point:
     """By the quasi-static reference."""
-    from analytic.tree.limbs import quadruped
+    from analytic.solvers.limbs.limbs import quadruped
 
     gait = undulation("wave", left=left)
     path = quasi_static(quadruped(), gait, GROUNDS[surface], states, elements, law=law)

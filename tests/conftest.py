@@ -3,7 +3,7 @@ import os
 import pytest
 from hypothesis import HealthCheck, settings
 
-from analytic.friction import LAWS
+from analytic.friction.laws import LAWS
 from mjsim import registry
 from mjsim.video import gl
 

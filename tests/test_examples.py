@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analytic.tree.gaits import undulation
+from analytic.solvers.limbs.gaits import undulation
 
 FOLDER = Path(__file__).resolve().parent.parent / "examples"
 

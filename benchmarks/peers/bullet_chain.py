@@ -18,8 +18,8 @@ from common import (
     strip,
 )
 
-from analytic import pneunet
-from analytic.chain import joint_springs, link_lengths
+from analytic.scene import pneunet
+from analytic.scene.chain import joint_springs, link_lengths
 from mjsim.scene import Numerics
 
 PACKAGE, INTEGRATOR = "pybullet", "explicit"

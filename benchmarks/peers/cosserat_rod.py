@@ -10,8 +10,8 @@ import numpy as np
 from common import DURATION, GRAVITY, Walked, heavy_links, knots, repeated, stopwatch, strip
 from numba import njit
 
-from analytic import pneunet
-from analytic.chain import segment_overlap
+from analytic.scene import pneunet
+from analytic.scene.chain import segment_overlap
 
 PACKAGE, INTEGRATOR = "pyelastica", "Verlet"
 DRAG = 8.0  # 1/s

@@ -40,8 +40,8 @@ from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import TrajectorySource
 from pydrake.trajectories import PiecewisePolynomial
 
-from analytic import pneunet
-from analytic.chain import joint_springs, link_lengths
+from analytic.scene import pneunet
+from analytic.scene.chain import joint_springs, link_lengths
 from mjsim.scene import Numerics
 
 PACKAGE, INTEGRATOR = "drake", "SAP"

@@ -22,8 +22,8 @@ import numpy as np
 import strips
 
 from analytic import SOLVERS, Elastica, Friction, Gait, Robot, Surface, predict
-from analytic.tree.limbs import rotation
-from analytic.tree.walk import walk as walk_of_limbs
+from analytic.solvers.limbs.limbs import rotation
+from analytic.solvers.limbs.walk import walk as walk_of_limbs
 from mjsim.scene import Numerics, Scene, Valves
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate

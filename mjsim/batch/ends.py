@@ -11,9 +11,9 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
 
-from analytic.chain import node_positions
-from analytic.contact import flat_length
-from analytic.friction import slip_fraction
+from analytic.friction.contact_length import flat_length
+from analytic.friction.laws import slip_fraction
+from analytic.scene.chain import node_positions
 from mjsim.bodies.parts import PREFIX, TENDONS, contact_softness, tie_force
 from mjsim.friction.contact_length import pads_by_node
 from mjsim.scene import Numerics, Scene

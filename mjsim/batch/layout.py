@@ -12,8 +12,8 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
 
-from analytic.ground import depends_on_speed
-from analytic.surface import Surface
+from analytic.scene.ground import depends_on_speed
+from analytic.scene.surface import Surface
 from mjsim.bodies.parts import PREFIX
 from mjsim.mjcf.builder import compiled, on_ground
 from mjsim.scene import Numerics, Scene

@@ -9,7 +9,7 @@ from collections.abc import Hashable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.chain import link_lengths
+from analytic.scene.chain import link_lengths
 from mjsim.batch.layout import layout, refusal
 from mjsim.batch.strips import Block, Strips
 from mjsim.mjcf.builder import TOUCH

@@ -6,8 +6,8 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
 
-from analytic.chain import joint_springs
-from analytic.contact import may_lie_flat
+from analytic.friction.contact_length import may_lie_flat
+from analytic.scene.chain import joint_springs
 from mjsim.batch.ends import Ends, Rows
 from mjsim.batch.layout import layout, models, refusal, write
 from mjsim.bodies.chambers import Chambers

@@ -13,8 +13,8 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from analytic import pneunet
-from analytic.chain import link_lengths
+from analytic.scene import pneunet
+from analytic.scene.chain import link_lengths
 from mjsim.scene import Numerics, Scene
 
 PALE, DARK = (0.86, 0.82, 0.72), (0.16, 0.17, 0.20)  # passive and inflated, as in Figure 4

@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.chain import (
+from analytic.scene.chain import (
     check_chamber,
     joint_springs,
     link_lengths,

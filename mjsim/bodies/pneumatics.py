@@ -13,8 +13,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic import pneunet
-from analytic.chain import segment_overlap
+from analytic.scene import pneunet
+from analytic.scene.chain import segment_overlap
 from mjsim.scene import Numerics, Scene
 
 Array = NDArray[np.float64]

@@ -17,7 +17,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.chain import joint_springs, link_lengths, node_positions
+from analytic.scene.chain import joint_springs, link_lengths, node_positions
 from mjsim.bodies import parts
 from mjsim.bodies.body import Joints
 from mjsim.scene import Numerics, Scene

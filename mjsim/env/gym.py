@@ -13,7 +13,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from analytic.surface import SURFACES
+from analytic.scene.surface import SURFACES
 from mjsim.batch.strips import Strips
 from mjsim.env.task import FALL, Settings, commands, middle, names, sense
 from mjsim.scene import Scene

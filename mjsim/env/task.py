@@ -17,8 +17,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.chain import segment_overlap
 from analytic.checks import is_number, positive
+from analytic.scene.chain import segment_overlap
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.quantities import check_field, field_value, with_fields
 from mjsim.scene.scene import Contacts

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic import pneunet
-from analytic.friction import friction_number
+from analytic.friction.laws import friction_number
+from analytic.scene import pneunet
 from mjsim.fitting.estimate import Estimate
 from mjsim.fitting.parameters import with_values
 from mjsim.scene.tables import Tables, build

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from analytic.robot import Robot
-from analytic.surface import SURFACES, Surface
+from analytic.scene.robot import Robot
+from analytic.scene.surface import SURFACES, Surface
 from mjsim.io.fields import units
 from mjsim.io.units import in_unit
 from mjsim.scene.scene import Scene

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from analytic import pneunet
-from analytic.chain import node_positions
 from analytic.prediction import Elastica, predict
+from analytic.scene import pneunet
+from analytic.scene.chain import node_positions
 from mjsim import plugins
 from mjsim.fitting.observations import Run, Series
 from mjsim.fitting.parameters import with_values

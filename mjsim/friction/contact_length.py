@@ -1,7 +1,7 @@
 """How long each end lies on its side, and what it carries, from the forces of MuJoCo's contacts.
 
-The length follows from the ground's forces, finer than the pads; see analytic.contact. Plain
-floats: numpy is slow on a few numbers.
+The length follows from the ground's forces, finer than the pads; see
+analytic.friction.contact_length. Plain floats: numpy is slow on a few numbers.
 """
 
 import re
@@ -10,8 +10,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.chain import node_positions
-from analytic.contact import flat_length
+from analytic.friction.contact_length import flat_length
+from analytic.scene.chain import node_positions
 from mjsim.bodies.parts import PREFIX
 from mjsim.scene import Numerics, Scene
 

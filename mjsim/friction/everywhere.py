@@ -1,18 +1,18 @@
 """Bounds of friction along x wherever the strip touches the ground.
 
-Each contact of analytic.patches is held by a dry friction of its own bound, at one node, since a
-flat patch moves as one. Where a tie leaves open how the whole moves (see analytic.dissipation) one
-more friction holds what vanishing viscosity would: the mean position of all contacts, or the
-contact at the border of what the bounds leave open.
+Each contact of analytic.friction.contacts is held by a dry friction of its own bound, at one node,
+since a flat patch moves as one. Where a tie leaves open how the whole moves (see
+analytic.friction.dissipation) one more friction holds what vanishing viscosity would: the mean
+position of all contacts, or the contact at the border of what the bounds leave open.
 """
 
 import math
 
 import mujoco
 
-from analytic.chain import node_positions
-from analytic.dissipation import minimisers
-from analytic.patches import Finder, Patch
+from analytic.friction.contacts import Finder, Patch
+from analytic.friction.dissipation import minimisers
+from analytic.scene.chain import node_positions
 from mjsim.bodies.parts import PREFIX
 from mjsim.friction.contact_length import pads_by_node
 from mjsim.friction.traction import Bounded, ContactFriction

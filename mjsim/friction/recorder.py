@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.ground import depends_on_speed
+from analytic.scene.ground import depends_on_speed
 from mjsim.bodies.parts import PREFIX, TENDONS
 from mjsim.friction.contact_length import pads_by_node
 from mjsim.scene import Scene

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import mujoco
 
-from analytic.ground import Patches
-from analytic.surface import Ground, Surface
+from analytic.scene.ground import Patches
+from analytic.scene.surface import Ground, Surface
 from mjsim.io.assets import MODELS
 
 HERE = Path(__file__).parent

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.surface import Ground
+from analytic.scene.surface import Ground
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.simulation import Observation, Simulation
 

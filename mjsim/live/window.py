@@ -13,8 +13,8 @@ import mujoco
 import mujoco.viewer
 import numpy as np
 
-from analytic.ground import Patches
-from analytic.surface import SURFACES, Ground
+from analytic.scene.ground import Patches
+from analytic.scene.surface import SURFACES, Ground
 from mjsim.bodies.parts import PREFIX
 from mjsim.live.session import Session
 from mjsim.results.netcdf import segment_names

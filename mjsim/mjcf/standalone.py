@@ -12,10 +12,10 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from analytic import pneunet
-from analytic.chain import link_lengths, segment_overlap
-from analytic.ground import uniform
-from analytic.surface import Surface
+from analytic.scene import pneunet
+from analytic.scene.chain import link_lengths, segment_overlap
+from analytic.scene.ground import uniform
+from analytic.scene.surface import Surface
 from mjsim.bodies.parts import PALE, PREFIX
 from mjsim.io.assets import MODELS
 from mjsim.io.files import whole

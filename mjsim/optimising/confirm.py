@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic.gait import Gait
 from analytic.prediction import predict
-from analytic.surface import Surface
+from analytic.scene.gait import Gait
+from analytic.scene.surface import Surface
 from mjsim.optimising.objective import Objective
 from mjsim.scene import Scene
 from mjsim.simulation.checked import walk_checked

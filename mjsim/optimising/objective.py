@@ -9,12 +9,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from analytic.air import air_per_cycle
-from analytic.gait import Gait
 from analytic.locomotion import STANDSTILL
 from analytic.prediction import SOLVERS, Elastica, predict_grounds
-from analytic.robot import Robot
-from analytic.surface import Surface
+from analytic.scene.air import air_per_cycle
+from analytic.scene.gait import Gait
+from analytic.scene.robot import Robot
+from analytic.scene.surface import Surface
 from analytic.uncertainty import flagged_change
 from mjsim.scene import Numerics, Scene
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from analytic.gait import Gait
+from analytic.scene.gait import Gait
 from mjsim.io.files import whole
 from mjsim.optimising.search import Generation
 

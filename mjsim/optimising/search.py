@@ -8,7 +8,7 @@ import cma
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.gait import Gait
+from analytic.scene.gait import Gait
 from mjsim.optimising.objective import Objective
 from mjsim.optimising.space import Space
 

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.gait import Gait
-from analytic.trapezoid import staggered
+from analytic.scene.gait import Gait
+from analytic.scene.trapezoid import staggered
 
 Array = NDArray[np.float64]
 

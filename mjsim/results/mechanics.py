@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.chain import joint_springs, link_lengths, sealed_springs
+from analytic.scene.chain import joint_springs, link_lengths, sealed_springs
 
 if TYPE_CHECKING:
     from mjsim.simulation.trajectory import Trajectory

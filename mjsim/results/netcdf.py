@@ -16,7 +16,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.chain import link_lengths, node_positions
+from analytic.scene.chain import link_lengths, node_positions
 from mjsim.io.files import whole
 from mjsim.results.mechanics import balance, bending, slip
 

@@ -113,7 +113,7 @@ def touches(walk: "Trajectory") -> NDArray[np.bool_]:
 
 def edges(walk: "Trajectory") -> Array:
     """Arclengths half-way between the nodes, and of the ends, (N + 3,) [m]."""
-    from analytic.chain import node_positions
+    from analytic.scene.chain import node_positions
 
     nodes = node_positions(walk.scene.robot, walk.numerics.links)
     return np.concatenate([nodes[:1], 0.5 * (nodes[1:] + nodes[:-1]), nodes[-1:]])

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
 
-from analytic.gait import Gait
+from analytic.scene.gait import Gait
 from mjsim.io.csv_table import factor, number_in, read_csv
 
 Array = NDArray[np.float64]

@@ -7,8 +7,8 @@ from typing import Annotated, Any, get_type_hints
 import tyro
 
 from analytic.checks import one_of
-from analytic.robot import Robot
-from analytic.surface import SURFACES, Surface
+from analytic.scene.robot import Robot
+from analytic.scene.surface import SURFACES, Surface
 from mjsim import plugins
 from mjsim.io.cli import ALL, Plugins
 from mjsim.io.fields import field_docs

@@ -4,8 +4,8 @@ import copy
 from collections.abc import Mapping
 from typing import Any
 
-from analytic.robot import Robot
-from analytic.surface import SURFACES, Surface
+from analytic.scene.robot import Robot
+from analytic.scene.surface import SURFACES, Surface
 from mjsim.io.fields import field_docs, units
 from mjsim.io.units import in_unit
 from mjsim.scene.numerics import Numerics

@@ -6,14 +6,14 @@ from typing import Literal
 
 import numpy as np
 
-from analytic import pneunet
-from analytic.chain import CHAMBER_LAWS
 from analytic.checks import one_of, positive, slope, whole
-from analytic.friction import LAWS, Friction
-from analytic.gait import GAITS, Gait
-from analytic.ground import check_adhesion, depends_on_speed, surfaces_of
-from analytic.robot import GRAVITY, Robot
-from analytic.surface import SURFACES, Ground
+from analytic.friction.laws import LAWS, Friction
+from analytic.scene import pneunet
+from analytic.scene.chain import CHAMBER_LAWS
+from analytic.scene.gait import GAITS, Gait
+from analytic.scene.ground import check_adhesion, depends_on_speed, surfaces_of
+from analytic.scene.robot import GRAVITY, Robot
+from analytic.scene.surface import SURFACES, Ground
 from mjsim import registry
 from mjsim.scene.valves import Valves
 

@@ -2,7 +2,8 @@
 
     [robot]     fields of analytic.Robot, in SI units
     [gait]      name of a gait, or stages and ramp_time, or lag, duty, ramp and period of
-                analytic.trapezoid, or file: a TOML table of these, or a CSV of measured pressures
+                analytic.scene.trapezoid, or file: a TOML table of these, or a CSV of measured
+                pressures
     [valves]    fields of mjsim.scene.Valves: time constants, dead time, flow limit
     [ground]    surface, a name; or fields of analytic.Surface; slope_deg; or patches beside each
                 other, [[ground.patches]] with `from` [m] and a surface
@@ -19,11 +20,11 @@ from pathlib import Path
 from typing import Any
 
 from analytic.checks import one_of
-from analytic.gait import GAITS, Gait
-from analytic.ground import Patches
-from analytic.robot import Robot
-from analytic.surface import SURFACES, Ground, Surface
-from analytic.trapezoid import trapezoid
+from analytic.scene.gait import GAITS, Gait
+from analytic.scene.ground import Patches
+from analytic.scene.robot import Robot
+from analytic.scene.surface import SURFACES, Ground, Surface
+from analytic.scene.trapezoid import trapezoid
 from mjsim.scene.measured import read_gait
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene

@@ -8,8 +8,8 @@ from typing import Any
 
 import tomli_w
 
-from analytic.ground import Patches
-from analytic.surface import SURFACES, Ground, Surface
+from analytic.scene.ground import Patches
+from analytic.scene.surface import SURFACES, Ground, Surface
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene
 from mjsim.scene.tables import SCENE_FIELDS, SURFACE_FIELDS, Tables

@@ -6,9 +6,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.ground import depends_on_speed
 from analytic.locomotion import Direction, direction
-from analytic.surface import Surface
+from analytic.scene.ground import depends_on_speed
+from analytic.scene.surface import Surface
 from mjsim.simulation.judge import slid
 from mjsim.simulation.status import Status
 from mjsim.simulation.trajectory import Trajectory

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.contact import may_lie_flat
+from analytic.friction.contact_length import may_lie_flat
 from mjsim.friction.contact_length import ContactForces, pads_by_node
 from mjsim.mjcf.builder import compile_model
 from mjsim.mjcf.standalone import walking_scene

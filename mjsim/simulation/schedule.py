@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.gait import Gait
+from analytic.scene.gait import Gait
 from mjsim.scene import Numerics, Scene
 
 Array = NDArray[np.float64]

@@ -8,8 +8,8 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.contact import may_lie_flat
-from analytic.gait import Gait
+from analytic.friction.contact_length import may_lie_flat
+from analytic.scene.gait import Gait
 from mjsim import registry
 from mjsim.bodies.chambers import Chambers
 from mjsim.friction.contact_length import pads_by_node

@@ -1,9 +1,9 @@
 """A robot of limbs as MJCF: chains of rigid links in space, pads at both edges, friction's rows.
 
-The links are those of analytic.tree: so many hinges a limb between one link more, the first link of
-a limb fast to the one that carries it. The trunk's beginning may move along x, y and z, and yaw,
-pitch and roll. Friction is carried by fixed tendons over all coordinates: their coefficients, set
-at each step, are the Jacobian of the place that is held.
+The links are those of analytic.solvers.limbs: so many hinges a limb between one link more, the
+first link of a limb fast to the one that carries it. The trunk's beginning may move along x, y and
+z, and yaw, pitch and roll. Friction is carried by fixed tendons over all coordinates: their
+coefficients, set at each step, are the Jacobian of the place that is held.
 """
 
 import math
@@ -11,10 +11,10 @@ import math
 import mujoco
 import numpy as np
 
-from analytic import pneunet
-from analytic.chain import joint_springs, link_lengths
-from analytic.tree.contacts import ripple
-from analytic.tree.limbs import TreeRobot, rotation
+from analytic.scene import pneunet
+from analytic.scene.chain import joint_springs, link_lengths
+from analytic.solvers.limbs.contacts import ripple
+from analytic.solvers.limbs.limbs import TreeRobot, rotation
 from mjsim.bodies.parts import PREFIX
 from mjsim.mjcf.builder import TOUCH
 from mjsim.tree.scene import TreeNumerics, TreeScene

@@ -7,8 +7,8 @@ from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
-from analytic.surface import SURFACES
-from analytic.tree.gaits import QUADRUPED_GAITS
+from analytic.scene.surface import SURFACES
+from analytic.solvers.limbs.gaits import QUADRUPED_GAITS
 from mjsim.io.cli import FAILED, bar, say, strict_json
 from mjsim.tree.record import record, table
 from mjsim.tree.scene import TreeNumerics, TreeScene

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
-from analytic.tree.kinematics import Tree
-from analytic.tree.limbs import outline, plan, rotation
+from analytic.solvers.limbs.kinematics import Tree
+from analytic.solvers.limbs.limbs import outline, plan, rotation
 from mjsim.bodies.parts import DARK, PALE
 from mjsim.io.files import whole
 from mjsim.tree.walk import TreeWalk

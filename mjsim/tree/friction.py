@@ -1,11 +1,11 @@
 """Friction of a robot of limbs: each contact is held at its place by a bound in the plane.
 
-Contacts and their bounds are those of analytic.tree.contacts, found from the forces of the step
-before. A place is held by two rows: dry friction of the whole bound V along the slip, or along the
-force where it does not slide, and across that V v / |u|, where u is the slip of the step before:
-together the tangent of V u / |u|, as in Newton's method, so that friction opposes the slip whatever
-its direction. What the bounds leave open is left to viscosity at all places alike, as in
-analytic.plane; it is small beside them.
+Contacts and their bounds are those of analytic.solvers.limbs.contacts, found from the forces of the
+step before. A place is held by two rows: dry friction of the whole bound V along the slip, or along
+the force where it does not slide, and across that V v / |u|, where u is the slip of the step
+before: together the tangent of V u / |u|, as in Newton's method, so that friction opposes the slip
+whatever its direction. What the bounds leave open is left to viscosity at all places alike, as in
+analytic.friction.dissipation_in_plane; it is small beside them.
 """
 
 import math
@@ -16,9 +16,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.tree.contacts import Contact, Contacts
-from analytic.tree.kinematics import Tree
-from analytic.tree.statics import Rest
+from analytic.solvers.limbs.contacts import Contact, Contacts
+from analytic.solvers.limbs.kinematics import Tree
+from analytic.solvers.limbs.statics import Rest
 from mjsim.bodies.parts import PREFIX
 from mjsim.tree.body import joints_to, limb_body, places_of
 from mjsim.tree.scene import TreeNumerics, TreeScene
@@ -291,7 +291,7 @@ class Grips:
 def _pads_of(
     model: mujoco.MjModel, names: tuple[str, ...], nodes: int
 ) -> tuple[NDArray[np.int_], NDArray[np.int_]]:
-    """Pads in the order of analytic.tree's nodes, and the node of each geom."""
+    """Pads in the order of analytic.solvers.limbs's nodes, and the node of each geom."""
     pads = [
         model.geom(f"{PREFIX}{name}_pad_{node}_{side}").id
         for side in ("right", "left") for name in names for node in range(nodes)

@@ -4,9 +4,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.chain import link_lengths
-from analytic.robot import Robot
-from analytic.tree.limbs import outline, plan
+from analytic.scene.chain import link_lengths
+from analytic.scene.robot import Robot
+from analytic.solvers.limbs.limbs import outline, plan
 from mjsim.bodies.parts import DARK, PALE
 from mjsim.ground.stage import stage
 from mjsim.tree.body import ROOT, hinge_names, limb_body, tree_spec
@@ -60,7 +60,7 @@ class Look:
         """Bend the robot, colour its chambers, and follow it with the camera.
 
         Args:
-            coordinates: of analytic.tree.kinematics, (Q,).
+            coordinates: of analytic.solvers.limbs.kinematics, (Q,).
             fractions: of the peak pressure, (L,).
         """
         self.data.qpos[self._order] = coordinates

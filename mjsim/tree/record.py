@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from analytic.locomotion import direction
-from analytic.surface import Surface
-from analytic.tree.prediction import TreePrediction, predict
+from analytic.scene.surface import Surface
+from analytic.solvers.limbs.prediction import TreePrediction, predict
 from mjsim.tree.body import longest_step
 from mjsim.tree.walk import TreeWalk
 

@@ -3,14 +3,14 @@
 from dataclasses import dataclass, field, fields
 
 from analytic.checks import one_of, positive, whole
-from analytic.friction import LAWS
-from analytic.gait import Gait
-from analytic.ground import depends_on_speed, surfaces_of
-from analytic.robot import GRAVITY
-from analytic.surface import SURFACES, Ground
-from analytic.tree.contacts import check_ground
-from analytic.tree.gaits import undulation
-from analytic.tree.limbs import TreeRobot, quadruped
+from analytic.friction.laws import LAWS
+from analytic.scene.gait import Gait
+from analytic.scene.ground import depends_on_speed, surfaces_of
+from analytic.scene.robot import GRAVITY
+from analytic.scene.surface import SURFACES, Ground
+from analytic.solvers.limbs.contacts import check_ground
+from analytic.solvers.limbs.gaits import undulation
+from analytic.solvers.limbs.limbs import TreeRobot, quadruped
 from mjsim.scene.numerics import LONGEST_STEP
 
 FEWEST_STEPS = 4  # of a ramp; with fewer the gait is not seen; chosen

@@ -10,9 +10,9 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.chain import joint_springs, link_lengths
-from analytic.gait import Gait
-from analytic.tree.limbs import outline
+from analytic.scene.chain import joint_springs, link_lengths
+from analytic.scene.gait import Gait
+from analytic.solvers.limbs.limbs import outline
 from mjsim.mjcf.compiled import Compiled
 from mjsim.mjcf.copies import Copied
 from mjsim.simulation.status import THROWN, Status

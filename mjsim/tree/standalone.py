@@ -12,10 +12,10 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from analytic import pneunet
-from analytic.ground import uniform
-from analytic.surface import Surface
-from analytic.tree.limbs import TreeRobot
+from analytic.scene import pneunet
+from analytic.scene.ground import uniform
+from analytic.scene.surface import Surface
+from analytic.solvers.limbs.limbs import TreeRobot
 from mjsim.bodies.parts import PREFIX
 from mjsim.ground.stage import stage
 from mjsim.io.assets import MODELS

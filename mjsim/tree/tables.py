@@ -18,10 +18,10 @@ from pathlib import Path
 from typing import Any
 
 from analytic.checks import one_of
-from analytic.gait import Gait
-from analytic.robot import Robot
-from analytic.tree.gaits import QUADRUPED_GAITS, UNDULATIONS, undulation
-from analytic.tree.limbs import Limb, TreeRobot, quadruped
+from analytic.scene.gait import Gait
+from analytic.scene.robot import Robot
+from analytic.solvers.limbs.gaits import QUADRUPED_GAITS, UNDULATIONS, undulation
+from analytic.solvers.limbs.limbs import Limb, TreeRobot, quadruped
 from mjsim.scene.tables import Tables, build_ground
 from mjsim.scene.typed import Table, as_number, make, read_toml
 from mjsim.tree.scene import TreeNumerics, TreeScene

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.tree.limbs import outline, rotation
+from analytic.solvers.limbs.limbs import outline, rotation
 from mjsim.results.netcdf import Variable, write
 from mjsim.scene.provenance import origin
 from mjsim.simulation.status import Status
@@ -27,7 +27,7 @@ class TreeWalk:
         time: end of each step since the first cycle began, (T,) [s].
         pressure: in the limbs, (T, L) [Pa].
         coordinates: x, y, height, yaw, pitch and roll of the trunk's beginning, then the hinges,
-            as in analytic.tree.kinematics, (T, Q) [m, rad].
+            as in analytic.solvers.limbs.kinematics, (T, Q) [m, rad].
         contacts: how many limbs touch the ground, (T,).
         wall_time: seconds the loop took.
     """

@@ -10,9 +10,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.ground import Patches
-from analytic.robot import Robot
-from analytic.surface import Ground
+from analytic.scene.ground import Patches
+from analytic.scene.robot import Robot
+from analytic.scene.surface import Ground
 from mjsim.bodies.parts import DARK, PALE
 from mjsim.mjcf.builder import scene_spec
 from mjsim.scene import Numerics, Scene

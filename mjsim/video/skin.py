@@ -6,8 +6,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.chain import link_lengths, node_positions
-from analytic.robot import Robot
+from analytic.scene.chain import link_lengths, node_positions
+from analytic.scene.robot import Robot
 from mjsim.bodies.parts import PALE, PREFIX
 from mjsim.scene import Numerics
 

@@ -10,7 +10,7 @@ from dataclasses import replace
 from functools import cache
 
 from analytic import SURFACES, Elastica, Friction, Robot, predict
-from analytic.surface import SHEAR_STRENGTH, TIP_FORCE
+from analytic.scene.surface import SHEAR_STRENGTH, TIP_FORCE
 from mjsim.scene import Scene
 from studies.accuracy.rows import Row, row
 from studies.accuracy.setting import Setting

@@ -7,8 +7,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic import pneunet
-from analytic.elastica.cantilever import solve_cantilever
+from analytic.scene import pneunet
+from analytic.solvers.elastica.cantilever import solve_cantilever
 from mjsim import registry
 from mjsim.bodies.parts import set_options
 from mjsim.bodies.rod import rest_stiffness

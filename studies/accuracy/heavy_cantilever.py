@@ -13,7 +13,8 @@ from functools import cache
 import numpy as np
 from scipy.integrate import simpson, solve_bvp
 
-from analytic import Robot, pneunet
+from analytic import Robot
+from analytic.scene import pneunet
 from studies.accuracy.rows import Row, row
 from studies.accuracy.setting import Setting
 from studies.accuracy.timing import Timing

@@ -10,13 +10,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction import Friction
-from analytic.gait import Gait
-from analytic.ground import Patches
+from analytic.friction.laws import Friction
 from analytic.locomotion import displacements
 from analytic.prediction import Elastica
-from analytic.robot import Robot
-from analytic.surface import Surface
+from analytic.scene.gait import Gait
+from analytic.scene.ground import Patches
+from analytic.scene.robot import Robot
+from analytic.scene.surface import Surface
 from studies.control.reversing import REPERTOIRE, Chooser, check_gaits
 
 Array = NDArray[np.float64]

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.checks import not_negative, positive
-from analytic.gait import GAITS, Gait
-from analytic.robot import Robot
+from analytic.scene.gait import GAITS, Gait
+from analytic.scene.robot import Robot
 from mjsim.simulation.simulation import Observation
 
 Array = NDArray[np.float64]

@@ -6,18 +6,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from analytic import (
-    GAITS,
-    SOLVERS,
-    SURFACES,
-    Gait,
-    Robot,
-    Shapes,
-    pneunet,
-    predict,
-    solve_modes,
-)
+from analytic import GAITS, SOLVERS, SURFACES, Gait, Robot, Shapes, predict, solve_modes
 from analytic.locomotion import state_slip
+from analytic.scene import pneunet
 from mjsim.scene import Scene
 from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate

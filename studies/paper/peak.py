@@ -9,8 +9,9 @@ import xarray as xr
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from analytic import SURFACES, Gait, Robot, pneunet, predict
-from analytic.trapezoid import trapezoid
+from analytic import SURFACES, Gait, Robot, predict
+from analytic.scene import pneunet
+from analytic.scene.trapezoid import trapezoid
 from studies import workers
 from studies.paper.style import SOLVER
 
@@ -18,7 +19,7 @@ Array = NDArray[np.float64]
 
 NAME = "peak"
 CAPTION = """\
-The peak of Figure 5 looked for: the gaits of lag, duty and ramp of analytic.trapezoid and all
+The peak of Figure 5 looked for: the gaits of lag, duty and ramp of analytic.scene.trapezoid and all
 sequences of up to six stages in which each segment inflates once, from left to right, on robots of
 Gamma 1 to 40, by the modes with fine increments; those with a peak, a plateau or a standstill on
 polyethylene again by elastica. (a) How much of the distance on felt is lost beyond a peak at an

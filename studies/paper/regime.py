@@ -9,7 +9,7 @@ from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
 
 from analytic import GAITS, SURFACES, Robot, Surface, displacements, solve_elastica
-from analytic.friction import neutral_ratio
+from analytic.friction.laws import neutral_ratio
 from studies.paper.style import FONT
 
 NAME = "regime"

@@ -10,8 +10,8 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from analytic import pneunet
-from analytic.friction import friction_number
+from analytic.friction.laws import friction_number
+from analytic.scene import pneunet
 from mjsim.scene import INTEGRATORS, Numerics
 from studies.accuracy.setting import Setting
 from studies.stability import maps, parameters

@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from analytic import GAITS, SURFACES, ContactShapes, Prediction, Robot, Status, pneunet, predict
+from analytic import GAITS, SURFACES, ContactShapes, Prediction, Robot, Status, predict
+from analytic.scene import pneunet
 from mjsim.scene import INTEGRATORS, Numerics, Scene
 from studies.stability.outcome import GROUND, outcome, tried
 

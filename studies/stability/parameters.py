@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from analytic import Surface, pneunet
-from analytic.friction import friction_number
+from analytic import Surface
+from analytic.friction.laws import friction_number
+from analytic.scene import pneunet
 from mjsim.record import reference as quasi_static
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure

@@ -6,8 +6,9 @@ Robots are drawn by their dimensionless groups: Gamma = w L^3 / D0, kappa L and 
 import numpy as np
 from hypothesis import strategies as st
 
-from analytic import Gait, Robot, pneunet
-from analytic.surface import from_ratios
+from analytic import Gait, Robot
+from analytic.scene import pneunet
+from analytic.scene.surface import from_ratios
 
 
 def robot_from_groups(gamma: float, kappa_length: float, stiffening: float, length: float) -> Robot:

@@ -8,9 +8,10 @@ import pytest
 from hypothesis import given
 from strategies import gaits
 
-from analytic import GAITS, SURFACES, Gait, Robot, Surface, pneunet
-from analytic.friction import friction_number, neutral_ratio
-from analytic.surface import SHEAR_STRENGTH, TIP_FORCE
+from analytic import GAITS, SURFACES, Gait, Robot, Surface
+from analytic.friction.laws import friction_number, neutral_ratio
+from analytic.scene import pneunet
+from analytic.scene.surface import SHEAR_STRENGTH, TIP_FORCE
 
 
 @pytest.mark.parametrize(

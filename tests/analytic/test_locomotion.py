@@ -6,8 +6,8 @@ from hypothesis import assume, given
 from strategies import gaits, robots, surfaces
 
 from analytic import GAITS, LAWS, SURFACES, Gait, Robot, direction, displacements, solve_modes
-from analytic.friction import neutral_ratio, slip_fraction
-from analytic.surface import REFERENCE_AREA, Surface, from_ratios
+from analytic.friction.laws import neutral_ratio, slip_fraction
+from analytic.scene.surface import REFERENCE_AREA, Surface, from_ratios
 
 
 def walk(robot, gait, surface, states_per_ramp=60, cycles=1):

@@ -8,7 +8,7 @@ import pytest
 from strategies import robot_from_groups
 
 from analytic import GAITS, SURFACES, Gait, Robot, Status, predict
-from analytic.surface import from_ratios
+from analytic.scene.surface import from_ratios
 from analytic.uncertainty import UNSOUND, modes_error
 
 FINE = 1e-4  # of L: discretization of both solvers

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from analytic.friction import LAWS, ConstantBounds, register
+from analytic.friction.laws import LAWS, ConstantBounds, register
 from analytic.registry import Registry
 from mjsim import plugins, registry, run, sweep
 from mjsim.bodies.planar import Planar
@@ -22,7 +22,7 @@ from mjsim.simulation.simulation import simulate
 pytestmark = pytest.mark.usefixtures("forgets")
 COARSE = Numerics(links=6, timestep=0.02)
 LAW = """
-from analytic.friction import ConstantBounds, register
+from analytic.friction.laws import ConstantBounds, register
 from mjsim import registry
 from mjsim.bodies.planar import Planar
 
@@ -187,7 +187,7 @@ def test_laws_of_an_installed_package_are_known_by_name_and_imported_when_asked_
 ):
     package(tmp_path, {"firm": "firm:Firm", "gone": "firm:Gone", "other": "firm:Firm"})
     monkeypatch.syspath_prepend(tmp_path)
-    known = Registry("undulator.laws", {"constant": "analytic.friction:ConstantBounds"})
+    known = Registry("undulator.laws", {"constant": "analytic.friction.laws:ConstantBounds"})
     assert list(known) == ["constant", "firm", "gone", "other"]
     assert "firm" not in sys.modules
     assert known["firm"].name == "firm"

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from analytic import GAITS, SURFACES, Elastica, Robot, pneunet, predict
+from analytic import GAITS, SURFACES, Elastica, Robot, predict
+from analytic.scene import pneunet
 from studies.identification import identify, main, statements
 
 

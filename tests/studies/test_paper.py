@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from walks import HEAVIER
 
-from analytic import GAITS, SURFACES, Mode, Robot, pneunet, predict
+from analytic import GAITS, SURFACES, Mode, Robot, predict
+from analytic.scene import pneunet
 from mjsim.io import cli
 from studies.paper import amplitude, contact
 from studies.paper.__main__ import FIGURES, main, make, page

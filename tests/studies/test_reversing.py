@@ -5,11 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from analytic.gait import GAITS, Gait
-from analytic.ground import Patches
 from analytic.prediction import Elastica, predict
-from analytic.robot import Robot
-from analytic.surface import SURFACES
+from analytic.scene.gait import GAITS, Gait
+from analytic.scene.ground import Patches
+from analytic.scene.robot import Robot
+from analytic.scene.surface import SURFACES
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.simulation import Simulation
 from studies.control.cycles import Cycles, stripes

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from mujoco.batch import MODEL_FIELDS
 
-from analytic.gait import GAITS, Gait
-from analytic.robot import Robot
-from analytic.surface import SURFACES
+from analytic.scene.gait import GAITS, Gait
+from analytic.scene.robot import Robot
+from analytic.scene.surface import SURFACES
 from mjsim.batch.layout import FIELDS, bare_model, field
 from mjsim.batch.simulate import simulate_batch
 from mjsim.batch.strips import Strips

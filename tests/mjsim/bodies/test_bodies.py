@@ -8,9 +8,10 @@ import pytest
 from walks import measured
 
 import mjsim.simulation.simulation as simulation
-from analytic import GAITS, SURFACES, Friction, Gait, Robot, pneunet, predict
-from analytic.chain import joint_springs
-from analytic.surface import from_ratios
+from analytic import GAITS, SURFACES, Friction, Gait, Robot, predict
+from analytic.scene import pneunet
+from analytic.scene.chain import joint_springs
+from analytic.scene.surface import from_ratios
 from mjsim import registry
 from mjsim.mjcf.builder import compile_model
 from mjsim.scene import Numerics, Scene

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from analytic import Robot
-from analytic.surface import from_ratios
+from analytic.scene.surface import from_ratios
 from mjsim.bodies.parts import FAR
 from mjsim.mjcf.builder import TOUCH, compile_model, scene_spec
 from mjsim.scene import Numerics, Scene

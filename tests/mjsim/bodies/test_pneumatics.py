@@ -9,9 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import HEAVIER
 
-from analytic import SURFACES, Elastica, Friction, pneunet, predict
-from analytic.chain import joint_springs, segment_overlap
-from analytic.surface import from_ratios
+from analytic import SURFACES, Elastica, Friction, predict
+from analytic.scene import pneunet
+from analytic.scene.chain import joint_springs, segment_overlap
+from analytic.scene.surface import from_ratios
 from mjsim.bodies.chambers import Chambers
 from mjsim.bodies.pneumatics import controls
 from mjsim.mjcf.builder import compile_model

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from analytic import GAITS, SURFACES, Friction, Robot, predict
-from analytic.surface import from_ratios
-from analytic.trapezoid import trapezoid
+from analytic.scene.surface import from_ratios
+from analytic.scene.trapezoid import trapezoid
 from mjsim import run
 from mjsim.cautions import cautions, tied
 from mjsim.record import record

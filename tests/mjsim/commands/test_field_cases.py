@@ -12,7 +12,7 @@ import pytest
 from walks import HEAVIER, refusal
 
 from analytic import GAITS, SURFACES, Friction, Gait, Robot, Surface, predict
-from analytic.elastica.cantilever import solve_cantilever
+from analytic.solvers.elastica.cantilever import solve_cantilever
 from mjsim import replay, run
 from mjsim.io import cli, files
 from mjsim.record import reference
@@ -250,7 +250,7 @@ def test_a_heavy_cantilever_is_followed_to_a_load_of_200():
     """Against the boundary value problem theta'' = load (1 - s) cos(theta)."""
     from scipy.integrate import simpson, solve_bvp
 
-    from analytic import pneunet
+    from analytic.scene import pneunet
 
     s, state = np.linspace(0, 1, 801), np.zeros((2, 801))
     for load in np.geomspace(1, 200, 30):

@@ -12,7 +12,7 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 import mjsim.env
-from analytic.gait import GAITS
+from analytic.scene.gait import GAITS
 from mjsim.env.gym import WalkEnv, WalkVectorEnv
 from mjsim.env.task import Settings
 from mjsim.scene import Numerics, Scene

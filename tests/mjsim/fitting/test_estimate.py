@@ -5,7 +5,7 @@ from concurrent.futures import ProcessPoolExecutor
 import numpy as np
 import pytest
 
-from analytic import pneunet
+from analytic.scene import pneunet
 from mjsim.fitting.determined import at_bounds, undetermined
 from mjsim.fitting.estimate import estimate
 from mjsim.fitting.observations import Run, Series

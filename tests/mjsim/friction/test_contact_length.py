@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from walks import walk
 
 from analytic import SURFACES, Robot
-from analytic.chain import node_positions
-from analytic.contact import PASSIVE
-from analytic.surface import from_ratios
+from analytic.friction.contact_length import PASSIVE
+from analytic.scene.chain import node_positions
+from analytic.scene.surface import from_ratios
 from mjsim import registry
 from mjsim.friction.contact_length import ContactForces, pads_by_node
 from mjsim.mjcf.builder import compile_model

@@ -7,7 +7,7 @@ from walks import measured, walk
 
 from analytic import SURFACES, Friction, Gait, Robot, predict
 from analytic.locomotion import undecided
-from analytic.surface import from_ratios
+from analytic.scene.surface import from_ratios
 from mjsim import registry
 from mjsim.record import record, table
 from mjsim.scene import Scene

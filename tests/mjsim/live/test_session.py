@@ -5,7 +5,7 @@ import pytest
 from walks import walk
 
 from analytic import SURFACES
-from analytic.surface import Surface
+from analytic.scene.surface import Surface
 from mjsim import view
 from mjsim.live.session import Session
 from mjsim.scene import Numerics, Scene

@@ -8,14 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from analytic import pneunet
-from analytic.air import ATMOSPHERE, air_per_cycle
-from analytic.gait import GAITS, Gait
 from analytic.locomotion import WEAK
 from analytic.prediction import Elastica, Lifted, predict, predict_grounds
-from analytic.robot import Robot
-from analytic.surface import SURFACES
-from analytic.trapezoid import staggered, trapezoid
+from analytic.scene import pneunet
+from analytic.scene.air import ATMOSPHERE, air_per_cycle
+from analytic.scene.gait import GAITS, Gait
+from analytic.scene.robot import Robot
+from analytic.scene.surface import SURFACES
+from analytic.scene.trapezoid import staggered, trapezoid
 from analytic.uncertainty import flagged_change
 from mjsim.optimise import main
 from mjsim.optimising.objective import Objective

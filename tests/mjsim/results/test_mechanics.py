@@ -7,7 +7,7 @@ import pytest
 from walks import walk
 
 from analytic import GAITS, SURFACES, Robot
-from analytic.chain import link_lengths
+from analytic.scene.chain import link_lengths
 from mjsim.bodies.parts import tie_force
 from mjsim.results.mechanics import balance, bending, slip
 from mjsim.scene import Scene

@@ -6,7 +6,7 @@ import pytest
 from walks import measured, predicted, refusal
 
 from analytic import GAITS, SURFACES, Friction, Gait, Robot
-from analytic.surface import from_ratios
+from analytic.scene.surface import from_ratios
 from mjsim import run
 from mjsim.io import cli
 from mjsim.record import reference

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from analytic import GAITS, Gait
-from analytic.robot import PSI
+from analytic.scene.robot import PSI
 from mjsim.record import record
 from mjsim.run import main
 from mjsim.scene import Numerics

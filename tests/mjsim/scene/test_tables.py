@@ -8,7 +8,7 @@ import tyro
 from walks import refusal
 
 from analytic import GAITS, SURFACES, Gait, Robot, Surface
-from analytic.trapezoid import trapezoid
+from analytic.scene.trapezoid import trapezoid
 from mjsim import Scene
 from mjsim.io.options import field_docs
 from mjsim.scene import Numerics

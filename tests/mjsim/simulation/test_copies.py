@@ -6,8 +6,8 @@ import pickle
 import numpy as np
 import pytest
 
-from analytic.friction import ConstantBounds, register
-from analytic.surface import SURFACES
+from analytic.friction.laws import ConstantBounds, register
+from analytic.scene.surface import SURFACES
 from mjsim import registry
 from mjsim.bodies.planar import Planar
 from mjsim.scene import Numerics, Scene

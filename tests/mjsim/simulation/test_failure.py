@@ -7,9 +7,9 @@ import pytest
 from walks import HEAVIER, walk
 
 import mjsim.simulation.simulation as simulation
-from analytic.gait import Gait
-from analytic.robot import Robot
-from analytic.surface import SHEAR_STRENGTH, TIP_FORCE, Surface
+from analytic.scene.gait import Gait
+from analytic.scene.robot import Robot
+from analytic.scene.surface import SHEAR_STRENGTH, TIP_FORCE, Surface
 from mjsim.record import record
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.measures import measure

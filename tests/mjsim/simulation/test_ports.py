@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from analytic import GAITS, LAWS, SURFACES, Elastica, Patches, Robot, Surface, predict
-from analytic import friction as laws
+from analytic.friction import laws as laws
 from mjsim import registry
 from mjsim.bodies.planar import Planar
 from mjsim.mjcf.standalone import write

@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from analytic.surface import SURFACES
+from analytic.scene.surface import SURFACES
 from mjsim.sweeps.plan import EXAMPLE, make_plan, read_plan
 
 FULL = {

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from analytic.pneunet import base_rigidity
-from analytic.surface import SURFACES, Surface
-from analytic.tree.gaits import undulation
-from analytic.tree.limbs import quadruped
+from analytic.scene.pneunet import base_rigidity
+from analytic.scene.surface import SURFACES, Surface
+from analytic.solvers.limbs.gaits import undulation
+from analytic.solvers.limbs.limbs import quadruped
 from mjsim import run
 from mjsim.scene.tables import merged, read_tables
 from mjsim.tree import command

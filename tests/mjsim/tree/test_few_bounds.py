@@ -6,14 +6,22 @@ import numpy as np
 import pytest
 
 from analytic import Elastica, Friction, predict
-from analytic.gait import Gait
-from analytic.robot import Robot
-from analytic.surface import SURFACES, Surface
-from analytic.tree.gaits import undulation
-from analytic.tree.kinematics import Tree
-from analytic.tree.limbs import LENGTH, Limb, TreeRobot, as_strip, outline, quadruped, rotation
-from analytic.tree.prediction import predict as predict_limbs
-from analytic.tree.walk import walk as quasi_static
+from analytic.scene.gait import Gait
+from analytic.scene.robot import Robot
+from analytic.scene.surface import SURFACES, Surface
+from analytic.solvers.limbs.gaits import undulation
+from analytic.solvers.limbs.kinematics import Tree
+from analytic.solvers.limbs.limbs import (
+    LENGTH,
+    Limb,
+    TreeRobot,
+    as_strip,
+    outline,
+    quadruped,
+    rotation,
+)
+from analytic.solvers.limbs.prediction import predict as predict_limbs
+from analytic.solvers.limbs.walk import walk as quasi_static
 from mjsim.simulation.status import Status
 from mjsim.tree.scene import TreeNumerics, TreeScene
 from mjsim.tree.simulation import TreeSimulation, simulate

@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analytic.ground import Patches
-from analytic.surface import SHEAR_STRENGTH, SURFACES, TIP_FORCE, Surface
-from analytic.tree.contacts import ripple
-from analytic.tree.gaits import undulation
-from analytic.tree.kinematics import Tree
-from analytic.tree.limbs import LENGTH, quadruped
-from analytic.tree.statics import Statics
-from analytic.tree.walk import walk as quasi_static
+from analytic.scene.ground import Patches
+from analytic.scene.surface import SHEAR_STRENGTH, SURFACES, TIP_FORCE, Surface
+from analytic.solvers.limbs.contacts import ripple
+from analytic.solvers.limbs.gaits import undulation
+from analytic.solvers.limbs.kinematics import Tree
+from analytic.solvers.limbs.limbs import LENGTH, quadruped
+from analytic.solvers.limbs.statics import Statics
+from analytic.solvers.limbs.walk import walk as quasi_static
 from mjsim.simulation.status import Status
 from mjsim.tree.body import longest_step
 from mjsim.tree.friction import Grips

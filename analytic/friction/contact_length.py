@@ -1,0 +1,127 @@
+"""From the contact forces on nodes to contact lengths and modes, for one or many states."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.scene import pneunet
+from analytic.scene.robot import Robot
+from analytic.solvers.shapes import Mode
+
+Array = NDArray[np.float64]
+
+PASSIVE = 0.01  # of the peak pressure: an end with less may lie on its side, if it does; chosen
+_RIPPLE = 0.2  # of w L h^3 / D0: how high a flat stretch ripples between nodes, bounded; measured
+
+
+def side_contact(
+    robot: Robot, nodes: Array, force: Array, height: Array, pressures: Array, press: float = 0.0
+) -> tuple[Array, Array]:
+    """Length of side contact at the left and the right end.
+
+    An end whose segment is inflated is a tip: to lie flat it would need the moment D kappa, and an
+    end has none. Else (or with next to no pressure) the ground carries the weight of a flat
+    stretch, w per length, and where the strip lifts off a concentrated force R besides. So the
+    length follows from the sum and the moment of the forces on an end's nodes (see `flat_length`):
+    finer than the distance of the nodes, and exactly 0 if the end alone touches. An end's nodes
+    reach to the next that is in the air, higher than a flat stretch ripples between the nodes that
+    push it.
+
+    Args:
+        nodes: arclength of the nodes, shape (S,) [m].
+        force: of the ground on each, 0 where it does not touch, shape (B, S) [N].
+        height: of each, shape (B, S) [m].
+        pressures: of the segments, shape (B, S) [Pa].
+        press: with which adhesion pulls at a flat stretch besides its weight; with any an inflated
+            end may lie flat too [N/m].
+
+    Returns:
+        Two arrays of shape (B,) [m]; half the length each where no node is in the air, NaN where
+        a force is.
+    """
+    up = lifted_nodes(robot, nodes, height)
+    weight = robot.weight_per_length + press
+    left = _from_left(weight, nodes, force, up)
+    right = _from_left(weight, nodes[-1] - nodes[::-1], force[:, ::-1], up[:, ::-1])
+    flat = ~up.any(axis=1)
+    half = 0.5 * robot.length
+    blank = np.where(np.isfinite(force).all(axis=1), 1.0, np.nan)
+    left, right = np.where(flat, half, left), np.where(flat, half, right)
+    if not press:
+        left, right = (
+            _if_flat(pressures[:, 0], robot, left),
+            _if_flat(pressures[:, -1], robot, right),
+        )
+    return blank * left, blank * right
+
+
+def lifted_nodes(robot: Robot, nodes: Array, height: Array) -> NDArray[np.bool_]:
+    """Nodes that are in the air: higher than a flat stretch ripples between those that push it."""
+    return np.asarray(height > ripple(robot, nodes))
+
+
+def ripple(robot: Robot, nodes: Array) -> float:
+    """How high a flat stretch ripples between nodes that push it, a bound [m]."""
+    spacing = float(np.diff(nodes).max())
+    unit = robot.weight_per_length * robot.length * spacing**3 / pneunet.base_rigidity(robot)
+    return _RIPPLE * unit
+
+
+def _if_flat(pressure: Array, robot: Robot, contact: Array) -> Array:
+    return np.where(may_lie_flat(pressure, robot.peak_pressure), contact, 0.0)
+
+
+def _from_left(weight: float, nodes: Array, force: Array, up: NDArray[np.bool_]) -> Array:
+    begun = np.cumsum(force > 0, axis=1) > 0  # the outermost node may hover by a rounding of h
+    held = force * (np.cumsum(begun & up, axis=1) == 0)
+    return np.asarray(flat_length(weight, held.sum(axis=1), held @ nodes))
+
+
+def flat_length(weight: Any, total: Any, moment: Any) -> Any:
+    """xi of a flat end that carries F = w xi + R with the moment M = w xi^2 / 2 + R xi [m].
+
+    Args:
+        weight: w [N/m], a float or an array.
+        total: F [N], a float or an array.
+        moment: M about the end [N m], of the shape of F.
+    """
+    square = total * total - 2.0 * weight * moment
+    return (total - (0.5 * (square + abs(square))) ** 0.5) / weight
+
+
+def may_lie_flat(pressure: Any, peak_pressure: Any) -> Any:
+    """Whether an end segment at this pressure [Pa] may lie on its side: with next to none."""
+    return abs(pressure) <= PASSIVE * peak_pressure
+
+
+def end_loads(force: Array, height: Array) -> tuple[Array, Array]:
+    """Normal force on the left and the right part of the strip, either side of its highest node.
+
+    Args:
+        force: of the ground on each node, (B, S) [N].
+        height: of each, (B, S) [m].
+
+    Returns:
+        Two arrays of shape (B,) [N].
+    """
+    first = np.arange(force.shape[1]) <= np.argmax(np.nan_to_num(height), axis=1)[:, None]
+    left, right = (np.where(side, force, 0.0).sum(axis=1) for side in (first, ~first))
+    # an end that carries less by rounding only carries no less
+    return left, np.where(np.isclose(left, right, rtol=1e-9, atol=0), left, right)
+
+
+def contact_mode(robot: Robot, left: Array, right: Array) -> NDArray[np.int_]:
+    """Mode by the ends' contact lengths, shape (B,); BOTH where both lie flat.
+
+    Segments are counted from the left; the third stands for all beyond it too.
+    """
+    reach = robot.length * (1 + 1e-9)  # lengths come with rounding
+    inner = robot.borders[1:-1]
+    in_left = np.minimum(np.searchsorted(inner, left / reach, side="right"), 2)
+    in_right = np.minimum(np.searchsorted(inner, 1 - right / robot.length, side="right"), 2)
+    mode = np.full(len(left), int(Mode.TIP))
+    mode = np.where(left > 0, Mode.LEFT_1 + in_left, mode)
+    mode = np.where(right > 0, Mode.RIGHT_1 + in_right, mode)
+    mode = np.where((left > 0) & (right > 0), Mode.BOTH, mode)
+    return np.where(left + right >= robot.length * (1 - 1e-9), Mode.FLAT, mode)

@@ -1,0 +1,139 @@
+"""Where a strip touches the ground: its contacts from end to end, each a tip or a side.
+
+Plain floats, since this is asked at every step of a simulation, and numpy is slow on a few numbers.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.friction.contact_length import flat_length, ripple
+from analytic.scene.robot import Robot
+from analytic.solvers.shapes import ContactShapes
+
+Array = NDArray[np.float64]
+
+_FLAT = 1e-3  # rad; less steep than this is flat, as in the simulation; chosen
+_POINT = 2  # nodes in a row that push in one point of contact, as it may fall between two
+
+
+class Patch(NamedTuple):
+    """One contact.
+
+    Attributes:
+        nodes, share: of the strip that move with it and their parts in its motion: of an end the
+            end itself, else those that push, by their force.
+        length: of side contact, 0 for a tip [m].
+        load: normal force [N].
+    """
+
+    nodes: list[int]
+    share: list[float]
+    length: float
+    load: float
+
+    def extent(self, x: Array) -> tuple[float, float]:
+        """Where it begins and ends, from the places of all nodes (N,) [m]."""
+        place = float(np.dot(self.share, x[self.nodes]))
+        if self.nodes == [0]:
+            return place, place + self.length
+        if self.nodes == [len(x) - 1]:
+            return place - self.length, place
+        return place - 0.5 * self.length, place + 0.5 * self.length
+
+
+class Finder:
+    """Finds the contacts of one strip.
+
+    Args:
+        robot: the strip.
+        nodes: arclength of its nodes, (N,) [m].
+        press: of adhesive ground, see analytic.friction.contact_length [N/m].
+    """
+
+    def __init__(self, robot: Robot, nodes: Array, press: float = 0.0) -> None:
+        self._weight = robot.weight_per_length + press
+        self._place: list[float] = nodes.tolist()
+        self._lifted = ripple(robot, nodes)
+
+    def find(
+        self, force: Sequence[float], height: Sequence[float], lengths: tuple[float, float]
+    ) -> list[Patch]:
+        """The contacts of one state, left first.
+
+        The two ends are tips or sides as in analytic.friction.contact_length, unless they curl up.
+        Between them a run of nodes on the ground is a tip if it is one point, else a side whose
+        length follows from its forces, as that of an end: either half of it carries its weight and
+        a push. There an inflated part may lie flat too, held by the weight on both sides of it.
+
+        Args:
+            force: of the ground on the nodes, (N,) [N].
+            height: of the nodes, (N,) [m].
+            lengths: of side contact of the two ends, see analytic.friction.contact_length: 0 for a
+                tip; used as they are where the strip lies flat as a whole [m].
+        """
+        pushing = [node for node, push in enumerate(force) if push > 0.0]
+        if not pushing:
+            return []
+        runs = self._runs(pushing, height)
+        whole = len(runs) == 1  # the ends' contacts are its halves
+        if whole:
+            middle = len(force) // 2
+            halves = ([n for n in pushing if n < middle], [n for n in pushing if n >= middle])
+            runs = [half for half in halves if half]
+        contacts = []
+        for number, run in enumerate(runs):
+            push = [force[node] for node in run]
+            load = sum(push)
+            end = 0 if number == 0 else len(force) - 1
+            outermost = number == 0 or number == len(runs) - 1
+            if outermost and height[end] <= self._lifted:
+                length = lengths[1 if end else 0]
+                if length and not whole:
+                    length = self._side(run, push, self._place[end])
+                contacts.append(Patch([end], [1.0], length, load))
+            else:
+                share = [part / load for part in push]
+                contacts.append(Patch(run, share, self._length_between(run, push), load))
+        return contacts
+
+    def _runs(self, pushing: list[int], height: Sequence[float]) -> list[list[int]]:
+        """Nodes that push with no air between them."""
+        runs, last = [[pushing[0]]], pushing[0]
+        for node in pushing[1:]:
+            if node > last + 1:
+                top = max(height[last + 1 : node])
+                if top > self._lifted and top > _FLAT * (self._place[node] - self._place[last]):
+                    runs.append([])
+            runs[-1].append(node)
+            last = node
+        return runs
+
+    def _side(self, run: list[int], push: list[float], end: float) -> float:
+        """Length of a flat stretch that begins at an end, from what its nodes carry [m]."""
+        moment = sum(p * abs(self._place[node] - end) for node, p in zip(run, push, strict=True))
+        return float(flat_length(self._weight, sum(push), moment))
+
+    def _length_between(self, run: list[int], push: list[float]) -> float:
+        if run[-1] - run[0] < _POINT:
+            return 0.0
+        middle = 0.5 * (self._place[run[0]] + self._place[run[-1]])
+        length = 0.0
+        for sign in (-1.0, 1.0):
+            total = moment = 0.0
+            for node, part in zip(run, push, strict=True):
+                reach = sign * (self._place[node] - middle)
+                if reach >= 0:
+                    total += part if reach else 0.5 * part
+                    moment += part * reach
+            length += float(flat_length(self._weight, total, moment))
+        return length
+
+
+def patches_of(shapes: ContactShapes, height: Array, state: int) -> list[Patch]:
+    """The contacts of one of several states, its nodes at heights of shape (B, N) [m]."""
+    lengths = float(shapes.contact_left[state]), float(shapes.contact_right[state])
+    finder = Finder(shapes.robot, shapes.nodes)
+    return finder.find(shapes.force[state].tolist(), height[state].tolist(), lengths)

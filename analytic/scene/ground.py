@@ -1,0 +1,115 @@
+"""Ground that changes along x: one surface after the other."""
+
+import math
+from bisect import bisect_right
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from analytic.checks import file_word, is_number
+from analytic.scene.surface import RESISTANCES, Ground, Surface
+
+_SAMPLES = 16  # of a field along a side contact; chosen
+
+
+@dataclass(frozen=True)
+class Patches:
+    """Surfaces beside each other, the robot's left end beginning at x = 0.
+
+    Args:
+        name: how files and tables call it.
+        borders: where one ends and the next begins, ascending [m].
+        surfaces: one more than borders, left first.
+
+    Raises:
+        ValueError: there is no border, borders do not ascend, or the numbers do not match.
+    """
+
+    name: str
+    borders: tuple[float, ...]
+    surfaces: tuple[Surface, ...]
+
+    def __post_init__(self) -> None:
+        file_word("name of a ground", self.name)
+        object.__setattr__(self, "borders", tuple(self.borders))
+        object.__setattr__(self, "surfaces", tuple(self.surfaces))
+        if not self.borders:
+            raise ValueError("patches must have at least one border between them, got none")
+        for border in self.borders:
+            if not is_number(border):
+                raise ValueError(f"borders of patches must be finite numbers [m], got {border!r}")
+        if any(two <= one for one, two in zip(self.borders, self.borders[1:], strict=False)):
+            raise ValueError(f"borders of patches must ascend, got {self.borders!r}")
+        if len(self.surfaces) != len(self.borders) + 1:
+            raise ValueError(
+                f"{len(self.borders)} borders need {len(self.borders) + 1} surfaces, "
+                f"got {len(self.surfaces)}"
+            )
+
+    def at(self, x: float) -> Surface:
+        """The surface at a place [m]; at a border the right one."""
+        return self.surfaces[bisect_right(self.borders, x)]
+
+    def extents(self) -> list[tuple[float, float, Surface]]:
+        """Where each surface begins and ends, the outer ones at infinity [m]."""
+        places = (-math.inf, *self.borders, math.inf)
+        return list(zip(places[:-1], places[1:], self.surfaces, strict=True))
+
+
+def surfaces_of(ground: Ground) -> tuple[Surface, ...]:
+    """Every surface that can occur on a ground.
+
+    Raises:
+        ValueError: the ground does not list them.
+    """
+    surfaces = tuple(getattr(ground, "surfaces", ()))
+    if not surfaces:
+        raise ValueError(
+            f"ground {ground.name!r} must list as `surfaces` every surface that its `at` can give"
+        )
+    return surfaces
+
+
+def uniform(ground: Ground) -> Surface:
+    """The surface of a uniform ground.
+
+    Raises:
+        ValueError: the ground changes along x.
+    """
+    if not isinstance(ground, Surface):
+        raise ValueError(f"the ground must be one surface everywhere, got {ground.name!r}")
+    return ground
+
+
+def depends_on_speed(ground: Ground) -> bool:
+    """Whether it resists anywhere by how fast it is slid over."""
+    return any(surface.depends_on_speed for surface in surfaces_of(ground))
+
+
+def check_adhesion(ground: Ground) -> None:
+    """Raise ValueError for ground that changes along x and is adhesive anywhere."""
+    sticky = any(surface.adhesion for surface in surfaces_of(ground))
+    if sticky and not isinstance(ground, Surface):
+        raise ValueError(f"adhesion must be of uniform ground, got {ground.name!r}")
+
+
+def over(ground: Ground, begin: float, end: float) -> Surface:
+    """What a side contact between two places rests on: the mean of the ground's properties.
+
+    Bounds and viscous resistance are linear in them, so that theirs is the sum over the stretch.
+    """
+    if isinstance(ground, Surface) or end <= begin:
+        return ground.at(begin)
+    if isinstance(ground, Patches):
+        inner = [border for border in ground.borders if begin < border < end]
+        edges = [begin, *inner, end]
+    else:
+        edges = [begin + (end - begin) * i / _SAMPLES for i in range(_SAMPLES + 1)]
+    if len(edges) == 2:
+        return ground.at(begin)
+    pieces = [(ground.at(0.5 * (a + b)), (b - a) / (end - begin)) for a, b in pairwise(edges)]
+    means = {}
+    for name in RESISTANCES:
+        values = [getattr(surface, name) for surface, _ in pieces]
+        parts = zip(values, (part for _, part in pieces), strict=True)
+        means[name] = values[0] if len(set(values)) == 1 else sum(v * part for v, part in parts)
+    return replace(ground.at(0.5 * (begin + end)), **means)

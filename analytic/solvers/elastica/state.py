@@ -1,0 +1,58 @@
+"""A shape of the chain, and what may hold it to the ground along x."""
+
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+class ChainState(NamedTuple):
+    """A shape.
+
+    Attributes:
+        y: heights of the nodes, (N + 2,).
+        theta, shear, tension: direction, vertical and horizontal internal force of the links,
+            (N + 1,); tension but for the weight's part along a slope.
+        active: nodes that the ground holds.
+        left: x of the left end.
+        near: nodes low enough for adhesive ground to pull at.
+    """
+
+    y: Array
+    theta: Array
+    shear: Array
+    active: Mask
+    tension: Array
+    left: float
+    near: Mask
+
+
+class Grip(Protocol):
+    """Additions of the ground's traction to Newton's method, see solvers.elastica.stick_slip."""
+
+    def columns(self) -> Array:
+        """Tension in the links by a unit of traction at each contact, (N + 1, C)."""
+        ...
+
+    def settle(
+        self, state: ChainState, free: ChainState, response: ChainState
+    ) -> ChainState | None:
+        """The state of the next step, None if the ground cannot hold it.
+
+        Args:
+            state: where the step begins.
+            free: where it would lead without traction.
+            response: what a unit of traction at each contact adds, arrays with C columns.
+        """
+        ...
+
+    def look(self, state: ChainState) -> bool:
+        """Read the contacts of a state; whether they are those that it was found with."""
+        ...
+
+    def holds(self, state: ChainState) -> Array:
+        """How positions along x of the contacts that stick follow the links', (M, N + 1)."""
+        ...

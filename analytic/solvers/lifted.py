@@ -1,0 +1,269 @@
+"""The contact modes of [Majidi13] with finite rotations: the lifted part as an elastica.
+
+As in the modes of Appendix A the strip touches the ground at two tips, or lies flat at one end up
+to a lift-off point xi; but the lifted part may turn by any angle. Friction pulls at nothing, so the
+moment there follows from weight and reaction alone,
+
+    M(s) = R (x_b - x(s)) - w int_s^b (x - x(s)) ds,   R = w int_a^b (x - x_a) ds / (x_b - x_a),
+    theta'(s) = M(s) / D - kappa,
+
+and is right for the places x of the last pass: a few passes converge, on Chebyshev nodes between
+the borders of the segments, over all states at once. What is left is one number a state, from the
+end's height y_b = 0: the slope of a tip, in closed form, or xi by the secant method.
+
+Exact contact holds where no state is flagged, see analytic.uncertainty.modes_error.
+
+Dimensionless inside: lengths over L, rigidity over D0.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from analytic.friction.contact_length import contact_mode
+from analytic.scene import pneunet
+from analytic.scene.pressures import check_pressures
+from analytic.scene.robot import Robot
+from analytic.solvers.shapes import Shapes, Status
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+_NODES = 7  # between two borders: 1e-5 of L in the separation
+_PASSES, _SECANTS = 80, 40
+_BETWEEN = 3  # passes before the lift-off point is moved again
+_CONVERGED = 1e-8  # change of slopes [rad] and lift-off points over L in a pass
+_CLOSED = 1e-6  # height of the far end over L
+_LONGEST_MOVE = 0.05  # of a lift-off point over L at once
+_GRID = 60  # places at which the sign of the end's height is looked at first
+_TOLERANCE = 1e-7  # of slopes and heights over L, below which they are none
+_FLAT = 1e-12  # kappa L below which a strip is as good as flat
+
+_U = 0.5 * (1 - np.cos(np.pi * np.arange(_NODES) / (_NODES - 1)))
+_TO_POWERS = np.linalg.inv(np.vander(_U, _NODES, increasing=True))
+_INTEGRATE = (
+    np.vander(_U, _NODES + 1, increasing=True)[:, 1:] / np.arange(1, _NODES + 1)
+) @ _TO_POWERS
+
+
+class _Beam(NamedTuple):
+    """States: natural curvature and rigidity of the segments, (B, S), weight, borders (S + 1,)."""
+
+    curvature: Array
+    rigidity: Array
+    weight: float
+    borders: Array
+
+    def rows(self, chosen: Any) -> "_Beam":
+        return self._replace(curvature=self.curvature[chosen], rigidity=self.rigidity[chosen])
+
+
+def solve_lifted(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
+    """Equilibria with two tips, or one end flat and the other a tip, at any rotation.
+
+    Which end lies flat is decided as in the modes: one whose slope between two tips points into the
+    ground, if both do the steeper one.
+
+    Args:
+        robot: the strip.
+        pressures_pa: segment pressures, left first, shape (B, S) or (S,) [Pa], at least 0.
+
+    Returns:
+        Shapes of B states; `status` says where the assumptions break.
+
+    Raises:
+        ValueError: the shape is wrong, or a pressure is negative or not finite.
+    """
+    p = check_pressures(robot, pressures_pa)
+    d0 = pneunet.base_rigidity(robot)
+    beam = _Beam(
+        np.asarray(pneunet.natural_curvature(robot, p)) * robot.length,
+        np.asarray(pneunet.rigidity(robot, p)) / d0,
+        robot.weight_per_length * robot.length**3 / d0,
+        np.asarray(robot.borders, dtype=float),
+    )
+    count = len(p)
+    xi, status = np.zeros(count), np.full(count, int(Status.OK))
+    flat: Mask = np.asarray((beam.curvature <= _FLAT).all(axis=1))
+    slope, done = _tips(beam)
+    into_left, into_right = -slope[:, 0, 0], slope[:, -1, -1]
+    lies = (np.maximum(into_left, into_right) > _TOLERANCE) & ~flat
+    mirrored: Mask = np.asarray(lies & (into_right > into_left + _TOLERANCE))
+    rows = np.flatnonzero(lies)
+    if len(rows):
+        turned = mirrored[rows, None]
+        part = beam.rows(rows)._replace(
+            curvature=np.where(turned, beam.curvature[rows, ::-1], beam.curvature[rows]),
+            rigidity=np.where(turned, beam.rigidity[rows, ::-1], beam.rigidity[rows]),
+        )
+        xi[rows], slope[rows], found, done[rows] = _one_flat(part, mirrored[rows])
+        status[rows[~found]] |= int(Status.NO_ROOT)
+    status[~done & (status == 0)] |= int(Status.NOT_CONVERGED)
+
+    lifted = _Lifted(beam, mirrored, xi, slope, flat)
+    # an end that lies flat has slope 0 there, so this looks at the ends in point contact only
+    sinking = np.maximum(-slope[:, 0, 0], slope[:, -1, -1]) > 100 * _TOLERANCE
+    status[sinking & ~flat] |= int(Status.BOTH_FLAT)
+    status[~flat & (lifted.height.min(axis=(1, 2)) < -10 * _TOLERANCE)] |= int(Status.PENETRATES)
+    status[lies & lifted.held()] |= int(Status.HELD_FLAT)
+
+    blank = np.where(status & int(Status.NO_ROOT | Status.NOT_CONVERGED), np.nan, robot.length)
+    left = np.where(flat, 0.5, np.where(mirrored, 0.0, xi)) * blank
+    right = np.where(flat, 0.5, np.where(mirrored, xi, 0.0)) * blank
+    return Shapes(
+        robot=robot,
+        separation=np.where(flat, 1.0, xi + lifted.x[:, -1, -1]) * blank,
+        contact_left=left,
+        contact_right=right,
+        amplitude=np.where(flat, 0.0, lifted.height.max(axis=(1, 2))) * blank,
+        mode=contact_mode(robot, np.nan_to_num(left), np.nan_to_num(right)),
+        status=status,
+        curve=_Curve(lifted, robot.length, blank),
+    )
+
+
+def _cumulative(values: Array, spans: Array) -> Array:
+    """Integral from the lift-off point to each node, (B, S, N)."""
+    within = (values @ _INTEGRATE.T) * spans[..., None]
+    before = np.cumsum(within[..., -1], axis=1) - within[..., -1]
+    return np.asarray(within + before[..., None])
+
+
+def _bent(beam: _Beam, spans: Array, slope: Array) -> Array:
+    """Slopes that the moments at these slopes bend to, from 0 at the lift-off point, (B, S, N)."""
+    x = _cumulative(np.cos(slope), spans)
+    arclength = _cumulative(np.ones_like(slope), spans)
+    first = _cumulative(x, spans)
+    whole, length = first[:, -1:, -1:], arclength[:, -1:, -1:]
+    end = np.where(x[:, -1:, -1:] == 0.0, 1.0, x[:, -1:, -1:])
+    moment = whole / end * (x[:, -1:, -1:] - x) - (whole - first) + x * (length - arclength)
+    bending = beam.weight * moment / beam.rigidity[..., None] - beam.curvature[..., None]
+    return _cumulative(bending, spans)
+
+
+def _tips(beam: _Beam) -> tuple[Array, Mask]:
+    """Slopes between two tips, (B, S, N), and which states converged."""
+    count, segments = beam.curvature.shape
+    slope, moved = np.zeros((count, segments, _NODES)), np.full(count, np.inf)
+    spans = np.broadcast_to(np.diff(beam.borders), (count, segments))
+    for _ in range(_PASSES):
+        rows = np.flatnonzero(moved > _CONVERGED)
+        if not len(rows):
+            break
+        bent, here = _bent(beam.rows(rows), spans[rows], slope[rows]), spans[rows]
+        rise = _cumulative(np.sin(bent), here)[:, -1, -1]
+        run = _cumulative(np.cos(bent), here)[:, -1, -1]
+        bent -= np.arctan2(rise, run)[:, None, None]  # so that the far end is at the ground
+        moved[rows] = np.abs(bent - slope[rows]).max(axis=(1, 2))
+        slope[rows] = bent
+    return slope, moved <= _CONVERGED
+
+
+def _one_flat(beam: _Beam, mirrored: Mask) -> tuple[Array, Array, Mask, Mask]:
+    """Lift-off points and slopes with the left end flat, whether one exists, and converged.
+
+    Args:
+        beam: the states as seen from their flat end.
+        mirrored: those that are seen from their right end; their slopes are turned back.
+    """
+    borders = np.where(mirrored[:, None], 1.0 - beam.borders[::-1], beam.borders)
+    count, segments = beam.curvature.shape
+
+    def end_height(rows: NDArray[np.int_], xi: Array) -> Array:
+        ends = np.maximum(borders[rows], xi[:, None])  # what lies flat has no span
+        spans = np.diff(ends)
+        for _ in range(_BETWEEN):
+            slope[rows] = _bent(beam.rows(rows), spans, slope[rows])
+        return np.asarray(_cumulative(np.sin(slope[rows]), spans)[:, -1, -1])
+
+    slope = np.zeros((count, segments, _NODES))
+    xi, found = _first_guess(beam, borders)
+    before = np.clip(xi - 0.002, 0.0, 1.0)
+    everything = np.arange(count)
+    end_height(everything, before)  # twice, as the first passes begin from a straight strip
+    height_before, height = end_height(everything, before), end_height(everything, xi)
+    moved = np.where(found, np.inf, 0.0)
+    for _ in range(_SECANTS):
+        rows = np.flatnonzero((moved > _CONVERGED) | (found & (np.abs(height) > _CLOSED)))
+        if not len(rows):
+            break
+        rise = height[rows] - height_before[rows]
+        rise = np.where(np.abs(rise) < 1e-15, np.copysign(1e-15, rise), rise)
+        step = -height[rows] * (xi[rows] - before[rows]) / rise
+        step = np.clip(step, -_LONGEST_MOVE, _LONGEST_MOVE)
+        before[rows], height_before[rows] = xi[rows], height[rows]
+        xi[rows] = np.clip(xi[rows] + step, 0.0, 1.0 - 1e-6)
+        moved[rows] = np.abs(xi[rows] - before[rows])
+        height[rows] = end_height(rows, xi[rows])
+    slope[mirrored] = -slope[mirrored, ::-1, ::-1]
+    return xi, slope, found, np.abs(height) <= _CLOSED
+
+
+def _first_guess(beam: _Beam, borders: Array) -> tuple[Array, Mask]:
+    """Lift-off points nearest the flat end by small slopes, and whether there is one.
+
+    With X = 1 - xi the end's height is F(X) = int_0^X v (-kappa + g v (X - v) / 2) dv, v from the
+    far end (Appendix A), over the rigidity of each segment.
+    """
+    x = np.linspace(0.0, 1.0, _GRID + 1)[1:]
+    from_end = 1.0 - borders[:, ::-1]  # (B, S + 1)
+    low, high = from_end[:, None, :-1], np.minimum(from_end[:, None, 1:], x[:, None])
+    high = np.maximum(low, high)
+    k, g = beam.curvature[:, None, ::-1], beam.weight / beam.rigidity[:, None, ::-1]
+    square, cube, fourth = (
+        (power * (high**n - low**n) / n).sum(axis=2) for n, power in ((2, k), (3, g), (4, g))
+    )
+    height = -square + 0.5 * x * cube - 0.5 * fourth
+    crossing = (height[:, 1:] > 0) != (height[:, :-1] > 0)
+    last = crossing.shape[1] - 1 - np.argmax(crossing[:, ::-1], axis=1)
+    rows = np.arange(len(height))
+    one, two = height[rows, last], height[rows, last + 1]
+    part = one / np.where(one == two, 1.0, one - two)
+    found = crossing.any(axis=1)
+    at = x[last] + np.clip(part, 0, 1) * (x[1] - x[0])
+    return np.where(found, 1.0 - at, 0.5), found
+
+
+class _Lifted:
+    """Places of the lifted part's nodes, from its left end, and its material points on demand."""
+
+    def __init__(self, beam: _Beam, mirrored: Mask, xi: Array, slope: Array, flat: Mask) -> None:
+        self.beam, self.flat = beam, flat
+        self.first = np.where(mirrored, 0.0, xi)  # where it begins and ends, from the left
+        self.last = np.where(mirrored, 1.0 - xi, 1.0)
+        self.low = np.clip(beam.borders[:-1], self.first[:, None], self.last[:, None])
+        high = np.clip(beam.borders[1:], self.first[:, None], self.last[:, None])
+        self.spans = high - self.low
+        self.x = _cumulative(np.cos(slope), self.spans)
+        self.height = _cumulative(np.sin(slope), self.spans)
+
+    def held(self) -> Mask:
+        """Whether a part that lies flat is inflated."""
+        flat = np.diff(self.beam.borders) - self.spans > _TOLERANCE
+        return np.asarray((flat & (self.beam.curvature > _FLAT)).any(axis=1))
+
+
+class _Curve:
+    """Material points, by the polynomials through the nodes."""
+
+    def __init__(self, lifted: _Lifted, length: float, blank: Array) -> None:
+        self._of, self._length, self._blank = lifted, length, blank
+
+    def __call__(self, s: Array) -> tuple[Array, Array]:
+        """See Shapes.curve."""
+        of = self._of
+        u = np.asarray(s, dtype=float) / self._length
+        segment = np.clip(np.searchsorted(of.beam.borders, u, side="right") - 1, 0,
+                          of.spans.shape[1] - 1)  # fmt: skip
+        span = of.spans[:, segment]
+        within = np.clip((u - of.low[:, segment]) / np.where(span > 0, span, 1.0), 0.0, 1.0)
+        powers = within[..., None] ** np.arange(_NODES)
+        x, y = ((powers * (values @ _TO_POWERS.T)[:, segment]).sum(axis=-1)
+                for values in (of.x, of.height))  # fmt: skip
+        before = np.minimum(u, of.first[:, None])
+        after = np.maximum(u - of.last[:, None], 0.0)
+        x, y = before + x + after, np.where(after > 0, 0.0, y)
+        lying = of.flat[:, None]
+        scale = self._blank[:, None]
+        return scale * np.where(lying, u, x), scale * np.where(lying, 0.0, y)

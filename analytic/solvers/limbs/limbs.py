@@ -1,0 +1,168 @@
+"""Limbs that make a robot: pneu-nets that bend in upright planes of their own.
+
+A limb is a strip of one pneu-net, an analytic.Robot of one segment. It begins at one end of the
+limb that carries it, or is the trunk, and runs away from there at an angle in plan.
+"""
+
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.checks import is_number, one_of
+from analytic.scene.robot import GRAVITY, Robot
+
+Array = NDArray[np.float64]
+End = Literal["begin", "end"]
+
+
+@dataclass(frozen=True)
+class Limb:
+    """One pneu-net.
+
+    Raises:
+        ValueError: a value is out of its range; the message names it.
+    """
+
+    name: str
+    """how gaits and files call it"""
+    strip: Robot
+    """its geometry, material and weight, of one segment"""
+    on: str | None = None
+    """limb that carries it; None for the trunk"""
+    at: End = "end"
+    """end of that limb where it begins"""
+    angle: float = 0.0
+    """of its direction in plan, from the ground's x to the left [rad]"""
+    offset: float = 0.0
+    """of its beginning to the left of the carrier's middle line [m]"""
+
+    def __post_init__(self) -> None:
+        if len(self.strip.segments) != 1:
+            raise ValueError(
+                f"limb {self.name!r} must be one segment, got {len(self.strip.segments)}"
+            )
+        one_of("at", self.at, ("begin", "end"))
+        for name in ("angle", "offset"):
+            if not is_number(getattr(self, name)):
+                raise ValueError(f"{name} must be a finite number, got {getattr(self, name)!r}")
+
+
+@dataclass(frozen=True)
+class TreeRobot:
+    """A robot of limbs, the trunk first; each is carried by one before it.
+
+    Raises:
+        ValueError: it is no tree of such limbs, or two have one name.
+    """
+
+    limbs: tuple[Limb, ...]
+    peak_pressure: float = field(default=Robot.peak_pressure)
+    """that fractions of a gait are of [Pa]"""
+
+    def __post_init__(self) -> None:
+        known: list[str] = []
+        for limb in self.limbs:
+            if limb.name in known:
+                raise ValueError(f"limb {limb.name!r} is there twice")
+            if (limb.on is None) != (not known):
+                raise ValueError(f"limb {limb.name!r}: the first limb, and no other, is the trunk")
+            if limb.on is not None:
+                one_of(f"limb {limb.name!r}: on", limb.on, known)
+            known.append(limb.name)
+        if not known:
+            raise ValueError("a robot must have one limb at least, got none")
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the limbs, in the order of a gait's fractions."""
+        return tuple(limb.name for limb in self.limbs)
+
+    def place(self, name: str) -> int:
+        """Of a limb among them."""
+        one_of("limb", name, self.names)
+        return self.names.index(name)
+
+    @property
+    def outer(self) -> tuple[str, ...]:
+        """Names of the limbs that carry none."""
+        carriers = {limb.on for limb in self.limbs}
+        return tuple(name for name in self.names if name not in carriers)
+
+    @property
+    def weight(self) -> float:
+        """Of all limbs [N]."""
+        return sum(limb.strip.weight for limb in self.limbs)
+
+
+def plan(robot: TreeRobot) -> dict[str, tuple[Array, Array]]:
+    """Where the middle line of each limb begins and ends, lying flat, by its name, (2,) [m]."""
+    found: dict[str, tuple[Array, Array]] = {}
+    for limb in robot.limbs:
+        begin = np.zeros(2)
+        if limb.on is not None:
+            heading = robot.limbs[robot.place(limb.on)].angle
+            begin = found[limb.on][0 if limb.at == "begin" else 1]
+            begin = begin + limb.offset * np.array([-np.sin(heading), np.cos(heading)])
+        along = limb.strip.length * np.array([np.cos(limb.angle), np.sin(limb.angle)])
+        found[limb.name] = begin, begin + along
+    return found
+
+
+def outline(robot: TreeRobot) -> tuple[float, float]:
+    """Length along the trunk and width across it, lying flat, between ends of middle lines [m]."""
+    places = np.array([place for ends in plan(robot).values() for place in ends])
+    along, across = np.ptp(places @ rotation(robot.limbs[0].angle), axis=0)
+    return float(along), float(across)
+
+
+def rotation(angle: float) -> Array:
+    """Matrix of a turn to the left in plan, (2, 2)."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s], [s, c]])
+
+
+# the public finite-element mesh of this robot, SofaDefrost/ModelOrderReduction, multiGait
+LENGTH, LEG_ANGLE, MASS = 0.1357, np.deg2rad(20.0), 0.035  # m, rad, kg
+TORSO_WIDTH, LEG_WIDTH = 0.0323, 0.0135  # m
+
+ORDER = ("torso", "rear-left", "rear-right", "front-left", "front-right")
+
+
+def quadruped(base: Robot | None = None, angle: float = LEG_ANGLE) -> TreeRobot:
+    """The paper's robot: a torso and four legs, each a third of its length along the body.
+
+    Args:
+        base: thickness, chambers, modulus of all five; of the strip of [Majidi13] if None.
+        angle: of each leg to the axis of the body [rad].
+    """
+    third = LENGTH / 3
+    strip = replace(base or Robot(), segments=(1.0,))
+    plan = third * TORSO_WIDTH + 4 * third / float(np.cos(angle)) * LEG_WIDTH
+    by_area = MASS * GRAVITY / plan  # the silicone is as thick everywhere [N/m^2]
+    torso = replace(strip, length=third, width=TORSO_WIDTH, weight_per_length=by_area * TORSO_WIDTH)
+    leg = replace(strip, length=third / float(np.cos(angle)), width=LEG_WIDTH,
+                  weight_per_length=by_area * LEG_WIDTH)  # fmt: skip
+    side = 0.5 * (TORSO_WIDTH - LEG_WIDTH)
+    legs = [
+        Limb(name, leg, "torso", "begin" if rear else "end",
+             float((np.pi - left * angle) if rear else left * angle), float(left * side))
+        for name, rear, left in zip(ORDER[1:], (True, True, False, False), (1, -1, 1, -1),
+                                    strict=True)
+    ]  # fmt: skip
+    return TreeRobot((Limb("torso", torso), *legs))
+
+
+def as_strip(strip: Robot) -> TreeRobot:
+    """A strip of three segments as a torso with a leg before and one behind, to verify by."""
+    lengths = strip.length * np.diff(strip.borders)
+    rear, middle, front = (replace(strip, length=float(part), segments=(1.0,)) for part in lengths)
+    return TreeRobot(
+        (
+            Limb("torso", middle),
+            Limb("rear", rear, "torso", "begin", float(np.pi)),
+            Limb("front", front, "torso", "end"),
+        ),
+        strip.peak_pressure,
+    )

@@ -1,0 +1,124 @@
+"""Trees of limbs on ground that holds: friction decides who slides, and bends the robot.
+
+In each increment the robot goes where energy and dissipation together are least,
+
+    energy(q) + sum_j V_j |u_j| + k_j |u_j|^2 / 2,    u_j = r_j(q) - r_j before,
+
+over shapes on or above the ground, with r_j the places in plan of its contacts: the incremental
+minimisation of a rate-independent system (Mielke), as analytic.solvers.elastica.stick_slip does in
+a plane. Weak friction is its limit (analytic.solvers.limbs.walk). First order in the increments.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.scene.ground import surfaces_of
+from analytic.scene.surface import Ground
+from analytic.solvers.limbs.contacts import Contact, Contacts, check_ground
+from analytic.solvers.limbs.grip import Grip
+from analytic.solvers.limbs.path import Path
+from analytic.solvers.limbs.statics import Rest, Statics
+
+Array = NDArray[np.float64]
+
+_VISCOSITY = 1e-3  # of all contacts alike: weight over length; decides what bounds leave open
+_HALVINGS = 3  # of increments in which contacts change
+_INSTANT = 1e-12  # s; a shortest increment
+_TRIES = 4  # to find the contacts of a state that rest on its own forces
+
+
+def drag_along(
+    statics: Statics,
+    pressures: Array,
+    ground: Ground,
+    law: str = "constant",
+    times: Array | None = None,
+) -> Path:
+    """The path along pressures on a ground that bends the robot.
+
+    Increments in which a contact begins or ends are halved three times: what changes there does so
+    at once.
+
+    Args:
+        statics: of the tree.
+        pressures: of its limbs, (B, L) [Pa].
+        ground, law, times: see analytic.solvers.limbs.walk.follow.
+
+    Raises:
+        ValueError: see analytic.solvers.limbs.walk.follow.
+    """
+    check_ground(ground)
+    viscous = any(surface.viscosity for surface in surfaces_of(ground))
+    if viscous and times is None:
+        raise ValueError(f"times of the shapes must be given on viscous ground {ground.name!r}")
+    when: Array = np.arange(float(len(pressures))) if times is None else times
+    return _Drag(statics, ground, law).along(pressures, when)
+
+
+class _Drag:
+    """One walk: its states so far."""
+
+    def __init__(self, statics: Statics, ground: Ground, law: str) -> None:
+        self._statics, self._ground = statics, ground
+        self._finder = Contacts(statics.tree, law)
+        self._tie = _VISCOSITY * statics.tree.robot.weight / statics.length
+        self._rests: list[Rest] = []
+        self._contacts: list[list[Contact]] = []
+        self._rows: list[Array] = []
+
+    def along(self, pressures: Array, times: Array) -> Path:
+        first = self._statics.equilibrium(pressures[0], self._statics.flat())
+        self._keep(pressures[0], first, self._finder.find(first, pressures[0]))
+        for (one, two), span in zip(pairwise(pressures), np.diff(times).tolist(), strict=True):
+            self._go(one, two, max(span, _INSTANT), 0)
+        q = np.array([rest.q for rest in self._rests])
+        converged = all(rest.converged for rest in self._rests)
+        return Path(np.array(self._rows), self._rests, self._contacts, q[:, :2] - q[0, :2],
+                    q[:, 3] - q[0, 3], converged)  # fmt: skip
+
+    def _go(self, one: Array, two: Array, span: float, depth: int) -> None:
+        rest, contacts = self._step(two, span)
+        if _kinds(contacts) != _kinds(self._contacts[-1]) and depth < _HALVINGS:
+            middle = 0.5 * (one + two)
+            self._go(one, middle, 0.5 * span, depth + 1)
+            self._go(middle, two, 0.5 * span, depth + 1)
+        else:
+            self._keep(two, rest, contacts)
+
+    def _step(self, row: Array, span: float) -> tuple[Rest, list[Contact]]:
+        """The next state, on contacts that rest on its own forces."""
+        old, own = self._rests[-1], self._contacts[-1]
+        for _ in range(_TRIES):
+            grip = self._grip(own, old, span)
+            rest = self._statics.equilibrium(row, old, grip)
+            found = self._finder.find(rest, row)
+            same = _kinds(found) == _kinds(own)
+            own = found
+            if same:
+                break
+        return rest, own
+
+    def _keep(self, row: Array, rest: Rest, contacts: list[Contact]) -> None:
+        self._rows.append(row)
+        self._rests.append(rest)
+        self._contacts.append(contacts)
+
+    def _grip(self, contacts: list[Contact], old: Rest, span: float) -> Grip:
+        owners = [contact for contact in contacts for _ in contact.at]
+        weights = self._statics.tree.points(
+            np.array([contact.limb for contact in owners], dtype=int),
+            np.array([at for contact in contacts for at in contact.at]),
+        )
+        before = weights @ old.nodes[:, :2]
+        pairs = [
+            self._finder.resistance(contact, self._ground.at(float(x)))
+            for contact, x in zip(owners, before[:, 0], strict=True)
+        ]
+        bounds, drags = np.array(pairs).reshape(-1, 2).T
+        return Grip(weights, before, bounds, drags / span + self._tie)
+
+
+def _kinds(contacts: list[Contact]) -> list[tuple[int, int]]:
+    return [(contact.limb, len(contact.at)) for contact in contacts]

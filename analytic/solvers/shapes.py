@@ -1,0 +1,99 @@
+"""What every quasi-static solver returns: the strip's shape and contact at a batch of states."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import IntEnum, IntFlag
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.scene.robot import Robot
+
+Array = NDArray[np.float64]
+
+
+class Mode(IntEnum):
+    """Contact mode: which end lies flat, and in which segment it lifts off (Figure 6)."""
+
+    TIP = 0  # both ends in point contact
+    LEFT_1 = 1  # (i): the left end lies flat up to a lift-off in segment 1
+    LEFT_2 = 2  # (ii)
+    LEFT_3 = 3  # (iii)
+    RIGHT_1 = 4  # (iv): the right end lies flat from a touch-down in segment 1
+    RIGHT_2 = 5  # (v)
+    RIGHT_3 = 6  # (vi)
+    FLAT = 7  # the whole strip lies on the ground
+    BOTH = 8  # both ends lie flat; the paper's modes do not know it
+
+
+class Status(IntFlag):
+    """How far a state can be trusted; flags add up.
+
+    Values are NaN with NO_ROOT, NOT_CONVERGED, BRANCH_END and ROLLED_UP, else numbers.
+    """
+
+    OK = 0
+    NO_ROOT = 1  # no lift-off point exists with one end flat: no equilibrium of the assumed kind
+    SEVERAL_ROOTS = 2  # several lift-off points balance; the one with least contact was taken
+    PENETRATES = 4  # the shape dips below the ground between its contacts
+    BOTH_FLAT = 8  # the end in point contact slopes into the ground: both ends want to lie flat
+    HELD_FLAT = 16  # a part that lies flat is inflated: no moment in the paper's modes holds it so
+    NOT_CONVERGED = 32  # the iteration gave up
+    BRANCH_END = 64  # the stable equilibrium that the sequence followed ended before this state
+    ROLLED_UP = 128  # an end curls up off the ground: neither tip nor side, so no law of friction
+    JUMPED = 256  # friction let go at once; this is where slow motion with damping comes to rest
+
+
+@dataclass(frozen=True)
+class Shapes:
+    """Equilibria at B pressure states.
+
+    Attributes:
+        robot: the strip they belong to.
+        separation: Lambda, horizontal distance of the two ends, shape (B,) [m].
+        contact_left: length of side contact at the left end, 0 for a tip, shape (B,) [m].
+        contact_right: the same at the right end, shape (B,) [m].
+        amplitude: greatest height of the strip, shape (B,) [m].
+        mode: contact mode, shape (B,), values of Mode; without meaning where the rest is NaN.
+        status: shape (B,), values of Status.
+        curve: material points s of shape (S,) [m] -> (x, y), each of shape (B, S) [m], with x
+            measured from the left end.
+    """
+
+    robot: Robot
+    separation: Array
+    contact_left: Array
+    contact_right: Array
+    amplitude: Array
+    mode: NDArray[np.int_]
+    status: NDArray[np.int_]
+    curve: Callable[[Array], tuple[Array, Array]]
+
+    def __len__(self) -> int:
+        return len(self.separation)
+
+
+@dataclass(frozen=True)
+class ContactShapes(Shapes):
+    """Equilibria of a solver with unilateral contact at nodes.
+
+    Attributes:
+        nodes: arclength of the nodes, shape (S,) [m].
+        force: of the ground on each node, upwards, shape (B, S) [N].
+        pressures: of the segments, left first, shape (B, number of segments) [Pa].
+        residual: largest violation of the conditions of contact and balance, with heights over L
+            and forces over the strip's weight, shape (B,) [1].
+        iterations: linear systems that were solved for each state, those of attempts that failed
+            included, shape (B,).
+    """
+
+    nodes: Array
+    force: Array
+    pressures: Array
+    residual: Array
+    iterations: NDArray[np.int_]
+    left: Array | None = None
+    """displacement of the left end since the first state where friction bends the strip and so
+    decides place and shape together, shape (B,) [m]"""
+    switches: NDArray[np.bool_] | None = None
+    """increments in which contacts come or go, or begin to stick or to slide, shape (B - 1,)"""

@@ -1,0 +1,134 @@
+"""Trees of limbs: kinematics with exact derivatives, statics that balance, the strip as a tree."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from analytic.locomotion import WEAK
+from analytic.prediction import Elastica
+from analytic.scene.gait import GAITS
+from analytic.scene.robot import Robot
+from analytic.scene.surface import SURFACES
+from analytic.solvers.limbs.kinematics import WHOLE, Tree
+from analytic.solvers.limbs.limbs import MASS, Limb, TreeRobot, as_strip, quadruped
+from analytic.solvers.limbs.statics import Statics
+
+QUADRUPED = quadruped()
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_derivatives_of_places_are_those_of_finite_differences(seed):
+    rng = np.random.default_rng(seed)
+    tree = Tree(QUADRUPED, 2)
+    q = rng.normal(0, 0.4, len(tree.parent))
+    force, h = rng.standard_normal((len(tree.weight), 3)), 1e-6
+    pose = tree.pose(q)
+    moves, bending = tree.moves(pose), tree.bending(pose, force)
+    assert tree.heights(pose) == pytest.approx(moves[:, 2])
+    for k, e in enumerate(np.eye(len(q))):
+        up, down = tree.pose(q + h * e), tree.pose(q - h * e)
+        slope = (up.nodes - down.nodes) / (2 * h)
+        assert slope == pytest.approx(moves[..., k], abs=1e-8)
+        curve = np.einsum("pi,piq->q", force, tree.moves(up) - tree.moves(down)) / (2 * h)
+        assert curve == pytest.approx(bending[k], abs=1e-6)
+
+
+def test_links_keep_their_lengths_and_limbs_hang_together_in_any_pose():
+    tree = Tree(QUADRUPED, 4)
+    rng = np.random.default_rng(1)
+    flat, bent = (tree.pose(q).nodes for q in (np.zeros(len(tree.parent)),
+                                               rng.normal(0, 0.5, len(tree.parent))))  # fmt: skip
+    half = len(flat) // 2
+    for nodes in (flat[:half], flat[half:]):
+        assert nodes.shape == (half, 3)
+    for start in range(0, half, 6):
+        for edge in (0, half):
+            one, two = (np.linalg.norm(np.diff(n[edge + start : edge + start + 6], axis=0), axis=1)
+                        for n in (flat, bent))  # fmt: skip
+            assert one == pytest.approx(two, rel=1e-12)
+
+
+def test_the_paper_robot_weighs_what_its_mesh_does_and_is_as_long():
+    nodes = Tree(QUADRUPED, 4).pose(np.zeros(WHOLE + 20)).nodes
+    assert QUADRUPED.weight == pytest.approx(MASS * 9.81)
+    middle = 0.5 * (nodes[: len(nodes) // 2] + nodes[len(nodes) // 2 :])
+    assert np.ptp(middle[:, 0]) == pytest.approx(0.1357)
+    assert nodes[:, 2] == pytest.approx(0.0)
+
+
+def test_a_strip_as_a_tree_has_the_shapes_and_forces_of_the_elastica():
+    robot = Robot()
+    pressures = robot.peak_pressure * GAITS["wave"].pressures(2)
+    exact = Elastica(18).solve(robot, pressures, SURFACES["felt"], WEAK, None)
+    statics = Statics(Tree(as_strip(robot), 6))
+    rest, vertices = statics.flat(), 8
+    for row, separation, force in zip(pressures, exact.separation, exact.force, strict=True):
+        rest = statics.equilibrium(row[[1, 0, 2]], rest)
+        assert rest.converged
+        ends = [rest.nodes[limb * vertices + vertices - 1, 0] for limb in (1, 2)]
+        assert ends[1] - ends[0] == pytest.approx(separation, abs=1e-8 * robot.length)
+        both = rest.force[: 3 * vertices] + rest.force[3 * vertices :]
+        assert both.sum() == pytest.approx(force.sum(), rel=1e-6)
+        if row.any():  # lying flat it is open which of two nodes at one place is pushed
+            assert both[[2 * vertices - 1, 3 * vertices - 1]] == pytest.approx(
+                force[[0, -1]], abs=1e-5 * robot.weight
+            )
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_the_ground_carries_the_weight_where_it_hangs(seed):
+    rng = np.random.default_rng(seed)
+    statics = Statics(Tree(QUADRUPED, 2))
+    target = QUADRUPED.peak_pressure * rng.random(5) * (rng.random(5) > 0.3)
+    rest = statics.flat()
+    for part in np.linspace(0.1, 1.0, 10):
+        rest = statics.equilibrium(part * target, rest)
+    assert rest.converged
+    weight = statics.tree.weight
+    assert rest.force.min() >= 0
+    assert rest.force.sum() == pytest.approx(QUADRUPED.weight, rel=1e-7)
+    assert rest.force @ rest.nodes[:, 2] == pytest.approx(0, abs=1e-9 * QUADRUPED.weight)
+    assert rest.nodes[:, 2].min() > -1e-9
+    for axis in (0, 1):
+        assert rest.force @ rest.nodes[:, axis] == pytest.approx(
+            weight @ rest.nodes[:, axis], abs=1e-7 * QUADRUPED.weight
+        )
+
+
+def test_left_and_right_swapped_the_rest_is_mirrored():
+    statics = Statics(Tree(QUADRUPED, 2))
+    rests = []
+    for order in ([0, 1, 2, 3, 4], [0, 2, 1, 4, 3]):
+        rest = statics.flat()
+        for part in np.linspace(0.2, 1.0, 5):
+            given_ = np.array([0.3, 1.0, 0.6, 0.0, 0.9])[order]
+            rest = statics.equilibrium(part * QUADRUPED.peak_pressure * given_, rest)
+        rests.append(rest)
+    one, two = rests
+    assert two.q[5] == pytest.approx(-one.q[5], abs=1e-9)  # roll
+    assert two.q[4] == pytest.approx(one.q[4], abs=1e-9)  # pitch
+    assert abs(one.q[5]) > 1e-4
+
+
+@pytest.mark.parametrize(
+    ("build", "words"),
+    [
+        (lambda: Limb("leg", Robot()), "must be one segment"),
+        (lambda: Limb("leg", Robot(segments=(1.0,)), at="middle"), "at must be one of begin, end"),
+        (lambda: Limb("leg", Robot(segments=(1.0,)), angle=float("nan")), "angle must be a finite"),
+        (lambda: TreeRobot(()), "one limb at least"),
+        (lambda: TreeRobot((Limb("a", Robot(segments=(1.0,)), "b"),)), "is the trunk"),
+        (lambda: TreeRobot((*QUADRUPED.limbs, QUADRUPED.limbs[1])), "is there twice"),
+        (lambda: TreeRobot((QUADRUPED.limbs[0], replace(QUADRUPED.limbs[1], on="tail"))),
+         "on must be one of torso"),
+        (lambda: Tree(QUADRUPED, 3), "elements must be even"),
+    ],
+)  # fmt: skip
+def test_what_is_no_tree_is_refused(build, words):
+    with pytest.raises(ValueError, match=words):
+        build()

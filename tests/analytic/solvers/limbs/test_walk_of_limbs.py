@@ -1,0 +1,131 @@
+"""Paths of trees: the strip's, symmetric ones, turning ones, and back again."""
+
+import numpy as np
+import pytest
+
+from analytic.friction.laws import Friction
+from analytic.prediction import Elastica, predict
+from analytic.scene.gait import GAITS, Gait
+from analytic.scene.robot import Robot
+from analytic.scene.surface import SURFACES
+from analytic.solvers.limbs.gaits import undulation
+from analytic.solvers.limbs.limbs import LENGTH, as_strip, quadruped
+from analytic.solvers.limbs.walk import follow, shapes, walk
+
+QUADRUPED = quadruped()
+
+
+def by_limb(gait):
+    """A strip's fractions in the order torso, rear, front."""
+    return np.array(gait.path(16)[0])[:, [1, 0, 2]]
+
+
+@pytest.mark.parametrize("name", ["wave", "pulse"])
+def test_the_strip_as_a_tree_goes_as_far_as_the_strip(name):
+    robot, gait = Robot(), GAITS[name]
+    pressures = robot.peak_pressure * by_limb(gait)
+    tree, rests = shapes(as_strip(robot), pressures, 6)
+    for surface in SURFACES.values():
+        path = follow(tree, rests, pressures, surface)
+        exact = predict(robot, gait, surface, Elastica(18), 16, 1).locomotion.per_cycle
+        assert path.converged
+        assert path.displacement[0] == pytest.approx(exact, abs=2e-5 * robot.length)
+        assert path.displacement[1] == pytest.approx(0, abs=1e-12)
+        assert path.turn == pytest.approx(0, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "states", "elements", "within"),
+    [("felt", 16, 4, 0.01), pytest.param("gelatin", 20, 6, 0.005, marks=pytest.mark.slow)],
+)
+def test_the_strip_as_a_tree_is_bent_by_friction_as_the_strip_is(name, states, elements, within):
+    robot, gait, surface = Robot(), GAITS["wave"], SURFACES[name]
+    stages = tuple(map(tuple, np.array(gait.stages)[:, [1, 0, 2]].tolist()))
+    path = walk(as_strip(robot), Gait("wave", stages), surface, states, elements)
+    exact = predict(robot, gait, surface, Elastica(18), 160, 1, friction=Friction(tension=1.0))
+    assert path.converged
+    assert path.displacement[0] == pytest.approx(exact.locomotion.per_cycle, rel=within)
+
+
+@pytest.mark.slow
+def test_the_weaker_friction_is_the_less_it_bends():
+    gait, gelatin = undulation("wave"), SURFACES["gelatin"]
+    limit = walk(QUADRUPED, gait, gelatin, 96, 4, bent=False).displacement[0]
+    weak, full = (
+        abs(walk(QUADRUPED, gait, gelatin.scaled(part), 12, 4).displacement[0] - limit)
+        for part in (0.03, 1.0)
+    )
+    assert full > 0.05 * abs(limit)
+    assert weak < 0.25 * full
+
+
+@pytest.fixture(scope="module")
+def undulating():
+    gait = undulation("wave")
+    pressures = QUADRUPED.peak_pressure * gait.path(10)[0]
+    return pressures, *shapes(QUADRUPED, pressures, 4)
+
+
+@pytest.mark.parametrize("name", list(SURFACES))
+def test_pairs_that_press_alike_do_not_turn_it(undulating, name):
+    pressures, tree, rests = undulating
+    path = follow(tree, rests, pressures, SURFACES[name])
+    assert path.turn == pytest.approx(0, abs=1e-9)
+    assert path.displacement[1] == pytest.approx(0, abs=1e-9 * LENGTH)
+
+
+def test_it_walks_forward_on_felt_and_backward_on_gelatin(undulating):
+    pressures, tree, rests = undulating
+    far = {name: follow(tree, rests, pressures, surface).displacement[0] / LENGTH
+           for name, surface in SURFACES.items()}  # fmt: skip
+    assert far["felt"] > 0.005
+    assert far["gelatin"] < -0.005
+    assert far["gelatin"] < far["polyethylene"] < far["felt"]
+
+
+def test_the_same_states_in_opposite_order_lead_back(undulating):
+    pressures, tree, rests = undulating
+    there = follow(tree, rests, pressures, SURFACES["felt"])
+    back = follow(tree, rests[::-1], pressures[::-1], SURFACES["felt"])
+    assert back.displacement[0] == pytest.approx(-there.displacement[0], rel=1e-3)
+
+
+def test_one_side_pressed_less_turns_it_and_the_other_side_the_other_way():
+    paths = [
+        walk(QUADRUPED, undulation("wave", left, right), SURFACES["felt"], 8, 2, bent=False)
+        for left, right in ((0.5, 1.0), (1.0, 0.5))
+    ]
+    one, two = paths
+    assert abs(one.turn) > np.radians(0.2)
+    assert two.turn == pytest.approx(-one.turn, abs=1e-6)
+    assert two.displacement == pytest.approx(one.displacement * [1, -1], abs=1e-6 * LENGTH)
+
+
+def test_gaits_for_other_robots_and_parts_out_of_range_are_refused():
+    with pytest.raises(ValueError, match="is for 3 limbs, the robot has 5"):
+        walk(QUADRUPED, GAITS["wave"], SURFACES["felt"])
+    with pytest.raises(ValueError, match="left must be a part in"):
+        undulation("wave", left=1.5)
+    with pytest.raises(ValueError, match="must be of three segments"):
+        undulation(undulation("wave"))
+
+
+REST, LIFTED = (0, 0, 0, 0, 0), (0, 0.75, 0.72, 0, 0)
+PULSE = Gait("pulse", (REST, (0, 0.69, 0.69, 0, 0), (0.69, 0, 0, 0, 0), (0, 0, 0, 0.8, 0.8), REST))
+UNEVEN = Gait(
+    "uneven",
+    (REST, LIFTED, (0.86, *LIFTED[1:]), (0.86, 0, 0, 0.67, 0.63), (0, 0, 0, 0.67, 0.63), REST),
+)
+
+
+@pytest.mark.parametrize(("gait", "law"), [(PULSE, "constant"), (UNEVEN, "coulomb")])
+@pytest.mark.slow
+def test_limbs_under_part_of_the_pressure_go_alike_however_fine_their_links(gait, law):
+    # legs that hardly lift and a belly that just touches: which contact bears what converges
+    pressures = QUADRUPED.peak_pressure * np.array(gait.path(10)[0])
+    far = []
+    for elements in (6, 12):
+        tree, rests = shapes(QUADRUPED, pressures, elements)
+        path = follow(tree, rests, pressures, SURFACES["gelatin"], law)
+        far.append(path.displacement[0] / LENGTH)
+    assert far[0] == pytest.approx(far[1], rel=0.05, abs=2e-4)
