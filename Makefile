@@ -22,8 +22,8 @@ check: .venv/ready check-mujoco4
 # the bodies walk by MuJoCo 4 as they do by the MuJoCo of constraints.txt
 check-mujoco4: .venv/mujoco4/ready
 	PYTHONPATH=$(CURDIR)/.venv/mujoco4 $(PY) benchmarks/regression/check.py cable rod planar actuators
-	PYTHONPATH=$(CURDIR)/.venv/mujoco4 $(PY) -m pytest tests/mjsim/bodies/test_bodies.py \
-		tests/mjsim/commands/test_export.py tests/mjsim/tree/test_walks_of_limbs.py
+	PYTHONPATH=$(CURDIR)/.venv/mujoco4 $(PY) -m pytest tests/mjsim/model/test_bodies.py \
+		tests/mjsim/commands/test_export.py tests/mjsim/limbs/test_walks_of_limbs.py
 
 numbers: .venv/ready
 	$(PY) benchmarks/convergence.py
@@ -65,7 +65,7 @@ identify: .venv/ready
 # write models/ anew after a change of the generator or of the default robot
 models: .venv/ready
 	$(PY) -m studies.textures models/textures
-	$(PY) -m mjsim.export --models --out models
+	$(PY) -m mjsim export --models --out models
 
 # the paper's figures, as docs/figures.md shows them
 figures: .venv/ready

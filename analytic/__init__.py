@@ -29,15 +29,15 @@ if TYPE_CHECKING:
     from analytic.scene.ground import Patches
     from analytic.scene.robot import Robot
     from analytic.scene.surface import SURFACES, Ground, Surface
+    from analytic.shapes import ContactShapes, Mode, Shapes, Status
     from analytic.solvers.elastica import solve_elastica
     from analytic.solvers.lifted import solve_lifted
     from analytic.solvers.modes import solve_modes
     from analytic.solvers.obstacle import solve_obstacle
-    from analytic.solvers.shapes import ContactShapes, Mode, Shapes, Status
 
 _HOMES = {
     "solvers.elastica": ("solve_elastica",),
-    "solvers.shapes": ("ContactShapes", "Mode", "Shapes", "Status"),
+    "shapes": ("ContactShapes", "Mode", "Shapes", "Status"),
     "friction.laws": ("LAWS", "Friction", "TractionLaw"),
     "scene.gait": ("GAITS", "Gait"),
     "scene.ground": ("Patches",),

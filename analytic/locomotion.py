@@ -10,7 +10,7 @@ from analytic.friction.laws import LAWS, Friction, slip_fraction
 from analytic.friction.motion import motion
 from analytic.scene.ground import over
 from analytic.scene.surface import Ground, Surface
-from analytic.solvers.shapes import ContactShapes, Shapes
+from analytic.shapes import ContactShapes, Shapes
 
 Array = NDArray[np.float64]
 Direction = Literal["forward", "backward", "none"]

@@ -16,7 +16,7 @@ from analytic.scene.gait import Gait
 from analytic.scene.ground import depends_on_speed, surfaces_of
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground, Surface
-from analytic.solvers.shapes import ContactShapes, Shapes, Status
+from analytic.shapes import ContactShapes, Shapes, Status
 
 Array = NDArray[np.float64]
 

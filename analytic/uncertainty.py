@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from analytic.prediction import Prediction
-from analytic.solvers.shapes import Status
+from analytic.shapes import Status
 
 # flags of shapes that are no equilibrium: somewhere the ground would have to pull, or hold a
 # moment. Several roots alone are no such thing, the one taken is the stable one

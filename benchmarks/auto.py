@@ -21,13 +21,13 @@ from pathlib import Path
 import numpy as np
 from reach import draw
 
-from mjsim.io.files import whole
+from mjsim.files.files import whole
+from mjsim.results.measures import measure
+from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.auto import TABLE, Rung
 from mjsim.simulation import checked
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
-from mjsim.simulation.trajectory import Trajectory
 
 TOLERANCES = (0.1, 0.02, 0.005)
 LADDER = {"ends": ((4, 0.01), (6, 0.005), (12, 0.002)),

@@ -10,10 +10,10 @@ from dataclasses import fields, replace
 import numpy as np
 
 from analytic import SOLVERS, SURFACES, Friction, Surface, predict
+from mjsim.results.measures import measure
+from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
-from mjsim.simulation.trajectory import Trajectory
 
 DEFAULT = Scene()
 SCENE_PARAMETERS = {field.name for field in fields(Scene)}

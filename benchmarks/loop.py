@@ -8,7 +8,7 @@ import numpy as np
 
 import mjsim.simulation.simulation as simulation
 from analytic import Surface
-from mjsim.mjcf.builder import compile_model
+from mjsim.model.builder import compile_model
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.batch import rollout
 

@@ -16,10 +16,10 @@ import numpy as np
 from auto import measured
 from reach import draw
 
-from mjsim.cautions import inertia
-from mjsim.record import record, reference
+from mjsim.results.cautions import inertia
+from mjsim.results.measures import measure
+from mjsim.results.record import record, reference
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 
 COUNT, FIRST = 60, 300_000

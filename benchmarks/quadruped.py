@@ -14,12 +14,12 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic.scene.gait import Gait
+from analytic.scene.limbs import LENGTH
+from analytic.scene.quadruped_gaits import UNDULATIONS, undulation
 from analytic.scene.surface import SHEAR_STRENGTH, SURFACES, TIP_FORCE, Surface
-from analytic.solvers.limbs.gaits import UNDULATIONS, undulation
-from analytic.solvers.limbs.limbs import LENGTH
 from analytic.solvers.limbs.prediction import predict
-from mjsim.tree.scene import TreeNumerics, TreeScene
-from mjsim.tree.simulation import simulate
+from mjsim.scene.limbs import TreeNumerics, TreeScene
+from mjsim.simulation.limbs import simulate
 
 NUMERICS = TreeNumerics(timestep=0.03)
 FINE = TreeNumerics(timestep=0.01, elements=12)

@@ -14,9 +14,9 @@ import numpy as np
 
 from analytic import Elastica, Gait, Patches, Robot, Surface, predict
 from analytic.scene import pneunet
-from analytic.solvers.shapes import Status
+from analytic.shapes import Status
+from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 
 COUNT, SEED, WORST = 60, 5, 12

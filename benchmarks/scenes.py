@@ -13,8 +13,8 @@ from analytic import GAITS, Friction, Gait, Robot, Surface, predict
 from analytic.friction.laws import neutral_ratio
 from analytic.scene import pneunet
 from analytic.scene.surface import from_ratios
+from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 
 COUNT, WORST, SEED = 40, 8, 11

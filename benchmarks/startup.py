@@ -28,9 +28,9 @@ def main() -> None:
         base = cpu("-c", "import mujoco, numpy")
         for label, words in (
             ("import mujoco, numpy", ("-c", "import mujoco, numpy")),
-            ("mjsim.run --help", ("-m", "mjsim.run", "--help")),
-            ("mjsim.run --no-video", ("-m", "mjsim.run", "--no-video", "--out", folder)),
-            ("mjsim.run --surface all --no-video",
+            ("undulator run --help", ("-m", "mjsim.run", "--help")),
+            ("undulator run --no-video", ("-m", "mjsim.run", "--no-video", "--out", folder)),
+            ("undulator run --surface all --no-video",
              ("-m", "mjsim.run", "--surface", "all", "--no-video", "--out", folder)),
         ):  # fmt: skip
             seconds = cpu(*words)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from analytic import GAITS, Robot, solve_elastica, solve_modes, solve_obstacle
-from mjsim.mjcf.builder import compile_model
+from mjsim.model.builder import compile_model
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.simulation import simulate
 

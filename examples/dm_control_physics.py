@@ -3,7 +3,7 @@
 import numpy as np
 
 from mjsim import GAITS, SURFACES, Robot, Scene
-from mjsim.simulation.physics import Physics
+from mjsim.env.physics import Physics
 
 
 def main() -> float:

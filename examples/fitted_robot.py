@@ -12,7 +12,8 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from analytic import Robot, Surface
-from mjsim import Numerics, Scene, fit, simulate
+from mjsim import Numerics, Scene, simulate
+from mjsim.commands import fit
 
 TRUE = {"robot.modulus": 2.0e6, "surface.tip_force": 0.034, "surface.shear_strength": 20.0}
 SCENE = """

@@ -1,16 +1,17 @@
 """A body of one's own: the planar chain with a payload on its middle link.
 
-For commands: python -m mjsim.run --plugin examples/own_body.py --body laden
+For commands: undulator run --plugin examples/own_body.py --body laden
 """
 
 import mujoco
 
-from mjsim import Numerics, Scene, measure, registry, simulate
-from mjsim.bodies.planar import Planar
+from mjsim import Numerics, Scene, measure, simulate
+from mjsim.model.planar import Planar
+from mjsim.scene import registry
 
 
 class Laden(Planar):
-    """One module against one small protocol, mjsim.bodies.body.Body; here most is inherited."""
+    """One module against one small protocol, mjsim.model.body.Body; here most is inherited."""
 
     name = "laden"
     payload = 0.002  # kg

@@ -1,6 +1,6 @@
 """A friction law of one's own, in theory and in MuJoCo: sides hold by the root of their area.
 
-For commands: python -m mjsim.run --plugin examples/own_law.py --friction rooted
+For commands: undulator run --plugin examples/own_law.py --friction rooted
 """
 
 from typing import Any

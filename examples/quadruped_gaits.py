@@ -14,11 +14,11 @@ from itertools import permutations, product
 import numpy as np
 
 from analytic.scene.gait import Gait
+from analytic.scene.limbs import ORDER
+from analytic.scene.quadruped_gaits import UNDULATIONS, on_the_spot
 from analytic.scene.surface import SURFACES
-from analytic.solvers.limbs.gaits import UNDULATIONS, on_the_spot
-from analytic.solvers.limbs.limbs import ORDER
-from mjsim.tree.scene import TreeNumerics, TreeScene
-from mjsim.tree.simulation import simulate
+from mjsim.scene.limbs import TreeNumerics, TreeScene
+from mjsim.simulation.limbs import simulate
 
 NUMERICS = TreeNumerics(timestep=0.02)
 RAMP = 8.0  # s

@@ -105,8 +105,8 @@ def _draw_stripes(axes: Any, theory: Cycles) -> None:
 
 def _film(walks: Any, path: Path) -> None:
     """The wave alone above, the controller below."""
-    from mjsim.video import gl
-    from mjsim.video.recording import film
+    from mjsim.pictures import gl
+    from mjsim.pictures.recording import film
 
     if not gl.use_backend():
         raise SystemExit(gl.HELP)

@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from analytic.scene.ground import Patches
     from analytic.scene.robot import Robot
     from analytic.scene.surface import SURFACES, Ground, Surface
+    from mjsim.results.measures import Measures, measure
+    from mjsim.results.status import Status
+    from mjsim.results.trajectory import Trajectory, load
     from mjsim.scene import Numerics, Scene
     from mjsim.simulation.batch import rollout, simulate_all
-    from mjsim.simulation.measures import Measures, measure
     from mjsim.simulation.simulation import Observation, Policy, Simulation, simulate
-    from mjsim.simulation.status import Status
-    from mjsim.simulation.trajectory import Trajectory, load
 
 _HOMES = {
     "analytic.friction.laws": ("Friction",),
@@ -35,10 +35,10 @@ _HOMES = {
     "analytic.scene.surface": ("SURFACES", "Ground", "Surface"),
     "mjsim.scene": ("Numerics", "Scene"),
     "mjsim.simulation.batch": ("rollout", "simulate_all"),
-    "mjsim.simulation.measures": ("Measures", "measure"),
+    "mjsim.results.measures": ("Measures", "measure"),
     "mjsim.simulation.simulation": ("Observation", "Policy", "Simulation", "simulate"),
-    "mjsim.simulation.status": ("Status",),
-    "mjsim.simulation.trajectory": ("Trajectory", "load"),
+    "mjsim.results.status": ("Status",),
+    "mjsim.results.trajectory": ("Trajectory", "load"),
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 

@@ -8,23 +8,15 @@ from matplotlib.figure import Figure
 TOP = Path(__file__).resolve().parent.parent
 PACKAGES = ("analytic", "mjsim", "studies")
 _COLUMNS = {  # where a package is drawn: column, row
-    "analytic": (0, 2), "analytic.solvers.modes": (0, 3.3), "analytic.solvers.elastica": (0, 0.7),
-    "analytic.solvers.limbs": (0.7, 0.3),
-    "mjsim.io": (1, 3.7), "mjsim.registry": (1, 2.6), "mjsim.plugins": (1, 3.15),
-    "mjsim.scene": (1, 1.4),
-    "mjsim.ground": (2, 3.7), "mjsim.bodies": (2, 2.2), "mjsim.mjcf": (3, 3.4),
-    "mjsim.friction": (3, 1.2), "mjsim.results": (4, 0.7),
-    "mjsim.simulation": (4, 2.4), "mjsim.batch": (4.4, 3.95),
-    "mjsim.sweeps": (5.7, 3.95), "mjsim.env": (6, 3.2),
-    "mjsim.optimising": (6, 1.4),
-    "mjsim.video": (5, 3.4),
-    "mjsim.tree": (6, 0.55), "mjsim.live": (5, 2.3), "mjsim.page": (4.4, 1.5),
-    "mjsim": (5, 1.0), "studies": (6, 2.6),
+    "analytic": (0, 2), "analytic.scene": (0, 3.3), "analytic.friction": (0.7, 0.3),
+    "analytic.solvers": (0, 0.7),
+    "mjsim.scene": (1, 1.4), "mjsim.files": (2, 3.7),
+    "mjsim.model": (2, 2.2), "mjsim.friction": (3, 1.2), "mjsim.results": (3, 3.4),
+    "mjsim.simulation": (4, 2.4), "mjsim.pictures": (5, 3.4), "mjsim.env": (5, 0.55),
+    "mjsim.fitting": (5, 1.5), "mjsim.sweeps": (5.7, 3.95), "mjsim.optimising": (6, 1.4),
+    "mjsim.commands": (6.5, 2.4), "studies": (6.5, 0.6),
 }  # fmt: skip
-_LABEL = {
-    "mjsim": "commands\nrun fit view compare\nsweep analysis optimise\nreplay export report",
-    "analytic": "analytic\n(theory)",
-}
+_LABEL = {"analytic": "analytic\n(theory)"}
 
 
 def package_of(module: str) -> str:

@@ -13,7 +13,7 @@ import pdoc
 
 import analytic
 import mjsim
-from mjsim.io.cli import fail
+from mjsim.files.cli import fail
 
 
 def modules() -> list[str]:
@@ -31,7 +31,7 @@ def modules() -> list[str]:
 def main(folder: Path) -> None:
     """Write HTML, of the modules for dm_control too."""
     try:
-        importlib.import_module("mjsim.simulation.dm")
+        importlib.import_module("mjsim.env.dm_binding")
     except ImportError as error:
         fail("scripts/reference.py", str(error))
     for package in (analytic, mjsim):

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from mjsim.io.cli import FAILED, fail, parse
-from mjsim.io.files import check_folder
-from mjsim.video import gl
+from mjsim.files.cli import FAILED, fail, parse
+from mjsim.files.files import check_folder
+from mjsim.pictures import gl
 
 PROGRAM = "python -m studies.gallery"
 _LEFT, _RAMP, _STEP = 0.7, 8.0, 0.02  # of the quadruped: left pressure, s, s
@@ -41,10 +41,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     os.environ.pop("PYOPENGL_PLATFORM", None)
 
     from analytic.scene.surface import SURFACES
+    from mjsim.pictures.poster import poster
+    from mjsim.pictures.recording import film
     from mjsim.scene import Scene
     from mjsim.simulation.simulation import simulate
-    from mjsim.video.poster import poster
-    from mjsim.video.recording import film
 
     walks = [simulate(Scene(ground=surface)) for surface in SURFACES.values()]
     paths = [options.out / f"{name}.mp4" for name in SURFACES]
@@ -56,11 +56,11 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _quadruped(out: Path) -> None:
+    from analytic.scene.quadruped_gaits import QUADRUPED_GAITS, undulation
     from analytic.scene.surface import SURFACES
-    from analytic.solvers.limbs.gaits import QUADRUPED_GAITS, undulation
-    from mjsim.tree.film import film, stages
-    from mjsim.tree.scene import TreeNumerics, TreeScene
-    from mjsim.tree.simulation import simulate
+    from mjsim.pictures.limb_film import film, stages
+    from mjsim.scene.limbs import TreeNumerics, TreeScene
+    from mjsim.simulation.limbs import simulate
 
     turning = replace(undulation("wave", left=_LEFT), ramp_time=_RAMP)
     scenes = {

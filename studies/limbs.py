@@ -13,12 +13,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from analytic.scene.limbs import LENGTH
+from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import FRICTION, SURFACES, Surface
-from analytic.solvers.limbs.gaits import undulation
-from analytic.solvers.limbs.limbs import LENGTH
 from analytic.solvers.limbs.walk import walk as quasi_static
-from mjsim.io.cli import parse
-from mjsim.io.files import check_folder, whole
+from mjsim.files.cli import parse
+from mjsim.files.files import check_folder, whole
 from studies.workers import pool
 
 PROGRAM = "python -m studies.limbs"
@@ -64,8 +64,8 @@ class Point(NamedTuple):
 
 def walked(surface: str, law: str, left: float, step: float, elements: int) -> Point:
     """By MuJoCo."""
-    from mjsim.tree.scene import TreeNumerics, TreeScene
-    from mjsim.tree.simulation import simulate
+    from mjsim.scene.limbs import TreeNumerics, TreeScene
+    from mjsim.simulation.limbs import simulate
 
     gait = replace(undulation("wave", left=left), ramp_time=RAMP)
     scene = TreeScene(gait=gait, ground=GROUNDS[surface], friction=law)
@@ -79,7 +79,7 @@ def predicted(
     surface: str, law: str, left: float, states: int = STATES, elements: int = 6
 ) -> Point:
     """By the quasi-static reference."""
-    from analytic.solvers.limbs.limbs import quadruped
+    from analytic.scene.limbs import quadruped
 
     gait = undulation("wave", left=left)
     path = quasi_static(quadruped(), gait, GROUNDS[surface], states, elements, law=law)

@@ -10,7 +10,7 @@ from PIL import Image, ImageDraw, ImageFont
 from scipy.ndimage import gaussian_filter
 
 SIZE = 320  # pixels a side of a tile
-RULER_LENGTH = 0.26  # m, as the ruler of mjsim/ground/stage.xml
+RULER_LENGTH = 0.26  # m, as the ruler of mjsim/model/stage.xml
 RULER_START = -0.06  # m, x of its left edge there
 
 

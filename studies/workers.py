@@ -4,7 +4,7 @@ import logging
 import os
 from concurrent.futures import ProcessPoolExecutor
 
-from mjsim.io.processes import clean_start
+from mjsim.files.processes import clean_start
 
 
 def pool() -> ProcessPoolExecutor:

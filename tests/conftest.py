@@ -4,8 +4,8 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from analytic.friction.laws import LAWS
-from mjsim import registry
-from mjsim.video import gl
+from mjsim.pictures import gl
+from mjsim.scene import registry
 
 settings.register_profile(
     "project", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]

@@ -78,7 +78,7 @@ def test_links_of_the_pages_lead_somewhere():
 
 @pytest.mark.slow
 def test_the_api_reference_is_built_without_a_warning(tmp_path):
-    pytest.importorskip("mjsim.simulation.dm", exc_type=ImportError)
+    pytest.importorskip("mjsim.env.dm_binding", exc_type=ImportError)
     done = subprocess.run(
         [sys.executable, "scripts/reference.py", str(tmp_path)],
         cwd=TOP, capture_output=True, text=True,

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analytic.solvers.limbs.gaits import undulation
+from analytic.scene.quadruped_gaits import undulation
 
 FOLDER = Path(__file__).resolve().parent.parent / "examples"
 
@@ -63,7 +63,7 @@ def test_mujoco_alone_walks_backward_on_gelatin():
 
 
 def test_dm_control_walks_backward_on_gelatin():
-    pytest.importorskip("mjsim.simulation.dm", exc_type=ImportError)
+    pytest.importorskip("mjsim.env.dm_binding", exc_type=ImportError)
     assert example("dm_control_physics")() < -0.005
 
 

@@ -30,5 +30,7 @@ def test_the_wheel_installs_in_a_clean_environment_and_runs_elsewhere(tmp_path):
     script = call(tmp_path / "env" / "bin" / "undulator", "--no-video", cwd=elsewhere).stdout
     assert "forward" in script
     assert not list((tmp_path / "env").rglob("studies"))
-    where = call(python, "-c", "import mjsim.io.assets as a; print(a.MODELS)", cwd=elsewhere).stdout
+    where = call(
+        python, "-c", "import mjsim.files.assets as a; print(a.MODELS)", cwd=elsewhere
+    ).stdout
     assert Path(where.strip()).is_relative_to(tmp_path / "env")

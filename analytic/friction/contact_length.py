@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from analytic.scene import pneunet
 from analytic.scene.robot import Robot
-from analytic.solvers.shapes import Mode
+from analytic.shapes import Mode
 
 Array = NDArray[np.float64]
 

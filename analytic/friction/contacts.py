@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from analytic.friction.contact_length import flat_length, ripple
 from analytic.scene.robot import Robot
-from analytic.solvers.shapes import ContactShapes
+from analytic.shapes import ContactShapes
 
 Array = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ from analytic.friction.dissipation import least_dissipation, minimisers
 from analytic.friction.laws import LAWS, Friction
 from analytic.scene.ground import over
 from analytic.scene.surface import Ground
-from analytic.solvers.shapes import ContactShapes, Shapes
+from analytic.shapes import ContactShapes, Shapes
 
 Array = NDArray[np.float64]
 

@@ -25,7 +25,7 @@ from analytic.friction.contact_length import contact_mode
 from analytic.scene import pneunet
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
-from analytic.solvers.shapes import Shapes, Status
+from analytic.shapes import Shapes, Status
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

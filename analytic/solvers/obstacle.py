@@ -19,7 +19,7 @@ from analytic.scene import pneunet
 from analytic.scene.chain import segment_overlap, segments_fit
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
-from analytic.solvers.shapes import ContactShapes, Status
+from analytic.shapes import ContactShapes, Status
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

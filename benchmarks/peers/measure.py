@@ -16,7 +16,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1])]
 
-from mjsim.scene.provenance import machine, origin  # noqa: E402
+from mjsim.results.provenance import machine, origin  # noqa: E402
 from studies.accuracy import benchmark_cases, heavy_cantilever  # noqa: E402
 from studies.accuracy.rows import MEASURED, append, read  # noqa: E402
 from studies.accuracy.setting import Setting  # noqa: E402

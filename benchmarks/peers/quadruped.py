@@ -30,10 +30,10 @@ from pydrake.multibody.tree import (  # noqa: E402
 )
 
 from analytic.scene.chain import joint_springs, link_lengths  # noqa: E402
+from analytic.scene.limbs import LENGTH  # noqa: E402
+from analytic.scene.quadruped_gaits import undulation  # noqa: E402
 from analytic.scene.surface import FRICTION  # noqa: E402
-from analytic.solvers.limbs.gaits import undulation  # noqa: E402
-from analytic.solvers.limbs.limbs import LENGTH  # noqa: E402
-from mjsim.tree.scene import TreeNumerics, TreeScene  # noqa: E402
+from mjsim.scene.limbs import TreeNumerics, TreeScene  # noqa: E402
 
 ELEMENTS, DOWN = 6, (0, -1, 0)  # hinges of a limb, and their axis: an end turns up
 RAMP, DAMPING = 8.0, TreeNumerics.damping_time  # s; of hinges over their stiffness

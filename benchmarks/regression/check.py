@@ -22,14 +22,14 @@ import numpy as np
 import strips
 
 from analytic import SOLVERS, Elastica, Friction, Gait, Robot, Surface, predict
-from analytic.solvers.limbs.limbs import rotation
+from analytic.scene.limbs import rotation
 from analytic.solvers.limbs.walk import walk as walk_of_limbs
+from mjsim.files.limb_tables import build_tree
+from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene, Valves
-from mjsim.simulation.measures import measure
+from mjsim.scene.limbs import TreeNumerics, TreeScene
+from mjsim.simulation.limbs import simulate as simulate_limbs
 from mjsim.simulation.simulation import simulate
-from mjsim.tree.scene import TreeNumerics, TreeScene
-from mjsim.tree.simulation import simulate as simulate_limbs
-from mjsim.tree.tables import build_tree
 
 Case = dict[str, Any]
 Row = dict[str, Any]

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mjsim.env.dm_binding import control, specs, wrapper
+from mjsim.env.dm_binding import mujoco as dm_mujoco
 from mjsim.env.task import FALL, Settings, commands, middle, names, sense
+from mjsim.results.status import Status
 from mjsim.scene import Scene
-from mjsim.simulation.dm import control, specs, wrapper
-from mjsim.simulation.dm import mujoco as dm_mujoco
 from mjsim.simulation.simulation import Simulation
-from mjsim.simulation.status import Status
 
 Array = NDArray[np.float64]
 

@@ -14,11 +14,11 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from analytic.scene.surface import SURFACES
-from mjsim.batch.strips import Strips
 from mjsim.env.task import FALL, Settings, commands, middle, names, sense
+from mjsim.results.status import Status
 from mjsim.scene import Scene
+from mjsim.simulation.batch_strips import Strips
 from mjsim.simulation.simulation import Simulation
-from mjsim.simulation.status import Status
 
 Array = NDArray[np.float64]
 Observation = NDArray[np.float32]
@@ -85,7 +85,7 @@ class WalkEnv(gymnasium.Env):  # type: ignore[misc]
         if self.render_mode is None or self._simulation is None:
             return None
         if self._picture is None:
-            from mjsim.video.still import Still
+            from mjsim.pictures.still import Still
 
             try:
                 self._picture = Still(self._simulation.scene, self.settings.numerics.links)

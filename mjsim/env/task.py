@@ -19,10 +19,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from analytic.checks import is_number, positive
 from analytic.scene.chain import segment_overlap
+from mjsim.files.quantities import check_field, field_value, with_fields
+from mjsim.files.tables import Tables, build
 from mjsim.scene import Numerics, Scene
-from mjsim.scene.quantities import check_field, field_value, with_fields
 from mjsim.scene.scene import Contacts
-from mjsim.scene.tables import Tables, build
 
 Array = NDArray[np.float64]
 Range = tuple[float, float] | Sequence[str]
@@ -165,7 +165,7 @@ def sense(
 
 def middle(scenes: Sequence[Scene], numerics: Numerics, coordinates: Array) -> Array:
     """Place of the middle between the two ends over L, (B,)."""
-    from mjsim.batch.simulate import planar_nodes
+    from mjsim.simulation.batch_simulate import planar_nodes
 
     return np.array(
         [planar_nodes(scene, numerics, row[None])[0, [0, -1], 0].mean() / scene.robot.length

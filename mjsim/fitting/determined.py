@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from analytic.friction.laws import friction_number
 from analytic.scene import pneunet
+from mjsim.files.tables import Tables, build
 from mjsim.fitting.estimate import Estimate
 from mjsim.fitting.parameters import with_values
-from mjsim.scene.tables import Tables, build
 
 Array = NDArray[np.float64]
 

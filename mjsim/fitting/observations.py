@@ -21,8 +21,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mjsim.files.csv_table import CsvTable, factor, name_of, number_in, read_csv
 from mjsim.fitting.parameters import unit_of
-from mjsim.io.csv_table import CsvTable, factor, name_of, number_in, read_csv
 
 Array = NDArray[np.float64]
 

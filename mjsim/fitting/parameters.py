@@ -8,10 +8,10 @@ from typing import Any
 
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES, Surface
-from mjsim.io.fields import units
-from mjsim.io.units import in_unit
+from mjsim.files.fields import units
+from mjsim.files.tables import SURFACE_FIELDS, Tables, build, check_keys
+from mjsim.files.units import in_unit
 from mjsim.scene.scene import Scene
-from mjsim.scene.tables import SURFACE_FIELDS, Tables, build, check_keys
 from mjsim.scene.valves import Valves
 
 _FACTOR = 100.0  # from the start to a bound that is not given

@@ -6,8 +6,8 @@ from pathlib import Path
 import matplotlib as mpl
 import numpy as np
 
+from mjsim.files.files import whole
 from mjsim.fitting.estimate import Estimate
-from mjsim.io.files import whole
 
 _LABEL = {"time": "time [s]", "pressure": "pressure [kPa]", "run": "run"}
 _COLUMNS = 3

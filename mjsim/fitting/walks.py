@@ -14,12 +14,12 @@ from scipy.interpolate import CubicSpline
 from analytic.prediction import Elastica, predict
 from analytic.scene import pneunet
 from analytic.scene.chain import node_positions
-from mjsim import plugins
+from mjsim.files import plugins
+from mjsim.files.tables import Tables, build
 from mjsim.fitting.observations import Run, Series
 from mjsim.fitting.parameters import with_values
+from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene
-from mjsim.scene.tables import Tables, build
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 
 Array = NDArray[np.float64]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from analytic.friction.contact_length import flat_length
 from analytic.scene.chain import node_positions
-from mjsim.bodies.parts import PREFIX
+from mjsim.model.parts import PREFIX
 from mjsim.scene import Numerics, Scene
 
 Array = NDArray[np.float64]

@@ -2,7 +2,7 @@
 
 import mujoco
 
-from mjsim.friction.everywhere import BoundedContacts, ContactFrictionEverywhere
+from mjsim.friction.between_ends import BoundedContacts, ContactFrictionEverywhere
 from mjsim.friction.traction import BoundedEnds, ContactFriction, Traction
 from mjsim.scene import Numerics, Scene
 

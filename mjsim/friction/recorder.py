@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.ground import depends_on_speed
-from mjsim.bodies.parts import PREFIX, TENDONS
 from mjsim.friction.contact_length import pads_by_node
+from mjsim.model.parts import PREFIX, TENDONS
 from mjsim.scene import Scene
 
 Array = NDArray[np.float64]

@@ -4,7 +4,7 @@ Two ways in MuJoCo for the laws of analytic.friction.laws. `BoundedEnds`: each e
 by a dry friction of its own bound, on the neutral line, so that it has no lever arm and does not
 creep; the physics lets the weaker end slide. Where both bounds are equal that would leave it to
 momentum who slides: the rule of [Majidi13], both alike, is one more dry friction, on the mean
-position of the ends. `mjsim.friction.everywhere` does so at every contact. `ContactFriction`:
+position of the ends. `mjsim.friction.between_ends` does so at every contact. `ContactFriction`:
 Coulomb friction at every pad, by MuJoCo's own contacts.
 """
 
@@ -15,8 +15,8 @@ import mujoco
 from analytic.friction.laws import LAWS, slip_fraction
 from analytic.scene.ground import depends_on_speed, over
 from analytic.scene.surface import Surface
-from mjsim.bodies.parts import PREFIX, TENDONS, contact_softness, tie_force
 from mjsim.friction.contact_length import ContactForces, pads_by_node
+from mjsim.model.parts import PREFIX, TENDONS, contact_softness, tie_force
 from mjsim.scene import Numerics, Scene
 
 _TIPS = (0.0, 0.0)  # side contact of two tips

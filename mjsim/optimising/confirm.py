@@ -11,9 +11,9 @@ from analytic.prediction import predict
 from analytic.scene.gait import Gait
 from analytic.scene.surface import Surface
 from mjsim.optimising.objective import Objective
+from mjsim.results.measures import measure
 from mjsim.scene import Scene
 from mjsim.simulation.checked import walk_checked
-from mjsim.simulation.measures import measure
 
 _PARTS = (0.9, 1.0, 1.1)  # of pressure and of either strength of the ground
 _STATES = 25  # of the elastica in a ramp

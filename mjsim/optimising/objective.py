@@ -85,9 +85,9 @@ class Objective:
 
     def _walked(self, robot: Robot, gait: Gait, surfaces: Sequence[Surface]) -> list[float]:
         """The same by MuJoCo, for whose states there are no flags: a fall counts as nothing."""
-        from mjsim.batch.simulate import simulate_batch
-        from mjsim.simulation.measures import measure
-        from mjsim.simulation.trajectory import Trajectory
+        from mjsim.results.measures import measure
+        from mjsim.results.trajectory import Trajectory
+        from mjsim.simulation.batch_simulate import simulate_batch
 
         try:
             scenes = [replace(self.scene, robot=robot, gait=gait, ground=g) for g in surfaces]

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from analytic.scene.gait import Gait
-from mjsim.io.files import whole
+from mjsim.files.files import whole
 from mjsim.optimising.search import Generation
 
 

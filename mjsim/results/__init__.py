@@ -1,1 +1,1 @@
-"""What is made of a walk: mechanics, files, plots."""
+"""What a walk was: trajectory, measures, record, files, plots."""

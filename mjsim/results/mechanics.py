@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from analytic.scene.chain import joint_springs, link_lengths, sealed_springs
 
 if TYPE_CHECKING:
-    from mjsim.simulation.trajectory import Trajectory
+    from mjsim.results.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 

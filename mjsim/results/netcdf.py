@@ -17,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.chain import link_lengths, node_positions
-from mjsim.io.files import whole
+from mjsim.files.files import whole
 from mjsim.results.mechanics import balance, bending, slip
 
 if TYPE_CHECKING:
-    from mjsim.simulation.trajectory import Trajectory
+    from mjsim.results.trajectory import Trajectory
 
 CONVENTIONS = "CF-1.11"
 _THREE = ("left", "middle", "right")

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mjsim.bodies.parts import DARK, PALE
+from mjsim.model.parts import DARK, PALE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from mjsim.simulation.trajectory import Trajectory
+    from mjsim.results.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 

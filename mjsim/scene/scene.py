@@ -14,7 +14,7 @@ from analytic.scene.gait import GAITS, Gait
 from analytic.scene.ground import check_adhesion, depends_on_speed, surfaces_of
 from analytic.scene.robot import GRAVITY, Robot
 from analytic.scene.surface import SURFACES, Ground
-from mjsim import registry
+from mjsim.scene import registry
 from mjsim.scene.valves import Valves
 
 Chamber = Literal["linearized", "sealed", "constant-pressure"]

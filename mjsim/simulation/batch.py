@@ -17,17 +17,17 @@ import numpy as np
 from mujoco import rollout as mujoco_rollout
 from numpy.typing import NDArray
 
-from mjsim.bodies.chambers import Chambers
-from mjsim.bodies.pneumatics import controls
-from mjsim.mjcf.builder import compile_model
-from mjsim.plugins import processes
+from mjsim.files.plugins import processes
+from mjsim.model.builder import compile_model
+from mjsim.model.chambers import Chambers
+from mjsim.model.pneumatics import controls
+from mjsim.results.judge import judge
+from mjsim.results.status import Status
+from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.judge import judge
 from mjsim.simulation.kinematics import positions
 from mjsim.simulation.schedule import before_start, check_steps, walking, walking_steps
 from mjsim.simulation.simulation import simulate
-from mjsim.simulation.status import Status
-from mjsim.simulation.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ def simulate_all(
 ) -> list[Trajectory | Refused]:
     """`simulate` for each scene, in order, in processes that take a second to start.
 
-    They know the laws and bodies that are registered here, see mjsim.plugins.
+    They know the laws and bodies that are registered here, see mjsim.files.plugins.
 
     Args:
         scenes: the walks.

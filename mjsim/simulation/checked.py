@@ -14,13 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mjsim.results.measures import measure
+from mjsim.results.status import Status
+from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.auto import check_tolerance, rungs
 from mjsim.scene.numerics import MAX_LINKS
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
-from mjsim.simulation.status import Status
-from mjsim.simulation.trajectory import Trajectory
 
 _STEPS_A_RAMP = 40  # chosen
 _FINE = 0.005  # s: at longer steps a strip may fall by the numerics alone

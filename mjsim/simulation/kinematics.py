@@ -5,8 +5,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mjsim.friction.contact_length import pads_by_node
+from mjsim.results.status import FALLEN
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.status import FALLEN
 
 Array = NDArray[np.float64]
 

@@ -10,20 +10,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from analytic.friction.contact_length import may_lie_flat
 from analytic.scene.gait import Gait
-from mjsim import registry
-from mjsim.bodies.chambers import Chambers
 from mjsim.friction.contact_length import pads_by_node
 from mjsim.friction.laws import traction
 from mjsim.friction.recorder import ContactRecorder
-from mjsim.mjcf.builder import compile_model
-from mjsim.mjcf.compiled import Compiled
-from mjsim.mjcf.copies import Copied
-from mjsim.scene import Numerics, Scene
-from mjsim.simulation.judge import judge
+from mjsim.model.builder import compile_model
+from mjsim.model.chambers import Chambers
+from mjsim.model.compiled import Compiled
+from mjsim.results.judge import judge
+from mjsim.results.status import AT_REST, Status
+from mjsim.results.trajectory import Trajectory
+from mjsim.scene import Numerics, Scene, registry
+from mjsim.simulation.copies import Copied
 from mjsim.simulation.kinematics import ends_may_be, nodes_of, positions
 from mjsim.simulation.schedule import before_start, check_steps, walking, walking_steps
-from mjsim.simulation.status import AT_REST, Status
-from mjsim.simulation.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 

@@ -98,7 +98,7 @@ def load(path: Path, quantity: str) -> Results:
         ValueError: it is no file of a sweep, has no such column, or nothing in it differs.
     """
     if not path.is_file():
-        raise ValueError(f"results must be a file of mjsim.sweep, got {str(path)!r}")
+        raise ValueError(f"results must be a file of undulator sweep, got {str(path)!r}")
     if quantity not in _NUMBERS:
         raise ValueError(f"quantity must be one of {', '.join(_NUMBERS)}; got {quantity!r}")
     base = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
@@ -111,7 +111,9 @@ def load(path: Path, quantity: str) -> Results:
             base.execute("select status, count(*) from scenes group by 1 order by 2 desc")
         )
     except sqlite3.DatabaseError as error:
-        raise ValueError(f"results {str(path)!r} are no file of mjsim.sweep: {error}") from error
+        raise ValueError(
+            f"results {str(path)!r} are no file of undulator sweep: {error}"
+        ) from error
     finally:
         base.close()
     if len(rows) < 2:

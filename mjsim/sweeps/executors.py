@@ -9,7 +9,7 @@ from concurrent.futures import CancelledError, Executor, Future
 from multiprocessing.connection import wait as wait_for
 from typing import Any, Protocol
 
-from mjsim.plugins import Carried, adopt, carried, processes
+from mjsim.files.plugins import Carried, adopt, carried, processes
 
 _PATIENCE = "10s"  # for a scheduler to answer
 

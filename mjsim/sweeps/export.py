@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from mjsim.io.files import whole
+from mjsim.files.files import whole
 
 _MANY = 10_000  # rows at a time
 

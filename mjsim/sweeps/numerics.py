@@ -1,9 +1,9 @@
 """Links and time step for a whole sweep, picked on its base scene."""
 
+from mjsim.files.tables import build
+from mjsim.results.measures import measure
 from mjsim.scene import Numerics
-from mjsim.scene.tables import build
 from mjsim.simulation.checked import allowed, closeness, ladder
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 from mjsim.sweeps.plan import Plan
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from mjsim.io.files import whole
+from mjsim.files.files import whole
 from mjsim.sweeps.effects import Field, Map, Results, levels
 
 _ACROSS = 3  # panels

@@ -35,10 +35,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.checks import is_number, one_of, whole
+from mjsim.files.quantities import check_field, field_value, with_fields
+from mjsim.files.tables import NAMES, Tables, build, check_keys, read_tables
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.auto import check_tolerance
-from mjsim.scene.quantities import check_field, field_value, with_fields
-from mjsim.scene.tables import NAMES, Tables, build, check_keys, read_tables
 
 EXAMPLE = """\
 # How the way depends on pressure, weight and ground: 300 walks in MuJoCo.

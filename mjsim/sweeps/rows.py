@@ -11,9 +11,9 @@ import numpy as np
 from analytic.locomotion import direction
 from analytic.prediction import SOLVERS, predict
 from analytic.uncertainty import modes_error
+from mjsim.files.quantities import with_fields
+from mjsim.files.tables import Tables, build
 from mjsim.scene import Numerics, Scene
-from mjsim.scene.quantities import with_fields
-from mjsim.scene.tables import Tables, build
 
 REFUSED, CRASHED = "refused", "crashed"  # a bad scene; one that took its process down
 
@@ -90,8 +90,8 @@ def refused(message: str, status: str = REFUSED) -> Row:
 
 
 def _simulated(job: Job, scenes: Sequence[tuple[int, Scene, Numerics]]) -> dict[int, Row]:
-    from mjsim.batch.simulate import simulate_batch
-    from mjsim.simulation.trajectory import Trajectory
+    from mjsim.results.trajectory import Trajectory
+    from mjsim.simulation.batch_simulate import simulate_batch
 
     rows: dict[int, Row] = {}
     alike: dict[Numerics, list[tuple[int, Scene]]] = {}
@@ -121,7 +121,7 @@ def _checked(job: Job, scene: Scene) -> Row:
 
 
 def _walked(walk: Any) -> Row:
-    from mjsim.simulation.measures import measure
+    from mjsim.results.measures import measure
 
     numbers = measure(walk)
     if numbers is None:

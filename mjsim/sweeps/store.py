@@ -16,8 +16,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, Any
 
-from mjsim.scene.provenance import machine, origin
-from mjsim.scene.quantities import field_text, field_unit
+from mjsim.files.quantities import field_text, field_unit
+from mjsim.results.provenance import machine, origin
 from mjsim.sweeps.plan import Plan
 from mjsim.sweeps.rows import OUTPUTS, Row
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from mjsim.io.cli import bar, choose, fail, parse
-from mjsim.io.files import check_folder
-from mjsim.scene.provenance import machine, signature
+from mjsim.files.cli import bar, choose, fail, parse
+from mjsim.files.files import check_folder
+from mjsim.results.provenance import machine, signature
 from studies.accuracy import (
     benchmark_cases,
     cantilever_bodies,

@@ -9,10 +9,9 @@ from numpy.typing import NDArray
 
 from analytic.scene import pneunet
 from analytic.solvers.elastica.cantilever import solve_cantilever
-from mjsim import registry
-from mjsim.bodies.parts import set_options
-from mjsim.bodies.rod import rest_stiffness
-from mjsim.scene import INTEGRATORS, Scene
+from mjsim.model.parts import set_options
+from mjsim.model.rod import rest_stiffness
+from mjsim.scene import INTEGRATORS, Scene, registry
 from studies.accuracy.heavy_cantilever import DAMPING, DURATION, settled, strip
 from studies.accuracy.rows import Row
 from studies.accuracy.setting import Setting

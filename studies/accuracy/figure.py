@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from mjsim.io.files import whole
+from mjsim.files.files import whole
 from mjsim.scene import Numerics
 from studies.accuracy import benchmark_cases, heavy_cantilever
 from studies.accuracy.rows import Row, everywhere
@@ -98,7 +98,7 @@ def pareto(rows: Iterable[Row]) -> list[Row]:
 
 
 def is_default(row: Row) -> bool:
-    """Whether a row is what `python -m mjsim.run` does unless told otherwise."""
+    """Whether a row is what `undulator run` does unless told otherwise."""
     if row.case not in benchmark_cases.GROUNDS or row.method != "planar":
         return False
     usual = Numerics().resolved("planar", "coulomb" if row.cone else "constant")

@@ -15,12 +15,12 @@ from pathlib import Path
 from typing import cast
 
 from analytic import SURFACES
-from mjsim.io.cli import bar, fail, parse
-from mjsim.io.files import check_folder
+from mjsim.files.cli import bar, fail, parse
+from mjsim.files.files import check_folder
+from mjsim.results.measures import measure
+from mjsim.results.provenance import signature
 from mjsim.scene import INTEGRATORS, Numerics, Scene
 from mjsim.scene.numerics import Integrator
-from mjsim.scene.provenance import signature
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 from studies import workers
 from studies.accuracy.rows import HERE, append, read

@@ -4,8 +4,8 @@ import math
 from dataclasses import replace
 
 from analytic import SOLVERS, Elastica, predict
+from mjsim.results.measures import measure
 from mjsim.scene import Scene
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 from studies.accuracy.benchmark_cases import friction_of, scene_of, walked
 from studies.accuracy.rows import Row

@@ -9,9 +9,9 @@ from pathlib import Path
 import matplotlib
 import xarray as xr
 
-from mjsim.io.cli import bar, choose, fail, parse
-from mjsim.io.files import whole
-from mjsim.scene.provenance import origin
+from mjsim.files.cli import bar, choose, fail, parse
+from mjsim.files.files import whole
+from mjsim.results.provenance import origin
 from studies.paper import amplitude, contact, peak, regime, sequence
 from studies.paper.style import FONT
 

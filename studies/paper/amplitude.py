@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 from analytic import GAITS, SOLVERS, SURFACES, Gait, Robot, Shapes, predict, solve_modes
 from analytic.locomotion import state_slip
 from analytic.scene import pneunet
+from mjsim.results.measures import measure
 from mjsim.scene import Scene
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 from studies.paper.style import SIMULATED, SOLVER
 

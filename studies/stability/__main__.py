@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from mjsim import registry
-from mjsim.io.cli import bar, choose, fail, parse
-from mjsim.scene.provenance import signature
+from mjsim.files.cli import bar, choose, fail, parse
+from mjsim.results.provenance import signature
+from mjsim.scene import registry
 from studies import workers
 from studies.accuracy.figure import save
 from studies.accuracy.rows import append, read

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh, null_space
 
 from analytic import SURFACES
-from mjsim.bodies.rod import rest_stiffness
-from mjsim.mjcf.builder import compile_model
+from mjsim.model.builder import compile_model
+from mjsim.model.rod import rest_stiffness
 from mjsim.scene import Numerics, Scene
 from studies.accuracy.setting import Setting
 

@@ -9,10 +9,10 @@ import math
 from dataclasses import replace
 
 from analytic import SURFACES, direction
+from mjsim.results.measures import measure
+from mjsim.results.status import Status
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
-from mjsim.simulation.status import Status
 from studies.accuracy.benchmark_cases import WALK, exact
 from studies.accuracy.setting import Setting
 

@@ -10,9 +10,9 @@ import numpy as np
 from analytic import Surface
 from analytic.friction.laws import friction_number
 from analytic.scene import pneunet
-from mjsim.record import reference as quasi_static
+from mjsim.results.measures import measure
+from mjsim.results.record import reference as quasi_static
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 from studies.accuracy import benchmark_cases
 

@@ -11,11 +11,12 @@ import pytest
 
 from analytic.friction.laws import LAWS, ConstantBounds, register
 from analytic.registry import Registry
-from mjsim import plugins, registry, run, sweep
-from mjsim.bodies.planar import Planar
+from mjsim.commands import run, sweep
+from mjsim.files import plugins
+from mjsim.files.cli import BAD_INPUT
 from mjsim.fitting.walks import by_mujoco
-from mjsim.io.cli import BAD_INPUT
-from mjsim.scene import Numerics, Scene
+from mjsim.model.planar import Planar
+from mjsim.scene import Numerics, Scene, registry
 from mjsim.simulation.batch import Refused, simulate_all
 from mjsim.simulation.simulation import simulate
 
@@ -24,7 +25,7 @@ COARSE = Numerics(links=6, timestep=0.02)
 LAW = """
 from analytic.friction.laws import ConstantBounds, register
 from mjsim import registry
-from mjsim.bodies.planar import Planar
+from mjsim.model.planar import Planar
 
 class Firm(ConstantBounds):
     name = "firm"
@@ -206,7 +207,7 @@ def test_a_sweep_by_command_has_laws_of_an_installed_package(tmp_path):
     plan = '[scene.numerics]\nbody = "heavy"\n[grid]\n"numerics.friction" = ["firm", "none"]\n'
     (tmp_path / "plan.toml").write_text(plan)
     done = subprocess.run(
-        [sys.executable, "-m", "mjsim.sweep", "plan.toml", "--json"], cwd=tmp_path,
+        [sys.executable, "-m", "mjsim", "sweep", "plan.toml", "--json"], cwd=tmp_path,
         env=_with(tmp_path), capture_output=True, text=True, check=True,
     )  # fmt: skip
     assert json.loads(done.stdout)["status"] == {"ok": 1, "refused": 1}

@@ -6,14 +6,15 @@ from functools import cache
 import pytest
 
 from analytic import GAITS, SURFACES, Elastica, Friction, Gait, Robot, Surface, predict
-from mjsim import record, run
-from mjsim.io import cli
+from mjsim.commands import run
+from mjsim.files import cli
+from mjsim.results import limb_record as record_of_limbs
+from mjsim.results import record
+from mjsim.results.measures import Measures, measure
+from mjsim.results.status import Status
+from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.measures import Measures, measure
 from mjsim.simulation.simulation import simulate
-from mjsim.simulation.status import Status
-from mjsim.simulation.trajectory import Trajectory
-from mjsim.tree import record as record_of_limbs
 
 # heavier and more curved than the default robot: its stable branch ends at 65 kPa
 HEAVIER = Robot(weight_per_length=2.0, chamber_height=4.1e-3)
@@ -73,7 +74,7 @@ def coarsen(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def refusal(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:
-    """What `mjsim.run` says of bad input, having left with its code after one line."""
+    """What `undulator run` says of bad input, having left with its code after one line."""
     with pytest.raises(SystemExit) as stop:
         run.main(words)
     said = capsys.readouterr().err

@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from walks import refusal
 
-from mjsim import run
-from mjsim.io import cli
+from mjsim.commands import run
+from mjsim.files import cli
 from mjsim.scene import Scene
 from mjsim.simulation.checked import ladder
 from studies.accuracy import __main__ as chart

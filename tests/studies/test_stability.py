@@ -6,11 +6,10 @@ from dataclasses import replace
 import mujoco
 import pytest
 
-from mjsim import registry
-from mjsim.io import cli
-from mjsim.scene import Numerics, Scene
+from mjsim.files import cli
+from mjsim.results.status import Status
+from mjsim.scene import Numerics, Scene, registry
 from mjsim.simulation.simulation import simulate
-from mjsim.simulation.status import Status
 from studies.accuracy.benchmark_cases import WALK, exact, scene_of
 from studies.accuracy.setting import Setting
 from studies.stability import __main__ as stability

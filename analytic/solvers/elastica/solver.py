@@ -18,11 +18,11 @@ from analytic.scene.ground import check_adhesion
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground
+from analytic.shapes import ContactShapes, Status
 from analytic.solvers.elastica.continuation import follow
 from analytic.solvers.elastica.newton import Chain
 from analytic.solvers.elastica.state import ChainState
 from analytic.solvers.elastica.stick_slip import StickSlip
-from analytic.solvers.shapes import ContactShapes, Status
 
 Array = NDArray[np.float64]
 

@@ -17,10 +17,10 @@ from analytic.friction.contact_length import flat_length, may_lie_flat
 from analytic.friction.contact_length import ripple as strip_ripple
 from analytic.friction.laws import LAWS
 from analytic.scene.ground import surfaces_of
+from analytic.scene.limbs import TreeRobot
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground, Surface
 from analytic.solvers.limbs.kinematics import Tree
-from analytic.solvers.limbs.limbs import TreeRobot
 from analytic.solvers.limbs.statics import Rest
 
 Array = NDArray[np.float64]

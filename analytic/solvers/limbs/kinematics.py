@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.chain import link_lengths
-from analytic.solvers.limbs.limbs import TreeRobot
+from analytic.scene.limbs import TreeRobot
 
 Array = NDArray[np.float64]
 

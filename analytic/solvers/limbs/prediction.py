@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.gait import Gait
+from analytic.scene.limbs import TreeRobot, rotation
 from analytic.scene.surface import Ground
-from analytic.solvers.limbs.limbs import TreeRobot, rotation
 from analytic.solvers.limbs.path import Path
 from analytic.solvers.limbs.walk import walk
 

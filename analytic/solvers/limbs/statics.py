@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, cho_factor, cho_solve, eigh
 
 from analytic.scene.chain import joint_springs
+from analytic.scene.limbs import rotation
 from analytic.solvers.limbs.grip import Grip, held
 from analytic.solvers.limbs.kinematics import HEIGHT, IN_PLAN, WHOLE, Pose, Tree
-from analytic.solvers.limbs.limbs import rotation
 
 Array = NDArray[np.float64]
 

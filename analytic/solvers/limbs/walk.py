@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from analytic.friction.dissipation_in_plane import least_dissipation_in_plane
 from analytic.scene.gait import Gait
 from analytic.scene.ground import surfaces_of
+from analytic.scene.limbs import TreeRobot, rotation
 from analytic.scene.surface import Ground
 from analytic.solvers.limbs.contacts import Contact, Contacts, check_ground
 from analytic.solvers.limbs.kinematics import Tree
-from analytic.solvers.limbs.limbs import TreeRobot, rotation
 from analytic.solvers.limbs.path import Path
 from analytic.solvers.limbs.statics import Rest, Statics
 from analytic.solvers.limbs.stick_slip import drag_along

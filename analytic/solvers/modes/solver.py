@@ -6,10 +6,10 @@ from numpy.typing import ArrayLike, NDArray
 from analytic.scene import pneunet
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
+from analytic.shapes import Mode, Shapes, Status
 from analytic.solvers.modes import beam
 from analytic.solvers.modes.beam import SEGMENTS
 from analytic.solvers.modes.liftoff import lift_off
-from analytic.solvers.shapes import Mode, Shapes, Status
 
 Array = NDArray[np.float64]
 

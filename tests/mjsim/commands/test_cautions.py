@@ -9,11 +9,11 @@ import pytest
 from analytic import GAITS, SURFACES, Friction, Robot, predict
 from analytic.scene.surface import from_ratios
 from analytic.scene.trapezoid import trapezoid
-from mjsim import run
-from mjsim.cautions import cautions, tied
-from mjsim.record import record
+from mjsim.commands import run
+from mjsim.results.cautions import cautions, tied
+from mjsim.results.measures import measure
+from mjsim.results.record import record
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 
 BENT = Friction(tension=1.0)

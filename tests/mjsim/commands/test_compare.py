@@ -6,8 +6,8 @@ from dataclasses import replace
 import pytest
 
 from analytic import GAITS, SURFACES, Robot
-from mjsim.compare import Row, compare, main, models
-from mjsim.io import cli
+from mjsim.commands.compare import Row, compare, main, models
+from mjsim.files import cli
 
 STANDSTILL = 0.002  # of L; less is no travel, see analytic.locomotion
 

@@ -8,12 +8,12 @@ import pytest
 from mujoco import rollout
 
 from analytic import GAITS, SURFACES, Robot
-from mjsim import export, registry
-from mjsim.io import cli
-from mjsim.io.assets import MODELS
-from mjsim.mjcf.standalone import standalone_spec, walking_scene
-from mjsim.scene import Scene
-from mjsim.simulation.measures import measure
+from mjsim.commands import export
+from mjsim.files import cli
+from mjsim.files.assets import MODELS
+from mjsim.model.standalone import standalone_spec, walking_scene
+from mjsim.results.measures import measure
+from mjsim.scene import Scene, registry
 from mjsim.simulation.simulation import simulate
 from studies.textures import write_textures
 
@@ -47,7 +47,7 @@ def test_a_loop_of_mj_step_alone_goes_as_far_as_mjsim(name):
 
 @pytest.mark.parametrize("name", ["polyethylene", "gelatin"])
 def test_so_does_dm_control(name):
-    dm = pytest.importorskip("mjsim.simulation.dm", exc_type=ImportError)
+    dm = pytest.importorskip("mjsim.env.dm_binding", exc_type=ImportError)
     physics = dm.mujoco.Physics.from_xml_path(str(MODELS / f"{name}.xml"))
     sequence = commands(physics.timestep())
     places = []
@@ -128,7 +128,7 @@ def test_an_exported_scene_loads_from_another_folder(moved):
 
 
 def test_so_it_does_in_dm_control(moved):
-    pytest.importorskip("mjsim.simulation.dm", exc_type=ImportError)
+    pytest.importorskip("mjsim.env.dm_binding", exc_type=ImportError)
     from dm_control import mjcf
 
     physics = mjcf.Physics.from_mjcf_model(mjcf.from_path(str(moved)))

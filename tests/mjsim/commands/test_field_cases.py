@@ -13,16 +13,16 @@ from walks import HEAVIER, refusal
 
 from analytic import GAITS, SURFACES, Friction, Gait, Robot, Surface, predict
 from analytic.solvers.elastica.cantilever import solve_cantilever
-from mjsim import replay, run
-from mjsim.io import cli, files
-from mjsim.record import reference
+from mjsim.commands import replay, run
+from mjsim.files import cli, files
+from mjsim.results.judge import slid
+from mjsim.results.measures import measure, slid_over_length
+from mjsim.results.provenance import provenance
+from mjsim.results.record import reference
+from mjsim.results.status import Status
 from mjsim.scene import Numerics, Scene
-from mjsim.scene.provenance import provenance
 from mjsim.simulation.batch import Refused, rollout, simulate_all
-from mjsim.simulation.judge import slid
-from mjsim.simulation.measures import measure, slid_over_length
 from mjsim.simulation.simulation import simulate
-from mjsim.simulation.status import Status
 
 
 def call(words, capsys, code=0):
@@ -139,7 +139,7 @@ def test_the_same_run_twice_at_once_leaves_one_whole_file(tmp_path):
         process.stdout.close()
         process.stderr.close()
     (path,) = tmp_path.iterdir()
-    from mjsim.simulation.trajectory import load
+    from mjsim.results.trajectory import load
 
     assert load(path).status is Status.OK
 

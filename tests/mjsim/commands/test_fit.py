@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from mjsim import fit
-from mjsim.scene.tables import build
+from mjsim.commands import fit
+from mjsim.files.tables import build
 
 HEAD = "surface,robot.peak_pressure [kPa],displacement [mm],height [mm]\n"
 

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from analytic import SURFACES
-from mjsim import replay, run
-from mjsim.io import cli
-from mjsim.video import gl
+from mjsim.commands import replay, run
+from mjsim.files import cli
+from mjsim.pictures import gl
 
 pytestmark = pytest.mark.usefixtures("coarse")
 
@@ -124,7 +124,7 @@ def test_help_teaches(capsys):
         run.main(["--help"])
     assert stop.value.code == 0
     said = capsys.readouterr().out
-    assert "python -m mjsim.run --surface gelatin" in said
+    assert "undulator run --surface gelatin" in said
     assert "[Pa]" in said
 
 

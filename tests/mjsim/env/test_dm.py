@@ -10,7 +10,7 @@ import mjsim.env
 from mjsim.env.gym import WalkEnv
 from mjsim.env.task import names
 
-pytest.importorskip("mjsim.simulation.dm", exc_type=ImportError)
+pytest.importorskip("mjsim.env.dm_binding", exc_type=ImportError)
 from dm_control.mujoco.wrapper.mjbindings import sizes
 from dm_env import test_utils
 
@@ -52,7 +52,7 @@ def test_a_strip_that_falls_ends_its_episode_as_gymnasiums_does():
 
 def test_one_line_tells_a_dm_control_that_does_not_know_the_mujoco_beside_it(monkeypatch):
     monkeypatch.delitem(sys.modules, "mjsim.env.dm")
-    monkeypatch.delitem(sys.modules, "mjsim.simulation.dm")
+    monkeypatch.delitem(sys.modules, "mjsim.env.dm_binding")
     monkeypatch.setitem(sizes.array_sizes["mjmodel"], "field_of_another_version", ("nq",))
     with pytest.raises(ImportError, match=r"does not know MuJoCo \d") as told:
         mjsim.env.load("gelatin")

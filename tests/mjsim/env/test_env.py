@@ -81,7 +81,7 @@ def steps(env, actions):
 @pytest.mark.parametrize("library", ["gym", "dm"])
 def test_a_copy_in_an_episode_goes_on_as_its_original_would(library, way):
     if library == "dm":
-        pytest.importorskip("mjsim.simulation.dm", exc_type=ImportError)
+        pytest.importorskip("mjsim.env.dm_binding", exc_type=ImportError)
 
     def make():
         if library == "dm":
@@ -105,7 +105,7 @@ def test_a_copy_in_an_episode_goes_on_as_its_original_would(library, way):
 
 
 def test_dm_controls_own_copy_is_one_and_shares_no_model():
-    pytest.importorskip("mjsim.simulation.dm", exc_type=ImportError)
+    pytest.importorskip("mjsim.env.dm_binding", exc_type=ImportError)
     env = mjsim.env.load("gelatin", seed=3)
     env.reset()
     actions = np.random.default_rng(2).random((6, 3))
@@ -180,7 +180,7 @@ def test_a_strip_that_falls_ends_its_episode_alone_and_among_many():
 
 
 def test_without_dm_control_one_line_says_why(monkeypatch):
-    for name in ("mjsim.env.dm", "mjsim.simulation.dm"):
+    for name in ("mjsim.env.dm", "mjsim.env.dm_binding"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     monkeypatch.setitem(sys.modules, "dm_control", None)
     with pytest.raises(ImportError, match="needs dm_control") as told:

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from analytic.scene import pneunet
+from mjsim.files.tables import build
 from mjsim.fitting.determined import at_bounds, undetermined
 from mjsim.fitting.estimate import estimate
 from mjsim.fitting.observations import Run, Series
 from mjsim.fitting.parameters import parameters, with_values
 from mjsim.fitting.walks import Predictor, by_mujoco, coarse, quasi_static
-from mjsim.scene.tables import build
 
 BEND = {"robot": {"curvature_per_pressure": 5e-4}}
 PRESSURE = np.linspace(2e3, 5e4, 40)

@@ -5,8 +5,8 @@ import re
 import pytest
 
 from analytic import SURFACES
+from mjsim.files.tables import build
 from mjsim.fitting.parameters import parameters, with_values
-from mjsim.scene.tables import build
 
 BASE = {"ground": {"tip_force": 0.02, "shear_strength": 10.0}}
 

@@ -13,10 +13,9 @@ from analytic import SURFACES, Robot
 from analytic.friction.contact_length import PASSIVE
 from analytic.scene.chain import node_positions
 from analytic.scene.surface import from_ratios
-from mjsim import registry
 from mjsim.friction.contact_length import ContactForces, pads_by_node
-from mjsim.mjcf.builder import compile_model
-from mjsim.scene import Numerics, Scene
+from mjsim.model.builder import compile_model
+from mjsim.scene import Numerics, Scene, registry
 
 SCENE = Scene()
 parts = st.floats(0.0, 0.4).map(lambda part: part * SCENE.robot.length)

@@ -8,10 +8,9 @@ from walks import measured, walk
 from analytic import SURFACES, Friction, Gait, Robot, predict
 from analytic.locomotion import undecided
 from analytic.scene.surface import from_ratios
-from mjsim import registry
-from mjsim.record import record, table
-from mjsim.scene import Scene
-from mjsim.simulation.status import Status
+from mjsim.results.record import record, table
+from mjsim.results.status import Status
+from mjsim.scene import Scene, registry
 
 SLOW = 8.0  # s a ramp: no inertia to speak of
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from analytic import GAITS, SURFACES, Friction, Patches, Robot, predict
+from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import Simulation, simulate
 
 SLOW = replace(GAITS["wave"], ramp_time=8.0)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from analytic import GAITS, SURFACES, Friction, Robot, Surface, predict
+from mjsim.results.measures import measure
 from mjsim.scene import Scene
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import Simulation, simulate
 
 WET = Surface("wet", tip_force=0.010, viscosity=2000.0)

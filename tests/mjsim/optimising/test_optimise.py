@@ -17,12 +17,12 @@ from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
 from analytic.scene.trapezoid import staggered, trapezoid
 from analytic.uncertainty import flagged_change
-from mjsim.optimise import main
+from mjsim.commands.optimise import main
+from mjsim.files.tables import build
 from mjsim.optimising.objective import Objective
 from mjsim.optimising.search import search
 from mjsim.optimising.space import GRID, Space
 from mjsim.scene import Scene
-from mjsim.scene.tables import build
 
 THREE = tuple(SURFACES.values())
 

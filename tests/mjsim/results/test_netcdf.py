@@ -7,9 +7,9 @@ import pytest
 import xarray as xr
 from walks import walk
 
-from mjsim import run
+from mjsim.commands import run
 from mjsim.results.netcdf import CONVENTIONS, segment_names
-from mjsim.simulation.trajectory import load
+from mjsim.results.trajectory import load
 
 _UNIT = re.compile(r"(1|((m|s|Pa|N|J)(-?\d)?)( (m|s|Pa|N|J)(-?\d)?)*)")  # of UDUNITS
 

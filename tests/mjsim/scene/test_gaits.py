@@ -7,14 +7,14 @@ from walks import measured, predicted, refusal
 
 from analytic import GAITS, SURFACES, Friction, Gait, Robot
 from analytic.scene.surface import from_ratios
-from mjsim import run
-from mjsim.io import cli
-from mjsim.record import reference
+from mjsim.commands import run
+from mjsim.files import cli
+from mjsim.files.tables import build_gait
+from mjsim.results.measures import measure
+from mjsim.results.record import reference
+from mjsim.results.status import Status
 from mjsim.scene import Scene
-from mjsim.scene.tables import build_gait
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
-from mjsim.simulation.status import Status
 
 GALLOP = """
 name = "gallop"

@@ -7,11 +7,11 @@ from hypothesis import strategies as st
 
 from analytic import GAITS, Gait
 from analytic.scene.robot import PSI
-from mjsim.record import record
-from mjsim.run import main
+from mjsim.commands.run import main
+from mjsim.files.measured import Series, as_gait, read_series
+from mjsim.files.tables import build, merged
+from mjsim.results.record import record
 from mjsim.scene import Numerics
-from mjsim.scene.measured import Series, as_gait, read_series
-from mjsim.scene.tables import build, merged
 from mjsim.simulation.simulation import simulate
 
 PEAK = 7 * PSI

@@ -10,10 +10,10 @@ from walks import refusal
 from analytic import GAITS, SURFACES, Gait, Robot, Surface
 from analytic.scene.trapezoid import trapezoid
 from mjsim import Scene
-from mjsim.io.options import field_docs
+from mjsim.files.dataclass_options import field_docs
+from mjsim.files.options import SceneOptions, tables_of
+from mjsim.files.tables import build, read_tables
 from mjsim.scene import Numerics
-from mjsim.scene.options import SceneOptions, tables_of
-from mjsim.scene.tables import build, read_tables
 
 TOML = """
 [robot]

@@ -1,10 +1,10 @@
 import pytest
 
-from mjsim.io.fields import units
-from mjsim.io.units import in_unit
-from mjsim.run import main
+from mjsim.commands.run import main
+from mjsim.files.fields import units
+from mjsim.files.tables import build
+from mjsim.files.units import in_unit
 from mjsim.scene import Numerics, Scene
-from mjsim.scene.tables import build
 
 
 # NIST SP 811, appendix B.8: exact or to seven digits

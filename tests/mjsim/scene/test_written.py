@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from analytic import GAITS, SURFACES, Gait, Patches, Robot, Surface
+from mjsim.files.tables import build
+from mjsim.files.written import as_tables, as_toml
 from mjsim.scene import Numerics, Scene, Valves
-from mjsim.scene.tables import build
-from mjsim.scene.written import as_tables, as_toml
 
 FELT = SURFACES["felt"]
 OWN = Surface("mine", tip_force=0.02, shear_strength=12.0, viscosity=0.3)

@@ -6,9 +6,9 @@ from dataclasses import replace
 import pytest
 
 from analytic import GAITS, SURFACES, Gait, Robot
+from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.checked import ladder, walk_checked
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
 from studies.accuracy.benchmark_cases import GROUNDS, WALK, exact, scene_of
 

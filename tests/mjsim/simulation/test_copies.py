@@ -8,13 +8,12 @@ import pytest
 
 from analytic.friction.laws import ConstantBounds, register
 from analytic.scene.surface import SURFACES
-from mjsim import registry
-from mjsim.bodies.planar import Planar
-from mjsim.scene import Numerics, Scene
+from mjsim.model.planar import Planar
+from mjsim.scene import Numerics, Scene, registry
+from mjsim.scene.limbs import TreeNumerics, TreeScene
+from mjsim.simulation.limbs import TreeSimulation
 from mjsim.simulation.schedule import walking
 from mjsim.simulation.simulation import Simulation
-from mjsim.tree.scene import TreeNumerics, TreeScene
-from mjsim.tree.simulation import TreeSimulation
 
 NUMERICS = Numerics(links=12, timestep=0.01)
 STRIPS = {

@@ -10,11 +10,11 @@ import mjsim.simulation.simulation as simulation
 from analytic.scene.gait import Gait
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SHEAR_STRENGTH, TIP_FORCE, Surface
-from mjsim.record import record
+from mjsim.results.measures import measure
+from mjsim.results.record import record
+from mjsim.results.status import Status
+from mjsim.results.trajectory import load
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.measures import measure
-from mjsim.simulation.status import Status
-from mjsim.simulation.trajectory import load
 
 TOO_MUCH = replace(HEAVIER, peak_pressure=72e3)  # kappa L = 5.7
 
@@ -68,7 +68,7 @@ def test_coordinates_that_run_away_are_called_diverged(monkeypatch, poison):
 
 def test_a_saved_failure_can_be_loaded_and_shows_the_same_states(tmp_path):
     result = walk("felt", robot=TOO_MUCH)
-    from mjsim.scene.provenance import provenance
+    from mjsim.results.provenance import provenance
 
     path = tmp_path / "failed.nc"
     result.save(path, provenance(result.scene, result.numerics))

@@ -9,12 +9,12 @@ from conftest import BACKEND
 from walks import refusal
 
 from analytic import GAITS, SURFACES, Patches, predict
-from mjsim import run
+from mjsim.commands import run
+from mjsim.files.tables import build, read_tables
+from mjsim.results.provenance import provenance
+from mjsim.results.trajectory import load
 from mjsim.scene import Scene
-from mjsim.scene.provenance import provenance
-from mjsim.scene.tables import build, read_tables
 from mjsim.simulation.simulation import simulate
-from mjsim.simulation.trajectory import load
 
 FELT, GELATIN = SURFACES["felt"], SURFACES["gelatin"]
 SLOW = replace(GAITS["wave"], ramp_time=4.0)
@@ -90,7 +90,7 @@ def test_the_command_walks_over_patches(tmp_path, capsys):
 
 @pytest.mark.skipif(BACKEND is None, reason="no OpenGL backend on this machine")
 def test_each_patch_is_drawn_where_it_is():
-    from mjsim.video.render import Camera
+    from mjsim.pictures.render import Camera
 
     walk = simulate(Scene(ground=Patches("both", (0.065,), (FELT, GELATIN)), settle_time=0.01))
     with Camera(walk, 640, 360) as camera:

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from analytic import SURFACES, Robot
-from mjsim.mjcf.standalone import walking_scene
+from mjsim.model.standalone import walking_scene
 from mjsim.scene import Scene
 from mjsim.simulation.simulation import Simulation
 
-Physics = pytest.importorskip("mjsim.simulation.physics", exc_type=ImportError).Physics
+Physics = pytest.importorskip("mjsim.env.physics", exc_type=ImportError).Physics
 
 SCENE = Scene(ground=SURFACES["gelatin"])
 

@@ -8,13 +8,12 @@ import pytest
 
 from analytic import GAITS, LAWS, SURFACES, Elastica, Patches, Robot, Surface, predict
 from analytic.friction import laws as laws
-from mjsim import registry
-from mjsim.bodies.planar import Planar
-from mjsim.mjcf.standalone import write
-from mjsim.scene import Numerics, Scene
-from mjsim.simulation.measures import measure
+from mjsim.model.planar import Planar
+from mjsim.model.standalone import write
+from mjsim.results.measures import measure
+from mjsim.results.status import Status
+from mjsim.scene import Numerics, Scene, registry
 from mjsim.simulation.simulation import Simulation, simulate
-from mjsim.simulation.status import Status
 
 
 class Twin(Planar):

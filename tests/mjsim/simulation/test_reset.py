@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 
-from mjsim import registry
-from mjsim.bodies.planar import Planar
-from mjsim.mjcf.builder import compile_model
-from mjsim.scene import Numerics, Scene
+from mjsim.model.builder import compile_model
+from mjsim.model.planar import Planar
+from mjsim.scene import Numerics, Scene, registry
+from mjsim.scene.limbs import TreeNumerics, TreeScene
+from mjsim.simulation.limbs import TreeSimulation
 from mjsim.simulation.simulation import Simulation
-from mjsim.tree.scene import TreeNumerics, TreeScene
-from mjsim.tree.simulation import TreeSimulation
 
 
 class Damped(Planar):

@@ -8,8 +8,8 @@ import pytest
 import xarray as xr
 from walks import walk
 
-from mjsim.scene.provenance import provenance
-from mjsim.simulation.trajectory import load
+from mjsim.results.provenance import provenance
+from mjsim.results.trajectory import load
 
 
 @pytest.fixture

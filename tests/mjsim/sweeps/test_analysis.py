@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from mjsim.analysis import main
+from mjsim.commands.analysis import main
 from mjsim.sweeps.effects import explained, levels
 from mjsim.sweeps.plan import make_plan
 from mjsim.sweeps.store import Store
@@ -73,9 +73,9 @@ def test_bad_input_is_one_line_and_exit_code_2(results, tmp_path, capsys):
     empty = tmp_path / "empty.sqlite"
     sqlite3.connect(empty).close()
     for arguments, words in (
-        ([str(tmp_path / "none")], "must be a file of mjsim.sweep"),
+        ([str(tmp_path / "none")], "must be a file of undulator sweep"),
         ([str(results), "--quantity", "colour"], "quantity must be one of"),
-        ([str(empty)], "no file of mjsim.sweep"),
+        ([str(empty)], "no file of undulator sweep"),
     ):
         with pytest.raises(SystemExit) as stop:
             main([*arguments, "--out", str(tmp_path)])

@@ -27,7 +27,7 @@ def folder(tmp_path):
 
 
 def start(folder, *more):
-    command = [sys.executable, "-m", "mjsim.sweep", "plan.toml", "--out", "r.sqlite", *more]
+    command = [sys.executable, "-m", "mjsim", "sweep", "plan.toml", "--out", "r.sqlite", *more]
     return subprocess.Popen(
         command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )

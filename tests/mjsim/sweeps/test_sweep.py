@@ -16,11 +16,11 @@ import xarray as xr
 from poison import work
 
 from analytic.prediction import predict
-from mjsim.io.processes import clean_start
+from mjsim.commands.sweep import main, sweep
+from mjsim.files.processes import clean_start
+from mjsim.results.measures import measure
 from mjsim.scene import Numerics
-from mjsim.simulation.measures import measure
 from mjsim.simulation.simulation import simulate
-from mjsim.sweep import main, sweep
 from mjsim.sweeps import store
 from mjsim.sweeps.drive import drive, jobs
 from mjsim.sweeps.executors import Cluster, Processes

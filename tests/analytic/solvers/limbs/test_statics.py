@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from analytic.locomotion import WEAK
 from analytic.prediction import Elastica
 from analytic.scene.gait import GAITS
+from analytic.scene.limbs import MASS, Limb, TreeRobot, as_strip, quadruped
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
 from analytic.solvers.limbs.kinematics import WHOLE, Tree
-from analytic.solvers.limbs.limbs import MASS, Limb, TreeRobot, as_strip, quadruped
 from analytic.solvers.limbs.statics import Statics
 
 QUADRUPED = quadruped()

@@ -6,10 +6,10 @@ import pytest
 from analytic.friction.laws import Friction
 from analytic.prediction import Elastica, predict
 from analytic.scene.gait import GAITS, Gait
+from analytic.scene.limbs import LENGTH, as_strip, quadruped
+from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
-from analytic.solvers.limbs.gaits import undulation
-from analytic.solvers.limbs.limbs import LENGTH, as_strip, quadruped
 from analytic.solvers.limbs.walk import follow, shapes, walk
 
 QUADRUPED = quadruped()

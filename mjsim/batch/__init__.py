@@ -1,1 +1,0 @@
-"""Many scenes of one layout, stepped side by side by mujoco.batch.Batch."""

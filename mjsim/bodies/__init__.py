@@ -1,1 +1,0 @@
-"""MuJoCo models of the strip: one module a body."""

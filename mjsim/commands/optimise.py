@@ -1,0 +1,190 @@
+"""The best gait for a ground: `undulator optimise`."""
+
+import math
+import os
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from analytic.checks import whole
+from analytic.scene.gait import Gait
+from analytic.scene.surface import SURFACES, Surface
+from mjsim.files.cli import FAILED, bar, fail, parse, say, strict_json
+from mjsim.files.files import check_folder
+from mjsim.files.files import whole as whole_file
+from mjsim.files.options import SceneOptions, tables_of
+from mjsim.files.tables import build
+from mjsim.scene import Scene
+
+if TYPE_CHECKING:
+    from mjsim.optimising.confirm import Confirmation
+    from mjsim.optimising.objective import Objective
+    from mjsim.optimising.search import Generation
+
+PROGRAM = "undulator optimise"
+
+
+@dataclass(frozen=True)
+class Options(SceneOptions):
+    """Search for the gait that goes farthest, fastest, or for the least air, on given ground.
+
+    Searched are lags between segments, how long each is pressed, how gently, and how high, in
+    steps of 1 % of the cycle and of the peak pressure, by CMA-ES on the quasi-static model. With
+    several surfaces the worst counts. What rests on states with a flag does not count, so that the
+    search finds no holes of the model; what is found is then walked by the elastica that friction
+    bends and by MuJoCo, and with pressure and friction 10 % off. Writes best.toml, a gait for
+    --gait, and best.png.
+
+    Columns: surface; searched, elastica, MuJoCo: displacement per cycle over L by each; 10 % off,
+    from and to; wave, what the gait of [Majidi13] does in MuJoCo. Exit code 0: done; 2: bad input;
+    3: nothing goes that way.
+
+    Example: undulator optimise --surface felt,gelatin,polyethylene
+    """
+
+    aim: Literal["displacement", "speed", "air", "work"] = "displacement"
+    """displacement per cycle; speed, of periods from a fifth of the scene's to the scene's, in
+    MuJoCo; the least air, in litres at atmospheric pressure, or the least work of compressing it,
+    for each metre"""
+    backward: bool = False
+    """look for the best way to -x"""
+    model: Literal["elastica", "lifted", "obstacle", "modes", "mujoco"] | None = None
+    """of the search; elastica if not given, for speed mujoco"""
+    evaluations: int = 800
+    """gaits to try"""
+    seed: int = 0
+    """of the random numbers"""
+    workers: int | None = None
+    """processes; one a core if not given"""
+    out: Path = Path("optimised")
+    """folder for best.toml and best.png, made if need be"""
+    json: bool = False
+    """print one JSON object instead of the table"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    options = parse(Options, PROGRAM, argv)
+    try:
+        whole("evaluations", options.evaluations, 1)
+        whole("seed", options.seed, 0)
+        workers = os.cpu_count() or 1 if options.workers is None else options.workers
+        whole("workers", workers, 1)
+        scenes = [build(tables)[0] for tables in tables_of(options)]
+        objective = _objective(options, scenes)
+        check_folder(options.out)
+        began = time.perf_counter()
+        history, rows, wave = _found(options, objective, workers)
+        seconds = time.perf_counter() - began
+        files = _write(options, objective, history)
+    except (ValueError, OSError) as error:
+        fail(PROGRAM, str(error))
+    last = history[-1]
+    record = _record(options, objective, last, rows, wave) | {
+        "wall_time_s": seconds, "files": files}  # fmt: skip
+    say(strict_json(record) if options.json else _text(record))
+    return 0 if last.worth > -math.inf else FAILED
+
+
+def _objective(options: Options, scenes: Sequence[Scene]) -> "Objective":
+    from mjsim.optimising.objective import Objective
+
+    grounds = []
+    for scene in scenes:
+        ground = scene.ground
+        if not isinstance(ground, Surface) or ground.adhesion or ground.viscosity:
+            raise ValueError(
+                f"ground {ground.name!r}: the search is for uniform ground that neither sticks nor "
+                "resists by speed"
+            )
+        grounds.append(ground)
+    if scenes[0].friction != "constant":
+        raise ValueError(f"friction must be constant, got {scenes[0].friction}")
+    return Objective(scenes[0], tuple(grounds), options.aim, options.backward, _model(options))
+
+
+def _model(options: Options) -> str:
+    if options.aim == "speed" and options.model not in (None, "mujoco"):
+        raise ValueError(f"model of aim speed must be mujoco, got {options.model}")
+    return options.model or ("mujoco" if options.aim == "speed" else "elastica")
+
+
+def _found(
+    options: Options, objective: "Objective", workers: int
+) -> "tuple[list[Generation], list[Confirmation], list[Confirmation]]":
+    from mjsim.files.plugins import processes
+    from mjsim.optimising.confirm import confirm
+    from mjsim.optimising.search import search
+    from mjsim.optimising.space import Space
+
+    scene = objective.scene
+    space = Space(len(scene.robot.segments), scene.gait.period, options.aim == "speed")
+    with processes("mjsim.optimising.confirm", workers) as pool:
+        history: list[Generation] = []
+        with bar("search", options.evaluations) as advance:
+            for generation in search(objective, space, options.evaluations, options.seed, pool):
+                advance(generation.evaluations - (history[-1].evaluations if history else 0))
+                history.append(generation)
+        surfaces = [*objective.surfaces,
+                    *(s for s in SURFACES.values() if s not in objective.surfaces)]  # fmt: skip
+        gaits = [history[-1].best] * len(surfaces) + [scene.gait] * len(surfaces)
+        jobs = zip([objective] * len(gaits), gaits, surfaces * 2, strict=True)
+        both = list(pool.map(confirm, *zip(*jobs, strict=True)))
+    return history, both[: len(surfaces)], both[len(surfaces) :]
+
+
+def _write(options: Options, objective: "Objective", history: "list[Generation]") -> list[str]:
+    from mjsim.files.written import as_toml
+    from mjsim.optimising.picture import draw
+
+    gait = history[-1].best
+    table = {"name": "best", "stages": [list(stage) for stage in gait.stages],
+             "ramp_time": [round(time, 9) for time in gait.ramp_times]}  # fmt: skip
+    surfaces = ", ".join(surface.name for surface in objective.surfaces)
+    words = [f"The best of {history[-1].evaluations} gaits for {options.aim} on {surfaces}."]
+    path = options.out / "best.toml"
+    with whole_file(path) as part:
+        text = as_toml({"gait": table}, words)
+        part.write_text(text.replace("[gait]\n", ""), "utf-8")
+    draw(gait, objective.scene.gait, history, options.out / "best.png")
+    return [str(path), str(options.out / "best.png")]
+
+
+def _record(
+    options: Options, objective: "Objective", last: "Generation", rows: "list[Confirmation]",
+    wave: "list[Confirmation]",
+) -> dict[str, Any]:  # fmt: skip
+    from analytic.scene.air import air_per_cycle
+
+    gait: Gait = last.best
+    air = air_per_cycle(objective.scene.robot, gait)
+    return {
+        "aim": options.aim, "backward": options.backward, "model": objective.model,
+        "evaluations": last.evaluations, "worth": last.worth,
+        "searched_on": [surface.name for surface in objective.surfaces],
+        "stages": gait.stages, "ramp_times_s": gait.ramp_times, "period_s": gait.period,
+        "air_litres_per_cycle": 1e3 * air.volume, "work_J_per_cycle": air.work,
+        "surfaces": [row._asdict() for row in rows],
+        "start": [row._asdict() for row in wave],
+    }  # fmt: skip
+
+
+def _text(record: dict[str, Any]) -> str:
+    unit = {"displacement": "L a cycle", "speed": "m/s", "air": "-l/m", "work": "-J/m"}
+    where = ", ".join(record["searched_on"])
+    lines = [
+        f"{record['evaluations']} gaits by {record['model']} in {record['wall_time_s']:.0f} s; "
+        f"best on {where}: {record['worth']:+.4g} {unit[record['aim']]}, "
+        f"{record['period_s']:g} s and {record['air_litres_per_cycle']:.3g} l of air a cycle",
+        f"{'surface':<14}{'searched':>9}{'elastica':>10}{'MuJoCo':>9}{'10 % off':>19}"
+        f"{'start':>9}  status",
+    ]
+    for row, start in zip(record["surfaces"], record["start"], strict=True):
+        lines.append(
+            f"{row['surface']:<14}{row['searched']:>+9.4f}{row['elastica']:>+10.4f}"
+            f"{row['mujoco']:>+9.4f}{row['lowest']:>+10.4f}{row['highest']:>+9.4f}"
+            f"{start['mujoco']:>+9.4f}  {row['status']}"
+        )
+    return "\n".join([*lines, *record["files"]])

@@ -1,0 +1,106 @@
+"""One self-contained page about saved walks: `undulator report`."""
+
+import json
+import sys
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import tyro
+
+from mjsim.files import plugins
+from mjsim.files.cli import FAILED, Plugins, bar, fail, parse
+from mjsim.files.files import check_folder, whole
+from mjsim.pictures import gl
+
+if TYPE_CHECKING:
+    from mjsim.results.trajectory import Trajectory
+
+PROGRAM = "undulator report"
+_EXTRA = "it needs plotly: pip install 'undulator[report]'"
+
+
+@dataclass(frozen=True)
+class Options:
+    """Make one HTML file of trajectories that `undulator run` saved.
+
+    In it: a table of distances beside the theory with its error bar; of each walk the video, shapes
+    over time by a slider, tracks, contacts and the end that stays, pressures and friction, the
+    scene as TOML, versions and commit. It opens without a network, on a phone and on paper.
+
+    Exit code 0: done; 2: bad input; 3: plotly is not there.
+
+    Example: undulator report videos/felt.nc videos/gelatin.nc --out page.html
+    """
+
+    trajectories: Annotated[tuple[Path, ...], tyro.conf.Positional]
+    """.nc files of runs"""
+    out: Path = Path("page.html")
+    """the file to write"""
+    plugin: Plugins = ()
+    no_video: bool = False
+    """without videos"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    options = parse(Options, PROGRAM, argv)
+    if options.out.suffix not in (".html", ".htm"):
+        fail(PROGRAM, f"out must end in .html, got {str(options.out)!r}")
+    if not options.trajectories:
+        fail(PROGRAM, "trajectories must be one or more .nc files of runs, got none")
+    gl.prepare()
+    try:
+        plugins.load(options.plugin)
+        loaded = [_load(path) for path in options.trajectories]
+        check_folder(options.out.parent)
+    except ValueError as error:
+        fail(PROGRAM, str(error))
+    try:
+        from mjsim.pictures.document import Entry, page
+    except ModuleNotFoundError:
+        print(f"{PROGRAM}: {_EXTRA}", file=sys.stderr)
+        return FAILED
+    from mjsim.results.record import record
+
+    videos = [None] * len(loaded) if options.no_video else _films([walk for walk, _ in loaded])
+    entries = []
+    with bar("theory", len(loaded)) as advance:
+        for path, (walk, origin), video in zip(options.trajectories, loaded, videos, strict=True):
+            entries.append(Entry(path.stem, walk, record(walk), origin, video))
+            advance(1)
+    try:
+        with whole(options.out) as part:
+            part.write_text(page(entries), "utf-8")
+    except OSError as error:
+        fail(PROGRAM, f"out cannot be written: {error}")
+    print(options.out)
+    return 0
+
+
+def _load(path: Path) -> "tuple[Trajectory, dict[str, Any]]":
+    import h5netcdf
+
+    from mjsim.results.trajectory import load
+
+    try:
+        walk = load(path)
+        with h5netcdf.File(path, "r") as file:
+            return walk, json.loads(file.attrs["provenance"])
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise ValueError(f"cannot read a trajectory from {str(path)!r}: {error}") from error
+
+
+def _films(walks: "Sequence[Trajectory]") -> list[bytes | None]:
+    """A video of each, or none where nothing here renders."""
+    if gl.use_backend() is None:
+        print(f"{PROGRAM}: {gl.HELP}", file=sys.stderr)
+        return [None] * len(walks)
+    from mjsim.pictures.recording import film
+
+    with tempfile.TemporaryDirectory() as folder:
+        paths = [Path(folder) / f"{number}.mp4" for number in range(len(walks))]
+        film(walks, paths)
+        return [path.read_bytes() for path in paths]

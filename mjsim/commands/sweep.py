@@ -1,0 +1,232 @@
+"""Many scenes on all cores or a cluster, into a file that survives: `undulator sweep`."""
+
+import json
+import math
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import tyro
+
+from analytic.checks import whole
+from mjsim.files import plugins
+from mjsim.files.cli import BAD_INPUT, FAILED, Plugins, bar, fail, parse, say, strict_json
+from mjsim.files.files import check_folder
+from mjsim.scene import Numerics
+
+if TYPE_CHECKING:
+    from mjsim.sweeps.executors import Workers
+    from mjsim.sweeps.plan import Plan
+    from mjsim.sweeps.rows import Job, Row
+    from mjsim.sweeps.store import Store
+
+PROGRAM = "undulator sweep"
+INTERRUPTED = 130
+
+
+@dataclass(frozen=True)
+class Options:
+    """Predict the distance of many scenes: a grid, a Latin hypercube or a list over any fields.
+
+    The plan says which; `undulator sweep --example` prints one. Results are one SQLite file,
+    a row a scene (table `scenes`, units in table `columns`). A sweep that was stopped or killed
+    goes on where it was by the same command; a scene that fails is a row with its status, a bad
+    one a row with its message. `undulator analyse` draws what came of it.
+
+    Exit code 0: every scene has a row, and one a result; 2: bad input, every scene is refused; 3:
+    the cluster is gone, or no scene has a result; 130: interrupted.
+
+    Example: undulator sweep plan.toml --out results.sqlite --export results.csv
+    """
+
+    plan: Annotated[Path | None, tyro.conf.Positional] = None
+    """the plan, a TOML file"""
+    out: Path = Path("sweep.sqlite")
+    """file of results"""
+    workers: int | None = None
+    """processes; one a core if not given"""
+    scheduler: str | None = None
+    """a Dask scheduler in place of them, as tcp://host:8786, started by `dask scheduler`, with
+    `dask worker tcp://host:8786` on each machine"""
+    plugin: Plugins = ()
+    export: Path | None = None
+    """write the rows to a .csv, .nc or .parquet file too"""
+    json: bool = False
+    """print one JSON object instead of the table"""
+    example: bool = False
+    """print a plan to begin with, and leave"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    options = parse(Options, PROGRAM, argv)
+    from mjsim.sweeps.executors import LostError
+    from mjsim.sweeps.export import check_ending, export
+    from mjsim.sweeps.plan import EXAMPLE, read_plan
+    from mjsim.sweeps.store import Store
+
+    if options.example:
+        say(EXAMPLE)
+        return 0
+    try:
+        if options.plan is None:
+            raise ValueError("plan must be a TOML file; --example prints one")
+        if options.workers is not None:
+            whole("workers", options.workers, 1)
+        plugins.load(options.plugin)
+        plan = read_plan(options.plan)
+        for path in (options.out, options.export):
+            if path is not None:
+                check_folder(path.parent)
+        if options.export:
+            check_ending(options.export)
+        workers = _workers(options)
+        try:
+            with Store(options.out, plan) as store:
+                record = sweep(plan, store, workers)
+                code, why = _end(record, store)
+        finally:
+            workers.close()
+        if options.export:
+            export(options.out, options.export)
+    except (ValueError, OSError) as error:
+        fail(PROGRAM, str(error))
+    except (LostError, KeyboardInterrupt) as error:
+        why = str(error) or "interrupted"
+        print(f"{PROGRAM}: {why}; the same command goes on from there", file=sys.stderr)
+        return FAILED if isinstance(error, LostError) else INTERRUPTED
+    files = [str(path) for path in (options.out, options.export) if path]
+    say(strict_json({**record, "files": files}) if options.json else _text(record, files))
+    if why:
+        print(f"{PROGRAM}: error: {why}", file=sys.stderr)
+    return code
+
+
+def _end(record: dict[str, Any], store: "Store") -> tuple[int, str]:
+    """Exit code, and why it is not 0: no scene has a result."""
+    from mjsim.sweeps.rows import CRASHED, REFUSED
+
+    if record["status"].keys() - {REFUSED, CRASHED}:
+        return 0, ""
+    ((first,),) = store.select("select message from scenes order by id limit 1")
+    why = f"no scene has a result; give another out once this is mended: {first}"
+    return FAILED if CRASHED in record["status"] else BAD_INPUT, why
+
+
+def _workers(options: Options) -> "Workers":
+    from mjsim.sweeps.executors import Cluster, Processes
+
+    if options.scheduler is not None:
+        return Cluster(options.scheduler)
+    return Processes(options.workers)
+
+
+def sweep(plan: "Plan", store: "Store", workers: "Workers") -> dict[str, Any]:
+    """Do what a plan has left to do.
+
+    Returns:
+        How many scenes there are, were done now, and of each status; seconds; confirmations.
+
+    Raises:
+        ValueError: no numerics suffice for the base scene.
+        LostError: the cluster is gone.
+    """
+    from mjsim.sweeps.drive import drive, jobs
+    from mjsim.sweeps.numerics import picked
+    from mjsim.sweeps.rows import Job
+
+    began, done = time.perf_counter(), 0
+    finer: Numerics | None = None
+    numerics: Numerics | None = None
+    if plan.model == "mujoco" and plan.tolerance is not None:
+        said = store.note("numerics") or store.note("numerics", _written(*picked(plan)))
+        numerics, finer = (Numerics(**part) for part in json.loads(said or ""))
+    template = Job(plan.base, plan.model, (), numerics, plan.tolerance or 0.02, plan.states,
+                   plan.bent)  # fmt: skip
+    (before,) = store.select("select count(*) from scenes")[0]
+    with bar(f"sweep of {len(plan):,}", len(plan) - before) as advance:
+
+        def keep(rows: "list[Row]", job: "Job") -> None:
+            nonlocal done
+            store.add(rows, dict(job.points))
+            done += len(rows)
+            advance(len(rows))
+
+        drive(jobs(plan, store, template), workers, keep)
+    if finer is not None:
+        _confirm(plan, store, workers, template, finer)
+    return _record(plan, store, done, time.perf_counter() - began)
+
+
+def _written(one: Numerics, two: Numerics) -> str:
+    return json.dumps([asdict(one), asdict(two)])
+
+
+def _confirm(
+    plan: "Plan", store: "Store", workers: "Workers", template: "Job", finer: Numerics
+) -> None:
+    """Walk some scenes again by finer numerics, evenly spread over the plan."""
+    from dataclasses import replace
+
+    from mjsim.sweeps.drive import drive
+
+    count = min(plan.confirm, len(plan))
+    numbers = {round((i + 0.5) * len(plan) / count - 0.5) for i in range(count)}
+    known = {n for (n,) in store.select("select id from confirmations")}
+    todo = [
+        replace(template, points=[(n, plan.point(n))], numerics=finer)
+        for n in sorted(numbers - known)
+    ]
+    drive(todo, workers, lambda rows, job: store.confirm(rows))
+
+
+def _record(plan: "Plan", store: "Store", done: int, seconds: float) -> dict[str, Any]:
+    counts = dict(
+        store.select("select status, count(*) from scenes group by status order by 2 desc")
+    )
+    ways = dict(store.select("select direction, count(*) from scenes where direction is not null "
+                             "group by direction order by 2 desc"))  # fmt: skip
+    pairs = store.select(
+        "select s.displacement_over_L, c.displacement_over_L, s.status = c.status from scenes s "
+        "join confirmations c using (id)"
+    )
+    record = {"model": plan.model, "scenes": len(plan), "done_now": done, "wall_time_s": seconds,
+              "status": counts, "direction": ways}  # fmt: skip
+    said = store.note("numerics")
+    if said is not None and plan.tolerance is not None:
+        from mjsim.simulation.checked import allowed
+
+        one = json.loads(said)[0]
+        apart = [abs(a - b) for a, b, _ in pairs if a is not None and b is not None]
+        close = sum(
+            abs(a - b) <= allowed(b, plan.tolerance)
+            if a is not None and b is not None else bool(alike)
+            for a, b, alike in pairs
+        )  # fmt: skip
+        record |= {"links": one["links"], "timestep_s": one["timestep"],
+                   "confirmed": len(pairs), "within_tolerance": close,
+                   "largest_change_over_L": max(apart, default=math.nan)}  # fmt: skip
+    return record
+
+
+def _text(record: dict[str, Any], files: list[str]) -> str:
+    rate = record["wall_time_s"] / max(record["done_now"], 1)
+    lines = [
+        f"{record['scenes']:,} scenes by {record['model']}, {record['done_now']:,} of them now in "
+        f"{record['wall_time_s']:.1f} s, {1e3 * rate:.3g} ms each",
+        "status     " + ", ".join(f"{name} {n:,}" for name, n in record["status"].items()),
+    ]
+    if record["direction"]:
+        ways = (f"{name} {n:,}" for name, n in record["direction"].items())
+        lines.append("direction  " + ", ".join(ways))
+    if "links" in record:
+        lines.append(
+            f"numerics   {record['links']} links, {record['timestep_s']:g} s, picked on the base "
+            f"scene; of {record['confirmed']} scenes walked again, finer, "
+            f"{record['within_tolerance']} are within the tolerance, the largest change is "
+            f"{record['largest_change_over_L']:.2g} L"
+        )
+    return "\n".join([*lines, *files])

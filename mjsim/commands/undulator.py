@@ -1,0 +1,61 @@
+"""One console script for all commands: `undulator run`, `undulator fit` and so on."""
+
+import sys
+from collections.abc import Sequence
+from difflib import get_close_matches
+from importlib import import_module
+
+from mjsim.files.cli import fail, say
+
+PROGRAM = "undulator"
+COMMANDS = {  # module of mjsim.commands, and what it does
+    "run": ("run", "walk in MuJoCo, beside the theory, with a video"),
+    "compare": ("compare", "every model on the same scenes in one table"),
+    "fit": ("fit", "fit unknown parameters of a scene to measurements"),
+    "view": ("view", "play a scene live in MuJoCo's viewer"),
+    "report": ("report", "one self-contained page about saved walks"),
+    "replay": ("replay", "a video of a saved walk"),
+    "export": ("export", "a scene as MJCF that walks by itself"),
+    "sweep": ("sweep", "many scenes on all cores or a cluster, into one file"),
+    "analyse": ("analysis", "a sweep as a table and pictures"),
+    "optimise": ("optimise", "the best gait for a ground"),
+}
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Call the command that is named first; returns its exit code."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    name = words[0] if words else "--help"
+    if name in ("-h", "--help"):
+        say(_help())
+        return 0
+    if name == "--version":
+        from mjsim.results.provenance import versions
+
+        say("\n".join(f"{package} {version}" for package, version in versions().items()))
+        return 0
+    if name not in COMMANDS:
+        near = get_close_matches(name, COMMANDS, 1)
+        hint = f"; did you mean {near[0]}?" if near else ""
+        fail(PROGRAM, f"command must be one of {', '.join(COMMANDS)}; got {name!r}{hint}")
+    return int(import_module(f"mjsim.commands.{COMMANDS[name][0]}").main(words[1:]))
+
+
+def _help() -> str:
+    rows = [f"  {name:<10}{what}" for name, (_, what) in COMMANDS.items()]
+    return "\n".join(
+        [
+            "How far, and which way, a robot of pneumatic limbs goes on a ground.",
+            "",
+            f"usage: {PROGRAM} COMMAND [OPTIONS]",
+            "",
+            *rows,
+            "",
+            f"{PROGRAM} COMMAND --help explains each, {PROGRAM} --version prints versions.",
+            "",
+            "examples:",
+            f"  {PROGRAM} run --surface gelatin",
+            f"  {PROGRAM} run --robot quadruped --surface all",
+            f"  {PROGRAM} fit track.csv --scene my.toml --free robot.modulus,surface.tip_force",
+        ]
+    )

@@ -1,0 +1,71 @@
+"""Play a scene live in MuJoCo's viewer: `undulator view`."""
+
+import math
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mjsim.files.cli import FAILED, fail, parse
+from mjsim.files.options import SceneOptions, tables_of
+from mjsim.files.tables import build
+
+PROGRAM = "undulator view"
+
+
+@dataclass(frozen=True)
+class Options(SceneOptions):
+    """Play a scene in a window: the gait over and over, or pressures by hand.
+
+    Space plays and pauses the gait, Backspace starts anew. Under Control, at the right, there is a
+    slider a chamber, in kPa, which takes it in hand, and one that chooses the ground: the scene's
+    own, or a named one. What moves is the simulation of undulator run, of any body and law. Prints
+    on closing how many frames a second were shown, and times real time.
+
+    Exit code 0: closed; 2: bad input; 3: no screen here.
+
+    Example: undulator view --surface gelatin
+    """
+
+    speed: float = 1.0
+    """times real time, where the machine can"""
+    seconds: float | None = None
+    """close by itself after so long [s]"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit code."""
+    options = parse(Options, PROGRAM, argv)
+    try:
+        _check("speed", options.speed)
+        if options.seconds is not None:
+            _check("seconds", options.seconds)
+        tables = tables_of(options)
+        if len(tables) > 1:
+            names = ", ".join(scene.ground.name for scene, _ in map(build, tables))
+            raise ValueError(
+                f"surface must be one, others can be chosen in the window; got {names}"
+            )
+        from mjsim.pictures.live_session import Session
+
+        scene, numerics = build(tables[0])
+        if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+            print(f"{PROGRAM}: there is no screen (DISPLAY is not set); without one, "
+                  "xvfb-run -a sets one up", file=sys.stderr)  # fmt: skip
+            return FAILED
+        session = Session(scene, numerics)
+    except (ValueError, OSError) as error:
+        fail(PROGRAM, str(error))
+
+    from mjsim.pictures.live_window import show
+
+    shown = show(session, options.speed, options.seconds)
+    rate, times = shown.frames / shown.wall_time, shown.simulated / shown.wall_time
+    print(f"{rate:.0f} frames a second, {times:.2f} times real time, "
+          f"left end {session.displacement:+.4f} L, {session.seen.status}")  # fmt: skip
+    return 0
+
+
+def _check(name: str, value: float) -> None:
+    if not (math.isfinite(value) and value > 0):
+        raise ValueError(f"{name} must be a positive number, got {value:g}")

@@ -1,0 +1,82 @@
+"""A scene as dm_control's Physics, with named measurements."""
+
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.friction.contact_length import may_lie_flat
+from mjsim.env.dm_binding import mujoco as dm_mujoco
+from mjsim.env.dm_binding import wrapper
+from mjsim.friction.contact_length import ContactForces, pads_by_node
+from mjsim.model.builder import compile_model
+from mjsim.model.standalone import walking_scene
+from mjsim.scene import Numerics, Scene
+
+Array = NDArray[np.float64]
+
+
+class Physics(dm_mujoco.Physics):  # type: ignore[misc]
+    """Any scene, stepped by dm_control: friction by load and actuated chambers.
+
+    Make one with `Physics.of(scene)`; its controls are the pressures of the segments [Pa].
+    """
+
+    _pads: NDArray[np.int_]
+    _numerics: Numerics
+    _scene: Scene
+    _start: float
+
+    @classmethod
+    def of(cls, scene: Scene, numerics: Numerics | None = None) -> "Physics":
+        """The physics of a scene, of the planar body.
+
+        Raises:
+            ValueError: the body cannot do what the scene asks for.
+        """
+        scene = walking_scene(scene)
+        numerics = (numerics or Numerics()).resolved(scene.body, scene.friction)
+        physics: Physics = cls.from_model(wrapper.MjModel(compile_model(scene, numerics)))
+        physics._scene, physics._numerics = scene, numerics
+        physics._pads = pads_by_node(physics.model.ptr)
+        physics._start = float(physics.ends()[0, 0])
+        return physics
+
+    def ends(self) -> Array:
+        """Places of the left and the right end on the neutral line, (2, 3) [m]."""
+        return np.asarray(self.data.geom_xpos[self._pads[[0, -1]]].mean(axis=1))
+
+    def displacement(self) -> float:
+        """How far the left end has gone since the scene was made [m]."""
+        return float(self.ends()[0, 0]) - self._start
+
+    def contact_lengths(self) -> tuple[float, float]:
+        """Lengths over which the ends lie on their side, 0 of an inflated one [m]."""
+        model, data = self.model.ptr, self.data.ptr
+        mujoco.mj_forward(model, data)  # dm_control leaves the forces of the step before
+        forces = ContactForces(self._scene, self._numerics, model, data)
+        ends = may_lie_flat(self.pressures()[[0, -1]], self._scene.robot.peak_pressure)
+        return forces.lengths(*ends.tolist())
+
+    def pressures(self) -> Array:
+        """Pressures that the segments are commanded, left first, (S,) [Pa]."""
+        return np.array(self.data.ctrl)
+
+    def height(self) -> float:
+        """Greatest height of the neutral line over flat rest [m]."""
+        return float(self.data.geom_xpos[self._pads, 2].max() - self._radius())
+
+    def observation(self) -> dict[str, Any]:
+        """Every measurement by its name."""
+        return {
+            "ends": self.ends(),
+            "contact_lengths": np.array(self.contact_lengths()),
+            "pressures": self.pressures(),
+            "displacement": self.displacement(),
+            "height": self.height(),
+        }
+
+    def _radius(self) -> float:
+        assert self._numerics.pad_radius is not None
+        return self._numerics.pad_radius

@@ -1,0 +1,1 @@
+"""Files, tables, units and command lines, and the scenes that are made of them."""

@@ -1,0 +1,131 @@
+"""Command lines from dataclasses: help that teaches, and bad input in one clear line."""
+
+import contextlib
+import io
+import json
+import math
+import re
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Annotated, NoReturn, TypeVar
+
+import tyro
+
+Options = TypeVar("Options")
+Plugins = Annotated[
+    tyro.conf.UseAppendAction[tuple[str, ...]],
+    tyro.conf.arg(
+        metavar="MODULE",
+        help="a module, or a .py file, that registers bodies or friction laws when it is imported; "
+        "given again, or several with commas between",
+        help_behavior_hint="",
+    ),
+]
+"""Of every command that takes a scene, as its field `plugin`; see mjsim.files.plugins.load."""
+
+BAD_INPUT, FAILED = 2, 3  # exit codes, beside 0
+ALL = "all"
+_PLAINER = str.maketrans({"Δ": "D", "×": "x", "±": "+-", "°": "deg"})
+_PATIENCE = 2.0  # s before a progress bar shows
+
+
+def fail(program: str, message: str) -> NoReturn:
+    """Print one line on stderr and leave with the code for bad input."""
+    print(f"{program}: error: {' '.join(message.split())}", file=sys.stderr)
+    sys.exit(BAD_INPUT)
+
+
+def say(text: str) -> None:
+    """Print, in plainer letters where the terminal has no better ones."""
+    encoding = sys.stdout.encoding or "ascii"
+    try:
+        text.encode(encoding)
+    except UnicodeEncodeError:
+        text = text.translate(_PLAINER).encode(encoding, "replace").decode(encoding)
+    print(text)
+
+
+def strict_json(value: object) -> str:
+    """JSON, with null for numbers that are none."""
+
+    def clean(item: object) -> object:
+        if isinstance(item, dict):
+            return {key: clean(part) for key, part in item.items()}
+        if isinstance(item, list | tuple):
+            return [clean(part) for part in item]
+        return None if isinstance(item, float) and not math.isfinite(item) else item
+
+    return json.dumps(clean(value), allow_nan=False)
+
+
+def choose(name: str, text: str, valid: Iterable[str]) -> list[str]:
+    """Names from a comma-separated list, or every one for "all".
+
+    Raises:
+        ValueError: a name is not among the valid ones.
+    """
+    known = list(valid)
+    chosen = known if text == ALL else text.split(",")
+    for word in chosen:
+        if word not in known:
+            raise ValueError(f"{name} must be one of {', '.join(known)}, {ALL}; got {word!r}")
+    return chosen
+
+
+@contextlib.contextmanager
+def bar(text: str, total: int) -> Iterator[Callable[[int], None]]:
+    """A progress bar on stderr for what takes long, where stderr is a terminal."""
+    if not sys.stderr.isatty():
+        yield lambda steps: None
+        return
+    from tqdm import tqdm
+
+    with tqdm(
+        total=total,
+        desc=text,
+        delay=_PATIENCE,
+        leave=False,
+        file=sys.stderr,
+    ) as shown:
+        yield lambda steps: (shown.update(steps), None)[1]
+
+
+def parse(kind: type[Options], program: str, argv: Sequence[str] | None) -> Options:
+    """Read options into a dataclass whose field comments are the help.
+
+    Exits with 0 after --help, and with 2 and one line for a word it cannot read.
+    """
+    printed = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(printed):
+            return tyro.cli(kind, prog=program, args=argv, config=(tyro.conf.FlagCreatePairsOff,))
+    except SystemExit as stop:
+        if stop.code == 0:
+            raise
+    fail(program, _first_message(printed.getvalue()))
+
+
+def _first_message(text: str) -> str:
+    """The sentence at the top of tyro's box, however it is drawn, in one line."""
+    words = re.sub(r"\x1b\[[0-9;]*m", "", text)
+    body: list[str] = []
+    for line in words.splitlines()[1:]:  # the first is the box's title
+        inner = line.strip("│| \t")
+        if inner and not set(inner) <= set("─-╰╯+"):
+            body.append(inner)
+        elif body:
+            break
+    return _plain(" ".join(body) or words)
+
+
+def _plain(message: str) -> str:
+    """What tyro says of a word that is no number or no choice, in the words of our own checks."""
+    number = re.fullmatch(
+        r"(?i)Error parsing (?:--\S+/)?--([^\s/]+): .*\b(int|float)\b.*(?:: |from \[)('.*?')\]?\.?",
+        message,
+    )
+    if number is not None:
+        name, kind, word = number.groups()
+        name = name.rpartition(".")[2].replace("-", "_")
+        return f"{name} must be a {'whole ' if kind.lower() == 'int' else ''}number, got {word}"
+    return f"{message} (see --help)"

@@ -1,0 +1,145 @@
+"""Pressures as a sensor recorded them, as a gait: `--gait pressures.csv`.
+
+A table with a column of time and one a segment, left first, whose heads name their units: `time
+[s], front [kPa]`, `t_ms, p1_psi`. Samples may come at any rate and need not be even, close a cycle
+or start at rest. They become straight ramps between few corners, as many as the noise leaves
+visible, so that what is computed from them grows with what changes and not with the samples.
+"""
+
+import math
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solveh_banded
+
+from analytic.scene.gait import Gait
+from mjsim.files.csv_table import factor, number_in, read_csv
+
+Array = NDArray[np.float64]
+
+_NOISES = 1.5  # that a corner must stand out by, of the largest of so many samples; chosen
+_FEW = 16  # samples that tell nothing of their noise; chosen
+_LEAST = 0.005  # of the highest pressure: what is flatter is flat; chosen
+_SAME = 1e-9  # of the highest pressure
+
+
+class Series(NamedTuple):
+    """Pressures along time.
+
+    Attributes:
+        time: from 0 on, increasing, (T,) [s].
+        pressure: of the segments, left first, (T, S) [Pa].
+    """
+
+    time: Array
+    pressure: Array
+
+
+def read_series(path: Path) -> Series:
+    """The series of a file.
+
+    Raises:
+        ValueError: the file cannot be read or is no such table; the message names line and column.
+    """
+    table = read_csv(path, "pressures")
+    where, heads, rows = table
+    if len(heads) < 2:
+        raise ValueError(f"{where}: needs a column of time and one a segment, got {heads}")
+    factors = [factor(table, heads[0], "s", "s or ms")]
+    factors += [factor(table, head, "Pa", "Pa, kPa, psi, bar") for head in heads[1:]]
+    if len(rows) < 2:
+        raise ValueError(f"{where}: needs two samples at least, got {len(rows)}")
+    cells = [
+        [number_in(table, line, head, cell) for head, cell in zip(heads, row, strict=True)]
+        for line, row in rows
+    ]
+    values = np.array(cells) * factors
+    time = values[:, 0] - values[0, 0]
+    late = np.flatnonzero(np.diff(time) <= 0)
+    if len(late):
+        line, row = rows[late[0] + 1]
+        raise ValueError(f"{where}: line {line}: time must increase, got {row[0]!r}")
+    return Series(time, values[:, 1:])
+
+
+def read_gait(path: Path) -> tuple[Gait, float]:
+    """The gait of a file, which does not repeat, and its highest pressure [Pa].
+
+    Raises:
+        ValueError: see read_series; or no pressure is above the noise.
+    """
+    series = read_series(path)
+    try:
+        return as_gait(path.stem, series)
+    except ValueError as error:
+        raise ValueError(f"pressures {str(path)!r}: {error}") from error
+
+
+def as_gait(name: str, series: Series) -> tuple[Gait, float]:
+    """The gait of a series, which does not repeat, and its highest pressure [Pa].
+
+    Raises:
+        ValueError: no pressure is above the noise.
+    """
+    time, pressure = series
+    tolerance = _tolerance(pressure)
+    kept = _corners(time, pressure, tolerance)
+    fitted = _through(time, pressure, kept)
+    fitted[np.abs(fitted) < tolerance] = 0.0
+    highest = float(np.abs(fitted).max())
+    if not highest > 0:
+        raise ValueError("no pressure is above the noise")
+    fractions = np.where(np.abs(fitted) > (1 - _SAME) * highest, np.sign(fitted), fitted / highest)
+    ramps = tuple(np.diff(time[kept]).tolist())
+    return Gait(name, tuple(map(tuple, fractions.tolist())), ramps, repeats=False), highest
+
+
+def _tolerance(pressure: Array) -> float:
+    """What a corner must stand out by: several times the noise, of which second differences tell.
+
+    A line has none, and white noise of deviation s has differences of deviation sqrt(6) s; the
+    largest of n samples is expected at sqrt(2 log n) deviations.
+    """
+    noise = 0.0
+    if len(pressure) > _FEW:
+        bends = np.abs(np.diff(pressure, 2, axis=0))
+        noise = float(np.median(bends, axis=0).max()) / 0.6745 / math.sqrt(6)
+        noise *= math.sqrt(2 * math.log(pressure.size))
+    return max(_NOISES * noise, _LEAST * float(np.abs(pressure).max()))
+
+
+def _corners(time: Array, pressure: Array, tolerance: float) -> NDArray[np.int_]:
+    """Samples between which straight lines stay within the tolerance (Douglas and Peucker 1973)."""
+    kept, open_ = {0, len(time) - 1}, [(0, len(time) - 1)]
+    while open_:
+        first, last = open_.pop()
+        if last - first < 2:
+            continue
+        inside = slice(first + 1, last)
+        part = ((time[inside] - time[first]) / (time[last] - time[first]))[:, None]
+        chord = pressure[first] + part * (pressure[last] - pressure[first])
+        away = np.abs(pressure[inside] - chord).max(axis=1)
+        farthest = int(away.argmax())
+        if away[farthest] > tolerance:
+            middle = first + 1 + farthest
+            kept.add(middle)
+            open_ += [(first, middle), (middle, last)]
+    return np.array(sorted(kept))
+
+
+def _through(time: Array, pressure: Array, kept: NDArray[np.int_]) -> Array:
+    """Pressures at the corners by least squares of all samples, so that none carries its noise."""
+    count = len(kept)
+    index = np.clip(np.searchsorted(kept, np.arange(len(time)), side="right") - 1, 0, count - 2)
+    part = (time - time[kept[index]]) / (time[kept[index + 1]] - time[kept[index]])
+    left, right = 1 - part, part
+    normal = np.zeros((2, count))  # diagonal, and the one below it
+    normal[0] = np.bincount(index, left**2, count) + np.bincount(index + 1, right**2, count)
+    normal[1] = np.bincount(index, left * right, count)
+    sums = np.stack(
+        [np.bincount(index, left * p, count) + np.bincount(index + 1, right * p, count)
+         for p in pressure.T], axis=1,
+    )  # fmt: skip
+    return np.asarray(solveh_banded(normal, sums, lower=True))

@@ -1,0 +1,148 @@
+"""Bodies and laws of one's own: imported from modules and files, and carried to other processes.
+
+A process that works for this one imports the same plugins, and gets what was registered here
+besides by pickle: by reference to the module of its class, the main one included.
+"""
+
+import hashlib
+import importlib
+import importlib.util
+import os
+import pickle
+import sys
+from collections.abc import Callable, Iterable
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from analytic.friction.laws import LAWS
+from analytic.registry import Registry
+from mjsim.files.processes import clean_start
+from mjsim.scene.registry import BODIES
+
+_KINDS: dict[str, Registry[Any]] = {"friction": LAWS, "body": BODIES}  # as a scene calls them
+_loaded: list[str] = []
+
+
+class Carried(NamedTuple):
+    """What is registered in a process, for another one.
+
+    Attributes:
+        plugins: modules, and whole paths of files.
+        things: kind and name of each law and body, and it pickled, or why it cannot be.
+    """
+
+    plugins: tuple[str, ...]
+    things: tuple[tuple[str, str, bytes | str], ...]
+
+
+def load(words: Iterable[str]) -> None:
+    """Import plugins, each once.
+
+    Args:
+        words: names of modules or paths of .py files, several with commas between.
+
+    Raises:
+        ValueError: one cannot be imported; the message names it.
+    """
+    for word in (part.strip() for text in words for part in text.split(",")):
+        plugin = str(Path(word).resolve()) if word.endswith(".py") else word
+        if plugin in _loaded:
+            continue
+        try:
+            _import(plugin)
+        except Exception as error:  # whatever a plugin does while it is imported
+            raise ValueError(
+                f"plugin must be a module or a .py file that can be imported, got {word!r}: "
+                f"{type(error).__name__}: {error}"
+            ) from error
+        _loaded.append(plugin)
+
+
+def _import(plugin: str) -> None:
+    if not plugin.endswith(".py"):
+        importlib.import_module(plugin)
+        return
+    path = Path(plugin)
+    # one name in every process, by which pickle finds its classes
+    name = f"plugin_{path.stem}_{hashlib.sha256(plugin.encode()).hexdigest()[:8]}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    if str(path.parent) not in sys.path:
+        sys.path.append(str(path.parent))  # for what lies beside it
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[name]
+        raise
+
+
+def carried() -> Carried:
+    """What is registered in this process."""
+    things = [
+        (kind, name, _pickled(value))
+        for kind, registry in _KINDS.items() for name, value in registry.registered.items()
+    ]  # fmt: skip
+    return Carried(tuple(_loaded), tuple(things))
+
+
+def _pickled(value: Any) -> bytes | str:
+    try:
+        return pickle.dumps(value)
+    except Exception as error:  # whatever it is made of
+        return str(error)
+
+
+def adopt(given: Carried) -> None:
+    """Know in this process what is registered in another one.
+
+    What cannot be had here is refused in one line when a scene asks for it.
+    """
+    trouble = ""
+    try:
+        load(given.plugins)
+    except ValueError as error:
+        trouble = f"{error}; "
+    for kind, name, thing in given.things:
+        registry = _KINDS[kind]
+        if isinstance(thing, bytes):
+            try:
+                registry[name] = pickle.loads(thing)
+                continue
+            except Exception as error:  # of the module of its class
+                thing = str(error)
+        if name not in registry.registered:
+            registry.refuse(name, _refusal(kind, name, trouble + thing, registry.group))
+
+
+def _refusal(kind: str, name: str, why: str, group: str) -> str:
+    return (
+        f"{kind} {name!r} is registered where other processes cannot import it ({why}): put its "
+        f"class in a module that registers it, given as --plugin, or name it as an entry point of "
+        f"{group!r}"
+    )
+
+
+def processes(
+    preload: str, count: int | None = None, begin: Callable[[], None] | None = None
+) -> ProcessPoolExecutor:
+    """Processes that know the laws and bodies that are registered here now.
+
+    Args:
+        preload: module that is imported once for all of them.
+        count: how many; one a core if None.
+        begin: what each does first.
+    """
+    return ProcessPoolExecutor(
+        count or os.cpu_count(), mp_context=clean_start(preload),
+        initializer=_begin, initargs=(begin, carried()),
+    )  # fmt: skip
+
+
+def _begin(begin: Callable[[], None] | None, given: Carried) -> None:
+    if begin is not None:
+        begin()
+    adopt(given)

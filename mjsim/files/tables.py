@@ -1,0 +1,257 @@
+"""Scenes as tables of plain values, from TOML files and from the command line.
+
+    [robot]     fields of analytic.Robot, in SI units
+    [gait]      name of a gait, or stages and ramp_time, or lag, duty, ramp and period of
+                analytic.scene.trapezoid, or file: a TOML table of these, or a CSV of measured
+                pressures
+    [valves]    fields of mjsim.scene.Valves: time constants, dead time, flow limit
+    [ground]    surface, a name; or fields of analytic.Surface; slope_deg; or patches beside each
+                other, [[ground.patches]] with `from` [m] and a surface
+    [numerics]  body, friction, cycles, ... of mjsim.Scene, and fields of mjsim.Numerics
+
+Every table and every key is optional over the defaults. A number may be a text with its unit, as in
+length = "90 mm"; in tables all are SI once they are built.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import Any
+
+from analytic.checks import one_of
+from analytic.scene.gait import GAITS, Gait
+from analytic.scene.ground import Patches
+from analytic.scene.robot import Robot
+from analytic.scene.surface import SURFACES, Ground, Surface
+from analytic.scene.trapezoid import trapezoid
+from mjsim.files.measured import read_gait
+from mjsim.files.typed import UNITS, Table, as_type, checked, make, read_toml
+from mjsim.scene.numerics import Numerics
+from mjsim.scene.scene import Scene
+from mjsim.scene.valves import Valves
+
+Tables = dict[str, Table]
+
+NAMES = ("robot", "gait", "valves", "ground", "numerics")
+SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation", "gravity",
+                "settle_time")  # fmt: skip
+SURFACE_FIELDS = tuple(field.name for field in fields(Surface) if field.name != "name")
+FILES = (".toml", ".csv")  # of gaits
+TRAPEZOID = ("lag", "duty", "ramp")
+# of robots of limbs, which mjsim.files.limb_tables builds
+LIMBS = {
+    "robot": ("name", "limbs"),
+    "gait": ("left", "right"),
+    "numerics": ("elements", "contact_softness", "tie_time"),
+}
+_KEYS: dict[str, tuple[str, ...]] = {
+    "robot": (*(field.name for field in fields(Robot)), *LIMBS["robot"]),
+    "gait": (
+        "name",
+        "stages",
+        "ramp_time",
+        *TRAPEZOID,
+        "period",
+        "reverse",
+        "file",
+        "repeats",
+        *LIMBS["gait"],
+    ),
+    "valves": tuple(field.name for field in fields(Valves)),
+    "ground": ("surface", *SURFACE_FIELDS, "slope_deg", "patches"),
+    "numerics": (*SCENE_FIELDS, *(field.name for field in fields(Numerics)), *LIMBS["numerics"]),
+}
+
+
+def read_tables(path: Path) -> Tables:
+    """The tables of a scene file.
+
+    Raises:
+        ValueError: the file cannot be read, is no TOML, or has a table or a key that is not known.
+    """
+    tables = read_toml(path, "scene")
+    for name, table in tables.items():
+        one_of(f"scene {str(path)!r}: table", name, NAMES)
+        if not isinstance(table, dict):
+            raise ValueError(f"scene {str(path)!r}: {name} must be a table, got {table!r}")
+        check_keys(name, table, f"scene {str(path)!r}: ")
+    return tables
+
+
+def check_keys(name: str, table: Mapping[str, Any], where: str = "") -> None:
+    """Raise ValueError for a key that a table does not have."""
+    for key in table:
+        if key not in _KEYS[name]:
+            raise ValueError(
+                f"{where}key {key!r} of [{name}] is unknown; known are {', '.join(_KEYS[name])}"
+            )
+
+
+def merged(*layers: Tables) -> Tables:
+    """Tables laid over each other, the later ones above.
+
+    A surface by name or a gait by name, stages, lag or file replaces what a lower layer says of it.
+    """
+    result: Tables = {name: {} for name in NAMES}
+    for layer in layers:
+        for name, table in layer.items():
+            if name == "ground" and {"surface", "patches"} & table.keys():
+                kept = {k: v for k, v in result[name].items() if k == "slope_deg"}
+                result[name] = kept
+            if name == "robot" and {"name", "limbs"} & table.keys():
+                result[name] = {k: v for k, v in result[name].items() if k not in LIMBS["robot"]}
+            if name == "gait" and {"name", "stages", "file", *TRAPEZOID} & table.keys():
+                own = (*TRAPEZOID, "period") if {*TRAPEZOID} & table.keys() else ("ramp_time",)
+                result[name] = {
+                    k: v for k, v in result[name].items() if k in (*own, "reverse", *LIMBS["gait"])
+                }
+            result[name] = {**result[name], **table}
+    return result
+
+
+def of_limbs(tables: Tables) -> bool:
+    """Whether a scene's robot is one of limbs, see mjsim.files.limb_tables."""
+    return bool({*LIMBS["robot"]} & tables.get("robot", {}).keys())
+
+
+def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
+    """The scene and the numerics of tables.
+
+    Raises:
+        ValueError: a value cannot be; the message names its table and key.
+    """
+    if of_limbs(tables):
+        raise ValueError(
+            f"{where}[robot] a robot of limbs walks by undulator run and undulator export alone"
+        )
+    robot = make(Robot, tables.get("robot", {}), f"{where}[robot] ")
+    gait, highest = _gait_of(tables.get("gait", {}), f"{where}[gait] ", len(robot.segments))
+    if highest is not None and "peak_pressure" in tables.get("robot", {}):
+        gait = _of_peak(gait, highest, robot.peak_pressure, f"{where}[robot] ")
+    elif highest is not None:
+        robot = replace(robot, peak_pressure=highest)
+    ground = tables.get("ground", {})
+    slope = as_type(float, ground.get("slope_deg", 0.0), f"{where}[ground] slope_deg", "deg")
+    values = tables.get("numerics", {})
+    scene_values = {key: value for key, value in values.items() if key in SCENE_FIELDS}
+    scene = make(
+        Scene, scene_values, f"{where}[numerics] ", robot=robot, gait=gait,
+        valves=make(Valves, tables.get("valves", {}), f"{where}[valves] "),
+        ground=build_ground(ground, f"{where}[ground] "), slope=math.radians(slope),
+    )  # fmt: skip
+    rest = {key: value for key, value in values.items() if key not in SCENE_FIELDS}
+    return scene, make(Numerics, rest, f"{where}[numerics] ")
+
+
+def build_ground(table: Table, where: str = "") -> Ground:
+    """A surface, or several beside each other: [[ground.patches]] with `from` [m] and a surface.
+
+    The first patch begins at minus infinity and has no `from`.
+    """
+    if "patches" not in table:
+        return build_surface(table, where)
+    patches = table["patches"]
+    other = [key for key in table if key not in ("patches", "slope_deg")]
+    if other:
+        raise ValueError(f"{where}patches or {other[0]} must be given, not both")
+    if not (isinstance(patches, list) and all(isinstance(patch, dict) for patch in patches)):
+        raise ValueError(f"{where}patches must be tables, got {patches!r}")
+    borders, surfaces = [], []
+    for number, patch in enumerate(patches):
+        here = f"{where}patch {number + 1}: "
+        for key in patch:
+            one_of(f"{here}key", key, ("from", "surface", *SURFACE_FIELDS))
+        if (number > 0) != ("from" in patch):
+            raise ValueError(f"{here}every patch but the first must say `from` where it begins [m]")
+        if number > 0:
+            borders.append(as_type(float, patch["from"], f"{here}from", "m"))
+        surfaces.append(build_surface(patch, here))
+    try:
+        return Patches("-".join(surface.name for surface in surfaces), tuple(borders),
+                       tuple(surfaces))  # fmt: skip
+    except ValueError as error:
+        raise ValueError(f"{where}{error}") from error
+
+
+def build_surface(table: Table, where: str = "") -> Surface:
+    """A named surface, or one of given properties, which may start from a named one."""
+    given = {key: value for key, value in table.items() if key in SURFACE_FIELDS}
+    name = table.get("surface")
+    if name is None:
+        return make(Surface, given, where) if given else SURFACES["felt"]
+    if name in SURFACES:
+        if not given:
+            return SURFACES[name]
+        raise ValueError(
+            f"{where}surface must be a name, or {next(iter(given))} and the like a new surface, "
+            f"not both; got {name!r}"
+        )
+    if not given:
+        one_of(f"{where}surface", name, SURFACES)
+    return make(Surface, given, where, name=name)
+
+
+def build_gait(table: Table, where: str = "", segments: int = 3) -> Gait:
+    """A named gait, one of given stages, of a lag, or from a file; reversed and timed as given."""
+    table = dict(table)
+    if "file" in table:
+        path = Path(str(table.pop("file")))
+        content = read_toml(path, "gait")
+        content.setdefault("name", path.stem)
+        check_keys("gait", content, f"gait {str(path)!r}: ")
+        if "stages" not in content and not {*TRAPEZOID} & content.keys():
+            raise ValueError(f"gait {str(path)!r}: stages is missing")
+        table = {**content, **table}
+        where = f"gait {str(path)!r}: "
+    backward = table.pop("reverse", False)
+    if {*TRAPEZOID} & table.keys():
+        gait = _trapezoid(table, where, segments)
+    elif "stages" in table:
+        table.setdefault("name", "custom")
+        gait = make(Gait, table, where)
+    else:
+        name = table.pop("name", "wave")
+        one_of(f"{where}name of a gait without stages", name, GAITS)
+        gait = GAITS[name]
+        if table:
+            gait = replace(gait, **checked(Gait, table, where))
+    return gait.reversed() if backward else gait
+
+
+def _gait_of(table: Table, where: str, segments: int) -> tuple[Gait, float | None]:
+    """The gait, and the highest pressure if it was measured [Pa]."""
+    if not str(table.get("file", "")).endswith(".csv"):
+        return build_gait(table, where, segments), None
+    for key in table:
+        one_of(f"{where}key beside a .csv file", key, ("file", "reverse", "name"))
+    gait, highest = read_gait(Path(str(table["file"])))
+    gait = replace(gait, name=table.get("name", gait.name))
+    return (gait.reversed() if table.get("reverse") else gait), highest
+
+
+def _of_peak(gait: Gait, highest: float, peak: float, where: str) -> Gait:
+    """Measured pressures as fractions of a peak that the robot is said to have."""
+    if highest > peak:
+        raise ValueError(
+            f"{where}peak_pressure must be at least the highest measured pressure, {highest:.6g} "
+            f"Pa of gait {gait.name!r}, which it does not scale; got {peak:.6g} Pa"
+        )
+    part = highest / peak
+    return replace(gait, stages=tuple(tuple(part * f for f in stage) for stage in gait.stages))
+
+
+def _trapezoid(table: Table, where: str, segments: int) -> Gait:
+    name = table.pop("name", None)
+    for key in table:
+        if key not in (*TRAPEZOID, "period"):
+            raise ValueError(f"{where}{key} or lag, duty and ramp must be given, not both")
+    missing = [key for key in TRAPEZOID if key not in table]
+    if missing:
+        raise ValueError(f"{where}{missing[0]} is missing; a gait has lag, duty and ramp")
+    try:
+        numbers = {k: as_type(float, v, f"{where}{k}", UNITS.get(k)) for k, v in table.items()}
+        gait = trapezoid(**numbers, segments=segments)
+        return gait if name is None else replace(gait, name=name)
+    except ValueError as error:
+        raise ValueError(f"{where}{error}") from error

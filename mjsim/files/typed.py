@@ -1,0 +1,113 @@
+"""Dataclasses of given values: numbers with units, words, lists, each checked against its type."""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import MISSING, Field, fields
+from numbers import Real
+from pathlib import Path
+from types import NoneType, UnionType
+from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+
+from analytic.checks import one_of
+from mjsim.files.fields import units
+from mjsim.files.units import in_unit
+
+Table = dict[str, Any]
+Kind = TypeVar("Kind")
+
+UNITS = {"ramp_time": "s", "period": "s"}  # of gaits; other fields say it themselves
+
+
+def make(kind: type[Kind], table: Mapping[str, Any], where: str = "", **more: Any) -> Kind:
+    """A dataclass of given values and defaults, its values checked against their types.
+
+    Raises:
+        ValueError: a key is no field, a value is not of its type or out of range, or one is
+            missing.
+    """
+    values = {**checked(kind, table, where), **more}
+    for field in fields(kind):  # type: ignore[arg-type]
+        if field.name not in values and _needed(field):
+            raise ValueError(f"{where}{field.name} is missing")
+    try:
+        return kind(**values)
+    except ValueError as error:
+        raise ValueError(f"{where}{error}") from error
+
+
+def checked(kind: type[Any], table: Mapping[str, Any], where: str) -> Table:
+    """Values of a table, each as the type of the dataclass's field has it.
+
+    Raises:
+        ValueError: a key is no field, or a value is not of its type.
+    """
+    hints = get_type_hints(kind)
+    values = {}
+    for key, value in table.items():
+        if key not in hints:
+            raise ValueError(f"{where}key {key!r} is unknown; known are {', '.join(hints)}")
+        unit = UNITS.get(key) or units(kind).get(key)
+        values[key] = as_type(hints[key], value, f"{where}{key}", unit)
+    return values
+
+
+def as_type(hint: Any, value: Any, name: str, unit: str | None = None) -> Any:
+    """The value as its type has it.
+
+    Lists become tuples and whole numbers floats, and numbers with a unit are turned into the SI.
+
+    Raises:
+        ValueError: it is not of that type.
+    """
+    options = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+    for option in options:
+        if option is NoneType:
+            continue
+        if get_origin(option) is Literal:
+            one_of(name, value, get_args(option))
+            return value
+        real = isinstance(value, Real) and not isinstance(value, bool)
+        if option is float and real:
+            return float(value)  # whether it is finite is asked where it is used
+        if option is int and real and not isinstance(value, float):
+            return value
+        if option in (str, bool) and isinstance(value, option):
+            return value
+        if get_origin(option) is tuple and isinstance(value, list | tuple):
+            inner = get_args(option)[0]
+            return tuple(as_type(inner, item, f"{name}'s parts", unit) for item in value)
+    if isinstance(value, str) and float in options:
+        return in_unit(name, value, unit)
+    raise ValueError(f"{name} must be {_described(options)}, got {value!r}")
+
+
+def _described(options: tuple[Any, ...]) -> str:
+    words = {float: "a number", int: "a whole number", str: "a word", bool: "true or false"}
+    return " or ".join(words.get(o, "a list") for o in options if o is not NoneType)
+
+
+def as_number(value: Any, name: str, unit: str) -> float:
+    """A number in a unit of the SI, or a text that says its own.
+
+    Raises:
+        ValueError: it is none.
+    """
+    return float(as_type(float, value, name, unit))
+
+
+def _needed(field: "Field[Any]") -> bool:
+    return field.default is MISSING and field.default_factory is MISSING
+
+
+def read_toml(path: Path, what: str) -> Table:
+    """What a TOML file holds.
+
+    Raises:
+        ValueError: it cannot be read, or is no TOML; the message says `what` it was to be.
+    """
+    try:
+        return tomllib.loads(path.read_bytes().decode("utf-8-sig"))  # Windows marks the byte order
+    except OSError as error:
+        raise ValueError(f"{what} {str(path)!r} cannot be read: {error.strerror}") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ValueError(f"{what} {str(path)!r} is no TOML: {error}") from error

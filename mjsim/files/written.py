@@ -1,0 +1,73 @@
+"""Scenes as they are written: tables of plain values, and TOML."""
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import asdict, fields, replace
+from typing import Any
+
+import tomli_w
+
+from analytic.scene.ground import Patches
+from analytic.scene.surface import SURFACES, Ground, Surface
+from mjsim.files.tables import SCENE_FIELDS, SURFACE_FIELDS, Tables
+from mjsim.files.typed import Table
+from mjsim.scene.numerics import Numerics
+from mjsim.scene.scene import Scene
+
+_LIST = re.compile(r"\[\s+([^\[\]=]+?),\s+\]")  # of numbers, a line each
+
+
+def as_tables(scene: Scene, numerics: Numerics) -> Tables:
+    """The tables from which mjsim.files.tables builds the scene, whole and without files.
+
+    Raises:
+        ValueError: the ground is of a kind that tables do not know.
+    """
+    gait = scene.gait
+    valves = {} if scene.valves.ideal else _plain(asdict(scene.valves))
+    own = {field.name: getattr(numerics, field.name) for field in fields(numerics)}
+    return {
+        "robot": _plain(asdict(scene.robot)),
+        "gait": _plain({"name": gait.name, "stages": gait.stages, "ramp_time": gait.ramp_time,
+                        "repeats": gait.repeats}),
+        **({"valves": valves} if valves else {}),
+        "ground": _ground(scene.ground, math.degrees(scene.slope)),
+        "numerics": _plain({name: getattr(scene, name) for name in SCENE_FIELDS} | own),
+    }  # fmt: skip
+
+
+def as_toml(tables: Tables, comments: Sequence[str] = ()) -> str:
+    """A TOML file of tables, comments on top."""
+    above = "".join(f"# {line}\n" for line in comments)
+    text = tomli_w.dumps({name: table for name, table in tables.items() if table})
+    return above + _LIST.sub(lambda found: f"[{' '.join(found.group(1).split())}]", text)
+
+
+def _ground(ground: Ground, slope: float) -> Table:
+    table: Table = {"slope_deg": slope} if slope else {}
+    if isinstance(ground, Surface):
+        return {**_surface(ground), **table}
+    if not isinstance(ground, Patches):
+        raise ValueError(f"ground {ground.name!r} cannot be written as a table")
+    borders: list[dict[str, Any]] = [{}, *({"from": border} for border in ground.borders)]
+    pairs = zip(borders, ground.surfaces, strict=True)
+    return {**table, "patches": [{**border, **_surface(surface)} for border, surface in pairs]}
+
+
+def _surface(surface: Surface) -> Table:
+    if surface.name in SURFACES:
+        if surface == SURFACES[surface.name]:
+            return {"surface": surface.name}
+        surface = replace(surface, name=f"{surface.name}-changed")
+    own = {name: getattr(surface, name) for name in SURFACE_FIELDS}
+    return {"surface": surface.name, **_plain(own)}
+
+
+def _plain(table: Table) -> Table:
+    """Without what is not given; tuples as lists, which TOML has."""
+    return {key: _listed(value) for key, value in table.items() if value is not None}
+
+
+def _listed(value: Any) -> Any:
+    return [_listed(item) for item in value] if isinstance(value, tuple) else value

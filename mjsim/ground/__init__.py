@@ -1,1 +1,0 @@
-"""Ground: what it looks like and what carries the strip."""

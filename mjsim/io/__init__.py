@@ -1,1 +1,0 @@
-"""Files, command lines, provenance."""

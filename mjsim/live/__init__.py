@@ -1,1 +1,0 @@
-"""A scene played live: by its gait or by hand."""

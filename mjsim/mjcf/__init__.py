@@ -1,1 +1,0 @@
-"""The robot on its ground as MJCF."""

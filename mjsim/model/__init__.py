@@ -1,0 +1,1 @@
+"""Scenes as MuJoCo models: bodies, ground, chambers, files that walk by themselves."""

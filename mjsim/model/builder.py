@@ -1,0 +1,71 @@
+"""The robot on its ground as MJCF: one way for every body, with mujoco.MjSpec."""
+
+import mujoco
+import numpy as np
+
+from mjsim.model.parts import PREFIX, set_options
+from mjsim.model.stage import stage
+from mjsim.scene import Numerics, Scene, registry
+
+TOUCH = 1e-6  # how deep the strip starts in the ground, over L: a contact at 0 is not seen; chosen
+
+
+def scene_spec(scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
+    """The strip on its ground, with lights, cameras and ruler.
+
+    Raises:
+        ValueError: the body cannot do what the scene asks for.
+    """
+    spec = stage(scene.ground)
+    spec.modelname = scene.ground.name
+    return on_ground(spec, scene, numerics)
+
+
+def on_ground(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
+    """The strip put on a ground that is given as MJCF.
+
+    Raises:
+        ValueError: the body cannot do what the scene asks for.
+    """
+    body = registry.find(scene.body)
+    body.check(scene, numerics)
+    set_options(spec, scene, numerics)
+    assert numerics.pad_radius is not None
+    height = numerics.pad_radius - TOUCH * scene.robot.length
+    strip = body.spec(scene, numerics)
+    for item in (*strip.worldbody.bodies, *strip.worldbody.sites):
+        item.pos = np.add(
+            item.pos, (0.0, 0.0, height)
+        )  # not by a frame, which dm_control does not read
+    spec.attach(strip, prefix=PREFIX, frame=spec.worldbody.add_frame())
+    return spec
+
+
+def compile_model(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
+    """The compiled model of a scene, which does not start anew by itself after a divergence.
+
+    Args:
+        scene: what is simulated.
+        numerics: how, with a number for everything: see Numerics.resolved.
+
+    Raises:
+        ValueError: the body cannot do what the scene asks for, or mujoco refuses the model.
+    """
+    return compiled(scene_spec(scene, numerics), scene, numerics)
+
+
+def compiled(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> mujoco.MjModel:
+    """A spec compiled, or why it cannot be.
+
+    Raises:
+        ValueError: mujoco refuses it.
+    """
+    try:
+        return spec.compile()
+    except ValueError as error:
+        if "mjMINVAL" not in str(error):
+            raise
+        raise ValueError(
+            f"length {scene.robot.length:g} m is too small for {numerics.links} links: MuJoCo "
+            "takes no link whose inertia is below 1e-15 kg m^2; take fewer links"
+        ) from error

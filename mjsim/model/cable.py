@@ -1,0 +1,112 @@
+"""The cable body: rigid links in space joined by ball joints, as in MuJoCo 3's composite cable.
+
+Bending is by springs of the ball joints, whose rest follows the pressure. Ball springs are
+isotropic, so the strip resists twist and sideways bending as it does bending in its plane. Two rows
+of pads, at both edges of the strip's width, keep it from rolling over.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.scene.chain import joint_springs, link_lengths
+from mjsim.model import parts
+from mjsim.model.body import Joints
+from mjsim.scene import Numerics, Scene
+
+Array = NDArray[np.float64]
+
+_FIRST_JOINT = 4  # the joints are x, y, z, the ball of the whole, then those between links
+_WHOLE_BALL = 3  # coordinate where the quaternion of the whole is, after 3 slides
+_FIRST_BALL = 7  # and that of the first joint between links
+
+
+class Cable:
+    """See mjsim.model.body.Body."""
+
+    name = "cable"
+
+    def check(self, scene: Scene, numerics: Numerics) -> None:
+        """Neither actuators nor sealed chambers."""
+        parts.refuse_planar_only(self.name, scene)
+
+    def spec(self, scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
+        """Links that hang from each other, the first one free in space."""
+        robot, links = scene.robot, numerics.links
+        spec = parts.template()
+        stiffness, _ = joint_springs(robot, links, np.zeros((1, len(robot.segments))))
+        edges = [(0.5 * side * robot.width, 0.0) for side in (-1, 1)]
+        lengths = link_lengths(robot, links).tolist()
+        parent, offset = spec.worldbody, 0.0
+        bodies = []
+        for i, length in enumerate(lengths):
+            body = parent.add_body(name=f"link_{i}", pos=(offset, 0, 0))
+            if i == 0:
+                _free(body)
+            else:
+                joint = body.add_joint(name=f"ball_{i}", type=mujoco.mjtJoint.mjJNT_BALL)
+                joint.stiffness[0] = stiffness[0, i - 1]
+                joint.damping[0] = numerics.damping_time * stiffness[0, i - 1]
+            mass = robot.weight_per_length / scene.gravity * length
+            wide, long = mass * robot.width**2 / 12, mass * length**2 / 12
+            body.explicitinertial, body.mass, body.ipos = True, mass, (length / 2, 0.0, 0.0)
+            body.inertia = wide, long, wide + long  # a plate without thickness
+            parts.add_pads(body, scene, numerics, i, [(0.0, *edge) for edge in edges])
+            if i == links:
+                ends = [(length, *edge) for edge in edges]
+                parts.add_pads(body, scene, numerics, i + 1, ends)
+            bodies.append(body)
+            parent, offset = body, length
+        origin = (0.0, 0.0, 0.0)
+        nodes = [(body, origin) for body in bodies]
+        parts.add_ends(spec, scene, [*nodes, (bodies[-1], (offset, 0.0, 0.0))])
+        parts.hold_sideways(spec, scene, numerics)
+        return spec
+
+    def bind(
+        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Numerics
+    ) -> Joints:
+        """The ball joints."""
+        return _Balls(model, data, scene, numerics)
+
+
+class _Balls:
+    """Springs of the ball joints, set at each step."""
+
+    def __init__(
+        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Numerics
+    ) -> None:
+        self._scene, self._links = scene, numerics.links
+        self._stiffness = model.jnt_stiffness[_FIRST_JOINT:]
+        self._rest = model.qpos_spring[_FIRST_BALL:].reshape(-1, 4)
+        self._qpos = data.qpos
+        self._balls = data.qpos[_WHOLE_BALL:].reshape(-1, 4)
+
+    def loads(self, valves: Array, before: Array, pressures: Array) -> Sequence[Any]:
+        scene = self._scene
+        stiffness, rest = joint_springs(scene.robot, self._links, pressures, scene.chamber)
+        # a positive angle turns x to z: about -y
+        return list(zip(stiffness, np.cos(rest / 2), -np.sin(rest / 2), strict=True))
+
+    def apply(self, load: Any) -> None:
+        self._stiffness[:], self._rest[:, 0], self._rest[:, 2] = load
+
+    def slopes(self) -> tuple[float, float]:
+        angles = -2.0 * np.arctan2(self._balls[:, 2], self._balls[:, 0])
+        return float(angles[0]), -float(angles.sum())
+
+    def shift(self, distance: float) -> None:
+        self._qpos[0] -= distance
+
+
+def _free(body: mujoco.MjsBody) -> None:
+    """Let a body move freely; MuJoCo's free joint is for children of the world only."""
+    for name, axis in zip("xyz", np.eye(3), strict=True):
+        body.add_joint(name=name, type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
+    body.add_joint(name="turn", type=mujoco.mjtJoint.mjJNT_BALL)
+
+
+BODY = Cable()

@@ -1,0 +1,111 @@
+"""A smooth skin over the chain: a soft strip with the ribs of its pneu-net chambers."""
+
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.scene.chain import link_lengths, node_positions
+from analytic.scene.robot import Robot
+from mjsim.model.parts import PALE, PREFIX
+from mjsim.scene import Numerics
+
+Array = NDArray[np.float64]
+
+PALE_SKIN = (*PALE, 1.0)
+CELLS = 6  # pneu-net chambers drawn per segment; chosen, the theory needs only their fraction
+_PER_CELL = 8  # stations along a cell
+_CORNER = 5  # points round each upper corner
+
+
+class Skin(NamedTuple):
+    """Skin of one segment, in the frame of the flat strip (x along it, z up, left end at 0).
+
+    Attributes:
+        vertex: shape (V, 3) [m].
+        face: counter-clockwise seen from outside, shape (F, 3).
+        bones: for each link that moves a vertex, (link, vertex indices, weights).
+    """
+
+    vertex: Array
+    face: NDArray[np.int_]
+    bones: list[tuple[int, NDArray[np.int_], Array]]
+
+
+def add_skins(spec: mujoco.MjSpec, robot: Robot, numerics: Numerics) -> None:
+    """Give a planar strip on its ground what it looks like, a skin a segment."""
+    nodes = node_positions(robot, numerics.links)
+    assert numerics.pad_radius is not None
+    for segment in range(len(robot.segments)):
+        shape = segment_skin(robot, numerics.links, segment, numerics.pad_radius)
+        skin = spec.add_skin(name=f"segment_{segment + 1}", rgba=PALE_SKIN)
+        skin.vert, skin.face = shape.vertex.ravel(), shape.face.ravel()
+        skin.bodyname = [f"{PREFIX}link_{link}" for link, _, _ in shape.bones]
+        skin.bindpos = np.ravel([(nodes[link], 0.0, 0.0) for link, _, _ in shape.bones])
+        skin.bindquat = [1.0, 0.0, 0.0, 0.0] * len(shape.bones)
+        skin.vertid = [moved.tolist() for _, moved, _ in shape.bones]
+        skin.vertweight = [weight.tolist() for _, _, weight in shape.bones]
+
+
+def segment_skin(robot: Robot, links: int, segment: int, below: float) -> Skin:
+    """Skin of a segment (0 is the left one) whose underside lies `below` the neutral line [m]."""
+    count = CELLS * _PER_CELL + 1
+    begin, end = (robot.length * border for border in robot.borders[segment : segment + 2])
+    s = np.linspace(begin, end, count)
+    rib = np.cos(2 * np.pi * CELLS * (s - begin) / (end - begin))
+    # chambers take the fraction c/x of the length; the walls between them are narrow grooves
+    groove = np.clip((rib - np.cos(np.pi * (1 - robot.chamber_fraction))) * 3, 0, 1)
+    top = robot.thickness + robot.chamber_height * (1 - 0.35 * groove)
+    outline = np.stack([_cross_section(robot.width, -below, height) for height in top])
+    around = outline.shape[1]
+    vertex = np.empty((count * around + 2, 3))
+    vertex[:-2, 0] = np.repeat(s, around)
+    vertex[:-2, 1:] = outline.reshape(-1, 2)
+    vertex[-2] = (s[0], 0.0, 0.5 * (top[0] - below))
+    vertex[-1] = (s[-1], 0.0, 0.5 * (top[-1] - below))
+    return Skin(vertex, _faces(count, around), _bones(robot, links, vertex[:, 0]))
+
+
+def _cross_section(width: float, low: float, high: float) -> Array:
+    """Closed outline in (y, z), clockwise seen along +x, flat below and rounded above."""
+    radius = 0.6 * (high - low)
+    turn = np.linspace(0.0, 0.5 * np.pi, _CORNER)
+    right = np.stack([0.5 * width - radius * (1 - np.cos(turn)),
+                      high - radius * (1 - np.sin(turn))], axis=1)  # fmt: skip
+    left = right[::-1] * (-1, 1)
+    under = np.linspace(-0.5 * width, 0.5 * width, 5)
+    bottom = np.stack([under, np.full_like(under, low)], axis=1)
+    return np.concatenate([right, left, bottom])
+
+
+def _faces(count: int, around: int) -> NDArray[np.int_]:
+    i, j = np.meshgrid(np.arange(count - 1), np.arange(around), indexing="ij")
+    a = (i * around + j).ravel()
+    b = (i * around + (j + 1) % around).ravel()
+    c, d = a + around, b + around
+    wall = np.concatenate([np.stack([a, b, c], axis=1), np.stack([b, d, c], axis=1)])
+    ring = np.arange(around)
+    following = (ring + 1) % around
+    near, far = count * around, count * around + 1
+    last = (count - 1) * around
+    caps = [
+        np.stack([np.full(around, near), following, ring], axis=1),
+        np.stack([np.full(around, far), last + ring, last + following], axis=1),
+    ]
+    return np.concatenate([wall, *caps])
+
+
+def _bones(robot: Robot, links: int, x: Array) -> list[tuple[int, NDArray[np.int_], Array]]:
+    """Blend each vertex between the two links whose centres enclose it."""
+    nodes = node_positions(robot, links)
+    centre = nodes[:-1] + 0.5 * link_lengths(robot, links)
+    after = np.clip(np.searchsorted(centre, x), 1, links)
+    weight = np.clip((x - centre[after - 1]) / (centre[after] - centre[after - 1]), 0.0, 1.0)
+    bones = []
+    for link in range(links + 1):
+        share = np.where(after == link, weight, 0.0) + np.where(after == link + 1, 1 - weight, 0.0)
+        moved = np.flatnonzero(share > 0)
+        if len(moved):
+            bones.append((link, moved, share[moved]))
+    return bones

@@ -1,0 +1,120 @@
+"""A scene as MJCF that walks by itself: no Python between its steps.
+
+Friction is MuJoCo's own, by load; pressures are the controls of actuators, in Pa, of chambers at
+constant pressure. What the loop of mjsim does besides is left out: the outermost pads keep the
+friction of tips while an end lies on its side, and anchors drift by the integrator's first order.
+"""
+
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+from analytic.scene import pneunet
+from analytic.scene.chain import link_lengths, segment_overlap
+from analytic.scene.ground import uniform
+from analytic.scene.surface import Surface
+from mjsim.files.assets import MODELS
+from mjsim.files.files import whole
+from mjsim.model.builder import scene_spec
+from mjsim.model.parts import PALE, PREFIX
+from mjsim.scene import Numerics, Scene
+
+TEXTURES = "textures"
+_INERTIA = 0.9999  # of a plate about its normal, so that rounded digits still are of a body
+_DARKER = 0.86  # every other segment, so that they can be told apart
+
+
+def walking_scene(scene: Scene) -> Scene:
+    """The same scene with what MuJoCo does alone: friction by load, actuated chambers.
+
+    A surface without coefficients gets those with which an end that carries half the weight resists
+    as it does by its constant bounds, a side by that of one whole segment.
+    """
+    ground = uniform(scene.ground)
+    if not ground.friction and not ground.tip_friction:
+        half = 0.5 * scene.robot.weight
+        area = scene.robot.width * scene.robot.length / len(scene.robot.segments)
+        ground = Surface(ground.name, ground.tip_force, ground.shear_strength,
+                         ground.shear_strength * area / half, ground.tip_force / half)  # fmt: skip
+    actuated = "actuators" if scene.body == "planar" else scene.actuation
+    return replace(scene, ground=ground, friction="coulomb", actuation=actuated,
+                   chamber="constant-pressure")  # fmt: skip
+
+
+def standalone_spec(scene: Scene, numerics: Numerics | None = None) -> mujoco.MjSpec:
+    """The scene to open in MuJoCo's viewer and to drive by its controls.
+
+    Controls are the pressures of the segments for the planar body, of the joints for the cable. The
+    rod has none: its pressure is a couple on each edge, which only mjsim applies.
+    """
+    scene = walking_scene(scene)
+    numerics = (numerics or Numerics()).resolved(scene.body, scene.friction)
+    spec = scene_spec(scene, numerics)
+    if scene.body in ("planar", "cable"):
+        _show_links(spec, scene, numerics)
+    if scene.body == "cable":
+        _actuate_balls(spec, scene, numerics)
+    for actuator in spec.actuators:
+        actuator.ctrllimited = int(mujoco.mjtLimited.mjLIMITED_TRUE)
+    for end in ("left", "right"):
+        site = f"{PREFIX}end_{end}"
+        for name, kind in (("position", mujoco.mjtSensor.mjSENS_FRAMEPOS),
+                           ("velocity", mujoco.mjtSensor.mjSENS_FRAMELINVEL),
+                           ("load", mujoco.mjtSensor.mjSENS_TOUCH)):  # fmt: skip
+            spec.add_sensor(
+                name=f"{end}_{name}", type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=site
+            )
+    model = spec.compile()
+    spec.add_key(name="flat", qpos=model.qpos0, ctrl=np.zeros(model.nu))
+    return spec
+
+
+def write(scene: Scene, path: Path, numerics: Numerics | None = None) -> None:
+    """Write a scene as a file that opens from any folder on any machine, its textures beside it.
+
+    Raises:
+        OSError: it cannot be written.
+        ValueError: the body cannot do what the scene asks for.
+    """
+    spec = standalone_spec(scene, numerics)
+    text = spec.to_xml().replace(f'texturedir="{spec.texturedir}"', f'texturedir="{TEXTURES}"')
+    folder = path.parent / TEXTURES
+    folder.mkdir(parents=True, exist_ok=True)
+    for texture in spec.textures:
+        source = MODELS / TEXTURES / texture.file
+        if texture.file and source.resolve() != (folder / texture.file).resolve():
+            shutil.copyfile(source, folder / texture.file)
+    with whole(path) as part:
+        part.write_text(text, encoding="utf-8")
+
+
+def _show_links(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
+    """A box a link, to look at."""
+    robot = scene.robot
+    lengths = link_lengths(robot, numerics.links)
+    segment = segment_overlap(robot.borders, numerics.links).argmax(axis=1)
+    height = robot.thickness + robot.chamber_height
+    for link, length in enumerate(lengths.tolist()):
+        shade = _DARKER if segment[max(link - 1, 0)] % 2 else 1.0
+        box = spec.body(f"{PREFIX}link_{link}").add_geom(name=f"{PREFIX}look_{link}")
+        box.type, box.mass = mujoco.mjtGeom.mjGEOM_BOX, 0.0
+        box.size, box.pos = (length / 2, robot.width / 2, height / 2), (length / 2, 0, height / 2)
+        box.contype = box.conaffinity = 0
+        box.rgba, box.group = (*(shade * part for part in PALE), 1.0), 1
+
+
+def _actuate_balls(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
+    """A motor a ball joint, whose control is the pressure of its chamber."""
+    robot = scene.robot
+    bend = pneunet.curvature_per_pressure(robot) * pneunet.base_rigidity(robot)
+    for body in spec.bodies:
+        if body.explicitinertial:
+            body.inertia[2] *= _INERTIA
+    joints = [joint for joint in spec.joints if joint.name.startswith(f"{PREFIX}ball_")]
+    for number, joint in enumerate(joints, start=1):
+        motor = spec.add_actuator(name=f"{PREFIX}chamber_{number}", target=joint.name)
+        motor.trntype, motor.gear[:3] = mujoco.mjtTrn.mjTRN_JOINT, (0.0, 1.0, 0.0)
+        motor.gainprm[0], motor.ctrlrange[:] = bend, (0.0, robot.peak_pressure)

@@ -1,1 +1,0 @@
-"""One page about some walks, in one file."""

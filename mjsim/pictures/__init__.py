@@ -1,0 +1,1 @@
+"""Pictures, videos, pages and the live viewer."""

@@ -1,0 +1,125 @@
+"""The page put together: words, numbers, video, charts, scene and origin; nothing from outside."""
+
+import base64
+import json
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import plotly.io
+from plotly.offline import get_plotlyjs
+
+from mjsim.files.written import as_tables, as_toml
+from mjsim.pictures import page_charts as charts
+from mjsim.results.trajectory import Trajectory
+
+_HERE = Path(__file__).parent
+_NONE = "–"
+
+
+class Entry(NamedTuple):
+    """One walk of the page.
+
+    Attributes:
+        name: of its file.
+        walk: as loaded.
+        record: of mjsim.results.record.record.
+        origin: versions and commit it was made with.
+        video: MP4; None if there is none.
+    """
+
+    name: str
+    walk: Trajectory
+    record: dict[str, Any]
+    origin: dict[str, Any]
+    video: bytes | None
+
+
+def page(entries: Sequence[Entry]) -> str:
+    """HTML that needs nothing beside it."""
+    title = "Walks: " + ", ".join(entry.record["surface"] for entry in entries)
+    style, theme = ((_HERE / name).read_text("utf-8") for name in ("style.css", "theme.js"))
+    parts = [
+        "<!doctype html><html lang='en'><head><meta charset='utf-8'>",
+        "<meta name='viewport' content='width=device-width, initial-scale=1'>",
+        f"<title>{escape(title)}</title><link rel='icon' href='data:,'>",
+        f"<style>{style}</style><script>{get_plotlyjs()}</script></head><body>",
+        f"<h1>{escape(title)}</h1>", _table(entries), *map(_section, entries),
+        f"<script>{theme}</script></body></html>",
+    ]  # fmt: skip
+    return "\n".join(parts)
+
+
+def _table(entries: Sequence[Entry]) -> str:
+    head = ("run", "Δ/L a cycle", "mm/s", "theory", "±", "error", "height/L", "status")
+    rows = []
+    for entry in entries:
+        row = entry.record
+        speed = row["speed_m_per_s"]
+        cells = (
+            escape(entry.name), _signed(row["displacement_over_L"]),
+            _signed(None if speed is None else 1e3 * speed, 2),
+            _signed(row["predicted_displacement_over_L"]),
+            _plain(row["prediction_uncertainty_over_L"]), _signed(row["error_over_L"]),
+            _plain(row["amplitude_over_L"], 3), escape(row["status"]),
+        )  # fmt: skip
+        rows.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
+    heads = "".join(f"<th>{cell}</th>" for cell in head)
+    return (
+        f"<div class='scroll'><table><thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}"
+        "</tbody></table></div><p class='note'>Displacement of the left end over the length L, of "
+        "the last cycle on uniform ground. Theory is the quasi-static elastica, ± what half its "
+        "links and states change.</p>"
+    )
+
+
+def _section(entry: Entry) -> str:
+    row = entry.record
+    remarks = [*row["prediction_flags"], *row["prediction_notes"]]
+    video = ""
+    if entry.video:
+        data = base64.b64encode(entry.video).decode("ascii")
+        video = (f"<video controls loop muted playsinline preload='auto' "
+                 f"src='data:video/mp4;base64,{data}'></video>")  # fmt: skip
+    origin = {key: entry.origin.get(key) for key in ("versions", "commit")}
+    parts = [
+        f"<section><h2>{escape(entry.name)}</h2><p>{escape(_sentence(row))}</p>",
+        *(f"<p class='note'>{escape(text)}</p>" for text in remarks), video,
+        _chart(charts.shapes(entry.walk)), _chart(charts.course(entry.walk)),
+        f"<h3>Scene</h3><pre>{escape(_toml(entry.walk))}</pre>",
+        f"<h3>Origin</h3><pre>{escape(json.dumps(origin, indent=2))}</pre></section>",
+    ]  # fmt: skip
+    return "\n".join(parts)
+
+
+def _sentence(row: dict[str, Any]) -> str:
+    """What became of the walk, in words."""
+    gait = f"Gait {row['gait']} on {row['surface']}"
+    shift = row["displacement_over_L"]
+    if shift is None:
+        return f"{gait}: {row['status']}, so there is no distance."
+    way = "no direction" if row["direction"] == "none" else f"walks {row['direction']}"
+    return f"{gait}: {way}, {1e3 * row['displacement_m']:+.2f} mm = {shift:+.4f} L a cycle."
+
+
+def _chart(figure: Any) -> str:
+    return "<div class='chart'>" + plotly.io.to_html(
+        figure, full_html=False, include_plotlyjs=False, auto_play=False,
+        config={"responsive": True, "displaylogo": False},
+    ) + "</div>"  # fmt: skip
+
+
+def _toml(walk: Trajectory) -> str:
+    try:
+        return as_toml(as_tables(walk.scene, walk.numerics))
+    except ValueError as error:  # a ground of somebody's own
+        return f"# {error}"
+
+
+def _signed(value: float | None, places: int = 4) -> str:
+    return _NONE if value is None else f"{value:+.{places}f}"
+
+
+def _plain(value: float | None, places: int = 4) -> str:
+    return _NONE if value is None else f"{value:.{places}f}"

@@ -1,0 +1,184 @@
+"""A session in MuJoCo's viewer: a slider a chamber and one for the ground, on the right.
+
+Physics and picture are two models: what is shown is posed, and its actuators, which push nothing,
+are the sliders.
+"""
+
+import threading
+import time as clock
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import mujoco
+import mujoco.viewer
+import numpy as np
+
+from analytic.scene.ground import Patches
+from analytic.scene.surface import SURFACES, Ground
+from mjsim.model.parts import PREFIX
+from mjsim.pictures.live_session import Session
+from mjsim.pictures.look import Look
+from mjsim.results.netcdf import segment_names
+
+SPACE, BACKSPACE = 32, 259  # codes of GLFW
+_FRAME = 1 / 60  # s
+_PATIENCE = 10.0  # s that a window is given to close
+_LATEST = 0.1  # s of real time that are made up for after a hitch
+_REACH = 20.0  # lengths of the robot that the ground is shown to either side
+_MOVED = 1e-3  # of a slider: less is rounding
+_KILO = 1e3
+
+
+class Shown(NamedTuple):
+    """What a session in a window came to.
+
+    Attributes:
+        frames: how many were drawn.
+        wall_time: for how long it was open [s].
+        simulated: how much was simulated [s].
+    """
+
+    frames: int
+    wall_time: float
+    simulated: float
+
+
+def show(session: Session, speed: float = 1.0, seconds: float | None = None) -> Shown:
+    """Open a window and play until it is closed.
+
+    Args:
+        session: what to play.
+        speed: times real time.
+        seconds: after which the window closes by itself.
+
+    Raises:
+        RuntimeError: there is no screen.
+    """
+    return _Window(session).play(speed, seconds)
+
+
+class _Window:
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self._choices = grounds(session.scene.ground)
+        self._chosen = 0
+        self._look = self._looks_of(session.scene.ground)
+        self._keys: list[int] = []
+        self._shown = self._look.data.ctrl.copy()
+
+    def play(self, speed: float, seconds: float | None) -> Shown:
+        look, session = self._look, self._session
+        look.pose(session.simulation.nodes(), self._fractions())
+        frames, simulated = 0, 0.0
+        others = set(threading.enumerate())
+        with mujoco.viewer.launch_passive(
+            look.model, look.data, key_callback=self._keys.append, show_left_ui=False
+        ) as viewer:
+            self._aim(viewer)
+            opened = last = clock.perf_counter()
+            while viewer.is_running():
+                now = clock.perf_counter()
+                if seconds is not None and now - opened > seconds:
+                    break
+                passed, last = min(now - last, _LATEST) * speed, now
+                self._obey(viewer)
+                session.advance(passed)
+                simulated += passed
+                with viewer.lock():
+                    look.pose(session.simulation.nodes(), self._fractions())
+                    self._set_sliders()
+                viewer.set_texts(self._texts())
+                viewer.sync()
+                frames += 1
+                clock.sleep(max(0.0, _FRAME - (clock.perf_counter() - now)))
+            shown = Shown(frames, clock.perf_counter() - opened, simulated)
+        for thread in set(threading.enumerate()) - others:
+            thread.join(_PATIENCE)  # while it draws a last frame its window must be there
+        return shown
+
+    def _obey(self, viewer: Any) -> None:
+        """Keys, then sliders that somebody moved."""
+        session = self._session
+        while self._keys:
+            key = self._keys.pop(0)
+            if key == SPACE and session.playing:
+                session.command(session.valves)
+            elif key == SPACE:
+                session.playing = True
+            elif key == BACKSPACE:
+                session.restart()
+        control = self._look.data.ctrl
+        choice = round(float(control[-1]))
+        if choice != self._chosen:
+            self._chosen = choice
+            session.move_to(self._choices[choice])
+            self._dress(viewer)
+        elif np.abs(control[:-1] - self._shown[:-1]).max() > _MOVED:
+            session.command(_KILO * control[:-1])
+
+    def _set_sliders(self) -> None:
+        self._look.data.ctrl[:] = *(self._session.valves / _KILO), self._chosen
+        self._shown = self._look.data.ctrl.copy()
+
+    def _fractions(self) -> Any:
+        return self._session.seen.pressure / self._session.scene.robot.peak_pressure
+
+    def _looks_of(self, ground: Ground) -> Look:
+        scene = replace(self._session.scene, ground=ground)
+        links = self._session.simulation.numerics.links
+        return Look(scene, links, _REACH * scene.robot.length, self._add_sliders)
+
+    def _add_sliders(self, spec: mujoco.MjSpec) -> None:
+        scene = self._session.scene
+        most = scene.robot.peak_pressure / _KILO
+        least = min(0.0, float(np.min(scene.gait.stages)) * most)
+        for name in segment_names(len(scene.robot.segments)):
+            _slider(spec, f"{name} [kPa]", least, most)
+        _slider(spec, "ground", 0.0, max(len(self._choices) - 1, 1e-3))
+
+    def _dress(self, viewer: Any) -> None:
+        """Give the ground that is shown the looks of another one of the same build."""
+        other, model = self._looks_of(self._choices[self._chosen]).model, self._look.model
+        with viewer.lock():
+            for name in ("mat_rgba", "mat_specular", "mat_shininess", "mat_reflectance",
+                         "mat_texrepeat", "geom_pos", "geom_size", "geom_rgba",
+                         "tex_data"):  # fmt: skip
+                getattr(model, name)[:] = getattr(other, name)
+        for texture in range(model.ntex):
+            viewer.update_texture(texture)
+
+    def _aim(self, viewer: Any) -> None:
+        length = self._session.scene.robot.length
+        with viewer.lock():
+            viewer.opt.geomgroup[3] = 0  # contact pads
+            viewer.opt.flags[mujoco.mjtVisFlag.mjVIS_TENDON] = 0
+            camera = viewer.cam
+            camera.lookat[:] = 0.5 * length, 0.0, 0.1 * length
+            camera.azimuth, camera.elevation, camera.distance = 90.0, -18.0, 1.9 * length
+
+    def _texts(self) -> list[tuple[Any, ...]]:
+        big, corner = mujoco.mjtFontScale.mjFONTSCALE_150, mujoco.mjtGridPos
+        words = self._session.words()
+        sliders = ", ".join(f"{i} {ground.name}" for i, ground in enumerate(self._choices))
+        keys = (("Space", "play or pause the gait"), ("Backspace", "start anew"),
+                ("Control, at the right", "pressures by hand"), ("ground", sliders))  # fmt: skip
+        rows = ((big, corner.mjGRID_TOPLEFT, words), (None, corner.mjGRID_BOTTOMLEFT, keys))
+        return [
+            (size, place, *("\n".join(column) for column in zip(*lines, strict=True)))
+            for size, place, lines in rows
+        ]
+
+
+def grounds(first: Ground) -> list[Ground]:
+    """Those to choose from: the scene's own, then the named ones; patches stand alone."""
+    if isinstance(first, Patches):
+        return [first]
+    return [first, *(ground for name, ground in SURFACES.items() if name != first.name)]
+
+
+def _slider(spec: mujoco.MjSpec, name: str, low: float, high: float) -> None:
+    slider = spec.add_actuator(name=name)
+    slider.trntype, slider.target = mujoco.mjtTrn.mjTRN_JOINT, f"{PREFIX}x"
+    slider.gainprm[0] = 0.0
+    slider.ctrlrange[:] = low, high
+    slider.ctrllimited = int(mujoco.mjtLimited.mjLIMITED_TRUE)

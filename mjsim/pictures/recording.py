@@ -1,0 +1,136 @@
+"""Videos of walks: one each, and several above each other in step.
+
+Every walk is drawn once, in a process of its own; the video of several is put together from the
+frames that exist.
+"""
+
+import multiprocessing
+import os
+import subprocess
+import tempfile
+import warnings
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import ExitStack
+from pathlib import Path
+
+import imageio_ffmpeg
+import numpy as np
+from numpy.typing import NDArray
+
+from mjsim.files.files import whole
+from mjsim.results.trajectory import Trajectory
+
+Times = NDArray[np.float64]
+Frame = NDArray[np.uint8]
+
+WIDTH, HEIGHT, FPS = 1280, 720, 30
+BAND = (148, 568)  # lines of a frame that a band shows, of 720, between the sky and the slab
+LEAD, TAIL = 0.5, 1.0  # s of stillness before and after the walk
+_QUALITY = 27  # x264's constant rate factor: a surface's 11.5 s stay under 500 KB
+_BAND_QUALITY = 12  # of bands, which are encoded once more
+_BAND_SCALE = 1.1  # of letters in a band
+_JOINT_WIDTH, _JOINT_QUALITY = 852, 29
+
+
+def frame_times(last: float) -> Times:
+    """Times of the frames of a walk that ends at `last`, and a little more, (F,) [s]."""
+    return np.arange(-LEAD, last + TAIL, 1 / FPS)
+
+
+def film(walks: Sequence[Trajectory], paths: Sequence[Path], joint: Path | None = None) -> None:
+    """Write an H.264 video of each walk; each appears under its name only when it is whole.
+
+    Needs MUJOCO_GL to name a backend that renders, see mjsim.pictures.gl.
+
+    Args:
+        walks: the walks.
+        paths: of their videos.
+        joint: of a video of all of them, above each other in step; none if None.
+
+    Raises:
+        OSError: a video cannot be written.
+    """
+    if not walks:
+        return
+    last = max(float(walk.time[-1]) for walk in walks)
+    times = frame_times(last)
+    with tempfile.TemporaryDirectory() as folder:
+        bands = [Path(folder) / f"{i}.mp4" if joint else None for i in range(len(walks))]
+        jobs = list(zip(walks, paths, bands, [times] * len(walks), strict=True))
+        # never in this process, which may have imported mujoco without OpenGL
+        context = multiprocessing.get_context("spawn")
+        workers = min(len(walks), os.cpu_count() or 1)
+        with ProcessPoolExecutor(workers, mp_context=context) as pool:
+            for future in [pool.submit(_draw, *job) for job in jobs]:
+                future.result()
+        if joint:
+            _stack([band for band in bands if band], joint)
+
+
+def write_video(walk: Trajectory, path: Path) -> int:
+    """Write a video of one walk in this process; returns the number of frames."""
+    times = frame_times(float(walk.time[-1]))
+    _draw(walk, path, None, times)
+    return len(times)
+
+
+def pictures(walk: Trajectory, times: Times) -> Iterator[tuple[Frame, int]]:
+    """Pictures of a walk without anything written on them, and the step that each shows."""
+    from mjsim.pictures.render import Camera
+
+    shown, frame = -1, np.empty(0, np.uint8)
+    with Camera(walk, WIDTH, HEIGHT) as camera:
+        for time in times:
+            step = int(np.clip(np.searchsorted(walk.time, time), 0, len(walk.time) - 1))
+            step = max(step, walk.start)  # still until the first cycle
+            if step != shown:
+                shown, frame = step, camera.frame(step).copy()
+            yield frame, step
+
+
+def band_of(frame: Frame) -> Frame:
+    """The lines of a frame that a band shows, with room for letters above the strip."""
+    low, high = (line * len(frame) // HEIGHT // 2 * 2 for line in BAND)
+    return frame[low:high]
+
+
+def _draw(walk: Trajectory, path: Path, band: Path | None, times: Times) -> None:
+    import mediapy
+
+    from mjsim.pictures.overlay import Overlay
+
+    mediapy.set_ffmpeg(imageio_ffmpeg.get_ffmpeg_exe())
+    overlay = Overlay(walk, HEIGHT / 720)
+    small = Overlay(walk, _BAND_SCALE * HEIGHT / 720)
+    with ExitStack() as stack, warnings.catch_warnings():
+        warnings.simplefilter("ignore", ResourceWarning)  # mediapy leaves ffmpeg's pipes
+        part = stack.enter_context(whole(path))
+        video = stack.enter_context(
+            mediapy.VideoWriter(part, (HEIGHT, WIDTH), fps=FPS, crf=_QUALITY)
+        )
+        strip = None
+        if band:
+            shape = band_of(np.empty((HEIGHT, WIDTH, 3), np.uint8)).shape[:2]
+            strip = stack.enter_context(
+                mediapy.VideoWriter(band, shape, fps=FPS, crf=_BAND_QUALITY)
+            )
+        for frame, step in pictures(walk, times):
+            video.add_image(overlay.draw(frame, step))
+            if strip:
+                strip.add_image(small.draw(band_of(frame), step))
+
+
+def _stack(bands: Sequence[Path], path: Path) -> None:
+    """One video of several above each other, by ffmpeg."""
+    inputs = [word for band in bands for word in ("-i", str(band))]
+    stacked = f"vstack=inputs={len(bands)},scale={_JOINT_WIDTH}:-2"
+    with whole(path) as part:
+        run = subprocess.run(
+            [imageio_ffmpeg.get_ffmpeg_exe(), "-y", "-loglevel", "error", *inputs,
+             "-filter_complex", stacked, "-c:v", "libx264",
+             "-crf", str(_JOINT_QUALITY), "-pix_fmt", "yuv420p", str(part)],
+            capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
+        )  # fmt: skip
+        if run.returncode:
+            raise OSError(f"{path}: {run.stderr.strip()}")

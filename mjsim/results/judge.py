@@ -1,0 +1,49 @@
+"""How a recorded walk ended, by written criteria."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mjsim.results.status import FALLEN, THROWN, Status
+from mjsim.results.trajectory import Trajectory
+
+_ASIDE = 0.02  # a vertex this far off the plane, over L, has left it; chosen
+_SLID = 0.02  # of the length that both ends went downhill at once: the whole slides; chosen
+
+
+def judge(walk: Trajectory, stopped: bool = False, unsettled: bool = False) -> Trajectory:
+    """The walk up to its failure, if it failed, with its status.
+
+    Args:
+        walk: as recorded.
+        stopped: whether the stepping stopped early.
+        unsettled: whether it began before the strip had come to rest.
+    """
+    length = walk.scene.robot.length
+    height = walk.position[..., 2]
+    ends, lowest = np.abs(height[:, [0, -1]]).max(axis=1), height.min(axis=1)
+    fallen = np.flatnonzero(~((ends < FALLEN * length) & (lowest < THROWN * length)))
+    if len(fallen) and not stopped:
+        walk = walk.up_to(int(fallen[0]) + 1)
+    return replace(walk, status=_status(walk, stopped or len(fallen) > 0, unsettled))
+
+
+def _status(walk: Trajectory, stopped: bool, unsettled: bool) -> Status:
+    length = walk.scene.robot.length
+    if not np.abs(walk.position[-1, :, 2]).max() < length:
+        return Status.DIVERGED
+    if not np.abs(walk.position[..., 1]).max() < _ASIDE * length:
+        return Status.TURNED
+    if slid(walk) > _SLID * length:
+        return Status.SLID  # whatever became of it on the way down
+    if stopped:
+        return Status.TOPPLED
+    return Status.UNSETTLED if unsettled else Status.OK
+
+
+def slid(walk: Trajectory, begin: int = 0) -> float:
+    """Distance that both ends went downhill together from a state on [m]."""
+    if not walk.scene.slope:
+        return 0.0
+    moves = -np.sign(walk.scene.slope) * np.diff(walk.position[begin:, [0, -1], 0], axis=0)
+    return float(np.maximum(moves.min(axis=1), 0.0).sum())

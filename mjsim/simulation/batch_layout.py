@@ -1,0 +1,97 @@
+"""Which scenes can be stepped side by side, and their models as rows of one.
+
+Scenes whose models have the same parts differ by numbers only: each is compiled without anything to
+look at, and the numbers go into the rows of `mujoco.batch.Batch.expand`.
+"""
+
+from collections.abc import Hashable, Sequence
+from pathlib import Path
+
+import mujoco
+import numpy as np
+from mujoco.batch import Batch
+from numpy.typing import NDArray
+
+from analytic.scene.ground import depends_on_speed
+from analytic.scene.surface import Surface
+from mjsim.model.builder import compiled, on_ground
+from mjsim.model.parts import PREFIX
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.schedule import before_start
+
+_GROUND = Path(__file__).parents[1] / "model" / "bare.xml"
+
+# what MuJoCo computes of robots of one layout that differ; a test compares all other fields
+FIELDS = (
+    "body_inertia", "body_invweight0", "body_ipos", "body_mass", "body_pos", "body_subtreemass",
+    "bvh_aabb",
+    "dof_M0", "dof_damping", "dof_invweight0", "dof_length", "geom_pos", "jnt_stiffness",
+    "opt.gravity", "site_pos", "tendon_frictionloss", "tendon_invweight0", "tendon_length0",
+    "tendon_lengthspring",
+)  # fmt: skip
+
+
+def refusal(scene: Scene) -> str | None:
+    """Why a scene cannot be stepped beside others, or None if it can."""
+    ground = scene.ground
+    if (scene.body, scene.friction, scene.actuation) != ("planar", "constant", "rest-angles"):
+        return "body, friction and actuation must be planar, constant and rest-angles"
+    if scene.between:
+        return "friction must act at the ends alone"
+    if scene.chamber == "sealed":
+        return "chambers must not be sealed"
+    if not isinstance(ground, Surface) or depends_on_speed(ground) or ground.adhesion:
+        return "ground must be uniform, without viscosity and adhesion"
+    return None
+
+
+def layout(scene: Scene, numerics: Numerics) -> Hashable:
+    """What scenes that are stepped side by side have in common."""
+    return len(scene.robot.segments), len(before_start(scene, numerics))
+
+
+def bare_model(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
+    """The model with nothing to look at, and a sensor of the ground's force for each pad.
+
+    Raises:
+        ValueError: MuJoCo refuses the model.
+    """
+    spec = on_ground(mujoco.MjSpec.from_file(str(_GROUND)), scene, numerics)
+    force = 1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE)
+    for node in range(numerics.links + 2):
+        spec.add_sensor(
+            name=f"push_{node}", type=mujoco.mjtSensor.mjSENS_CONTACT,
+            objtype=mujoco.mjtObj.mjOBJ_GEOM, objname=f"{PREFIX}pad_{node}", intprm=[force, 0, 1],
+        )  # fmt: skip
+    return compiled(spec, scene, numerics)
+
+
+def models(scenes: Sequence[Scene], numerics: Numerics) -> list[mujoco.MjModel]:
+    """A model each; scenes that differ in gait, pressure and ground only share theirs.
+
+    Raises:
+        ValueError: MuJoCo refuses a model.
+    """
+    known: dict[Hashable, mujoco.MjModel] = {}
+    found = []
+    for scene in scenes:
+        robot = {k: v for k, v in vars(scene.robot).items() if k != "peak_pressure"}
+        key = (*robot.items(), scene.gravity, scene.slope)
+        if key not in known:
+            known[key] = bare_model(scene, numerics)
+        found.append(known[key])
+    return found
+
+
+def write(batch: Batch, rows: Sequence[int], given: Sequence[mujoco.MjModel]) -> None:
+    """Give rows of a batch the numbers of their models; `forward` or `reset` is to follow."""
+    for name in FIELDS:
+        values = batch.expand(name)
+        for row, model in zip(rows, given, strict=True):
+            values[row] = field(model, name)
+
+
+def field(model: mujoco.MjModel, name: str) -> NDArray[np.float64]:
+    """A field of a model, or of its options."""
+    owner, _, key = name.rpartition(".")
+    return np.asarray(getattr(model.opt if owner else model, key))

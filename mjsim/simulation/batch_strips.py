@@ -1,0 +1,182 @@
+"""The loop of `mjsim.simulation.simulation.Simulation`, for many scenes at once."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from mujoco.batch import Batch
+from numpy.typing import NDArray
+
+from analytic.friction.contact_length import may_lie_flat
+from analytic.scene.chain import joint_springs
+from mjsim.friction.contact_length import pads_by_node
+from mjsim.model.chambers import Chambers
+from mjsim.results.status import AT_REST
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.batch_ends import Ends, Rows
+from mjsim.simulation.batch_layout import layout, models, refusal, write
+from mjsim.simulation.kinematics import ends_may_be
+from mjsim.simulation.schedule import before_start, check_steps
+
+Array = NDArray[np.float64]
+
+_FIRST_HINGE = 3  # the joints are x, z, pitch, then the hinges
+
+
+class Block:
+    """What `Strips.play` did, a row a scene and a column a step.
+
+    Attributes:
+        rows: the scenes.
+        pressure: in the chambers, (R, T, S) [Pa].
+        coordinates: of MuJoCo after each step, (R, T, nq).
+        contact: lengths of side contact, (R, T, 2) [m].
+        left_slip: part of a change of separation that is the left end's, (R, T).
+        steps: that were done before a scene stopped, (R,).
+    """
+
+    def __init__(self, rows: Rows, pressure: Array, nq: int) -> None:
+        shape = pressure.shape[:2]
+        self.rows, self.pressure = rows, pressure
+        self.coordinates = np.empty((*shape, nq))
+        self.contact, self.left_slip = np.empty((*shape, 2)), np.empty(shape)
+        self.steps = np.full(shape[0], shape[1])
+
+
+class Strips:
+    """Scenes of one layout, stepped together.
+
+    Args:
+        scenes: see mjsim.simulation.batch_layout.refusal and layout.
+        numerics: of all of them, with a number for everything.
+        threads: of MuJoCo.
+
+    Attributes:
+        scenes, numerics: what is simulated.
+        pressure: in the chambers now, (B, S) [Pa].
+        stopped: scenes that failed, (B,).
+
+    Raises:
+        ValueError: a scene cannot be stepped so, or they are not of one layout.
+    """
+
+    def __init__(self, scenes: Sequence[Scene], numerics: Numerics, threads: int = 1) -> None:
+        self.scenes, self.numerics = list(scenes), numerics
+        for scene in scenes:
+            why = refusal(scene)
+            if why:
+                raise ValueError(f"to be stepped side by side, {why}")
+            check_steps(scene, numerics)
+        if len({layout(scene, numerics) for scene in scenes}) > 1:
+            raise ValueError("scenes that are stepped side by side must be of one layout")
+        given = models(scenes, numerics)
+        self.model = given[0]
+        self._batch = batch = Batch(self.model, len(scenes), threads)
+        every = np.arange(len(scenes))
+        write(batch, every.tolist(), given)
+        self._stiffness, self._rest = batch.expand("jnt_stiffness"), batch.expand("qpos_spring")
+        self._qpos, self._place = batch.bind("qpos"), batch.bind("geom_xpos")
+        self._length = batch.bind("ten_length")
+        pads = pads_by_node(self.model)[:, 0]
+        self._feet = pads[[0, -1]]
+        self._ends = Ends(scenes, numerics, batch, self.model)
+        self._limits = np.array([ends_may_be(scene, numerics) for scene in scenes])
+        self.pressure = np.zeros((len(scenes), len(scenes[0].robot.segments)))
+        self.stopped = np.zeros(len(scenes), dtype=bool)
+        self._chambers: list[Chambers] = [self._at_rest(scene) for scene in scenes]
+        self._lay(every)
+
+    def __getstate__(self) -> None:
+        raise TypeError("strips that are stepped side by side cannot be copied, single ones can")
+
+    def _at_rest(self, scene: Scene) -> Chambers:
+        return Chambers(scene.valves, len(scene.robot.segments), self.numerics.timestep)
+
+    def _lay(self, rows: Rows) -> None:
+        """Lay strips on the ground, without pressure."""
+        for row in rows.tolist():
+            self._chambers[row] = self._at_rest(self.scenes[row])
+        self.pressure[rows], self.stopped[rows] = 0.0, False
+        self._stiffness[rows, _FIRST_HINGE:], self._rest[rows, _FIRST_HINGE:] = self._springs(
+            rows, np.zeros((len(rows), 1, self.pressure.shape[1]))
+        )[0]
+        self._batch.reset(rows)
+        self._ends.start(rows)
+
+    def reset(self, rows: Rows, scenes: Sequence[Scene] | None = None) -> list[Block]:
+        """Lay strips on the ground, let them settle and inflate them to the gait's first stage.
+
+        Args:
+            rows: which, (R,).
+            scenes: in place of theirs, of the same layout.
+
+        Returns:
+            What was done, and whether each is at rest in `settled`.
+        """
+        if scenes is not None:
+            for row, scene in zip(rows.tolist(), scenes, strict=True):
+                self.scenes[row] = scene
+            write(self._batch, rows.tolist(), models(scenes, self.numerics))
+            self._ends.replace(rows, scenes)
+            self._limits[rows] = [ends_may_be(scene, self.numerics) for scene in scenes]
+        self._lay(rows)
+        valves = np.array([before_start(self.scenes[row], self.numerics) for row in rows])
+        late = max(1, round(0.1 * self.scenes[0].settle_time / self.numerics.timestep))
+        first = self.play(valves[:, :-late], rows)
+        ends = self._length[rows].copy()
+        last = self.play(valves[:, -late:], rows)
+        speed = np.abs(self._length[rows] - ends).max(axis=1) / (late * self.numerics.timestep)
+        lengths = np.array([self.scenes[row].robot.length for row in rows])
+        self.settled = speed < AT_REST * lengths
+        return [first, last]
+
+    def play(self, valves: Array, rows: Rows | None = None) -> Block:
+        """Do as many steps as there are commands, (R, T, S) [Pa], or up to a failure of each."""
+        rows = np.arange(len(self.scenes)) if rows is None else rows
+        pressure = np.array(
+            [self._chambers[row].follow(v) for row, v in zip(rows.tolist(), valves, strict=True)]
+        )
+        done = Block(rows, pressure, self.model.nq)
+        if not valves.shape[1]:
+            return done
+        springs = self._springs(rows, pressure)
+        peak = np.array([self.scenes[row].robot.peak_pressure for row in rows])
+        flat = may_lie_flat(pressure[:, :, [0, -1]], peak[:, None, None])
+        dt, ends, hinges = self.numerics.timestep, self._ends, slice(_FIRST_HINGE, None)
+        active = np.flatnonzero(~self.stopped[rows])
+        done.steps[self.stopped[rows]] = 0
+        for step, (stiffness, rest) in enumerate(springs):
+            now = rows[active]
+            if not len(now):
+                break
+            self._stiffness[now, hinges], self._rest[now, hinges] = stiffness[active], rest[active]
+            angles = self._qpos[now, _FIRST_HINGE - 1 :]
+            slopes = np.stack([angles[:, 0], -angles.sum(axis=1)], axis=1)
+            ends.before_step(now, slopes, flat[active, step])
+            self._batch.step(now)
+            self._qpos[now, 0] -= ends.after_step(now, dt)
+            done.coordinates[active, step] = self._qpos[now]
+            done.contact[active, step] = ends.contact[now]
+            done.left_slip[active, step] = ends.left_slip[now]
+            low, high = self._limits[now].T
+            height = self._place[now[:, None], self._feet, 2]
+            stands = (low[:, None] < height) & (height < high[:, None])
+            fallen = ~stands.all(axis=1)
+            if fallen.any():
+                done.steps[active[fallen]] = step + 1
+                self.stopped[now[fallen]] = True
+                active = active[~fallen]
+        self.pressure[rows] = pressure[np.arange(len(rows)), np.maximum(done.steps, 1) - 1]
+        return done
+
+    def coordinates(self, rows: Rows) -> Array:
+        """Of MuJoCo now, (R, nq)."""
+        return np.array(self._qpos[rows])
+
+    def _springs(self, rows: Rows, pressure: Array) -> list[tuple[Array, Array]]:
+        """Stiffness and rest angle of the hinges at each step, (R, N) each."""
+        each = [
+            joint_springs(self.scenes[row].robot, self.numerics.links, p, self.scenes[row].chamber)
+            for row, p in zip(rows.tolist(), pressure, strict=True)
+        ]
+        stiffness, rest = (np.array(part).swapaxes(0, 1) for part in zip(*each, strict=True))
+        return list(zip(stiffness, rest, strict=True))

@@ -1,1 +1,0 @@
-"""Robots of several pneu-nets in space, such as the quadruped, in MuJoCo."""

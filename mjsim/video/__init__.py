@@ -1,1 +1,0 @@
-"""Videos and pictures of a walk."""

@@ -1,0 +1,174 @@
+"""Scene files, the command and MJCF of robots of limbs."""
+
+import json
+import tomllib
+from dataclasses import fields, replace
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+import xarray as xr
+
+from analytic.scene.limbs import quadruped
+from analytic.scene.pneunet import base_rigidity
+from analytic.scene.quadruped_gaits import undulation
+from analytic.scene.surface import SURFACES, Surface
+from mjsim.commands import run
+from mjsim.commands import run_limbs as command
+from mjsim.commands.run_limbs import file_name
+from mjsim.files.limb_tables import build_robot, build_tree
+from mjsim.files.tables import merged, read_tables
+from mjsim.model.standalone_limbs import standalone_spec
+from mjsim.scene.limbs import TreeNumerics, TreeScene
+
+FILE = Path(__file__).resolve().parents[3] / "examples" / "quadruped.toml"
+FAST = ["--timestep", "0.04", "--gait.ramp-time", "1", "--limbs.elements", "2", "--no-video"]
+
+
+def test_the_quadruped_written_out_limb_by_limb_is_the_named_one():
+    table = tomllib.loads(FILE.read_text())["robot"]
+    written, named = build_robot(table), quadruped()
+    assert written.names == named.names
+    for one, two in zip(written.limbs, named.limbs, strict=True):
+        assert (one.on, one.at) == (two.on, two.at)
+        for value in ("length", "width", "weight_per_length"):
+            assert getattr(one.strip, value) == pytest.approx(getattr(two.strip, value), rel=2e-3)
+        assert (one.angle, one.offset) == pytest.approx((two.angle, two.offset), abs=1e-4)
+
+
+def test_a_scene_file_gives_gait_ground_and_numerics():
+    tables = merged(read_tables(FILE), {"ground": {"surface": "gelatin"},
+                                        "numerics": {"elements": 4}})  # fmt: skip
+    scene, numerics = build_tree(tables)
+    assert scene.ground == SURFACES["gelatin"]
+    assert numerics.elements == 4
+    assert scene.gait.segments == 5
+
+
+@pytest.mark.usefixtures("coarse")
+def test_json_has_both_numbers_and_the_file_opens(tmp_path, capsys):
+    words = ["--robot", "quadruped", "--surface", "felt", "--limbs.left", "0.8", *FAST]
+    assert run.main([*words, "--out", str(tmp_path), "--json"]) == 0
+    row = json.loads(capsys.readouterr().out)
+    assert row["status"] == "ok"
+    assert row["predicted_by"] == "quasi-static"
+    assert abs(row["displacement_over_L"] - row["predicted_displacement_over_L"]) < 0.05
+    data = xr.open_dataset(row["trajectory"])
+    assert data.yaw.attrs["units"] == "rad"
+    assert float(np.degrees(data.yaw[-1])) == pytest.approx(row["turn_deg"], abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--robot", "hexapod"], "robot must be one of strip, quadruped; got 'hexapod'"),
+        (["--robot", "quadruped", "--limbs.left", "2"], "left must be a part in [0, 1]"),
+        (["--robot", "quadruped", "--links", "12"], "key of a robot of limbs"),
+        (["--robot", "quadruped", "--robot.length", "1"], "length is the quadruped's own"),
+        (["--robot", "quadruped", "--robot.rigidity", "3e-4"], "rigidity is the quadruped's own"),
+        (["--robot", "quadruped", "--limbs.elements", "3"], "elements must be even"),
+        (["--robot", "quadruped", "--gait", "gallop"], "must be one of wave"),
+        (["--robot", "quadruped", "--tolerance", "0.1"], "tolerance is for strips"),
+        (["--limbs.left", "0.5"], "key 'left' is unknown"),
+    ],
+)
+def test_bad_input_is_one_line_and_exit_code_2(words, message, tmp_path, capsys):
+    with pytest.raises(SystemExit) as stop:
+        run.main([*words, "--out", str(tmp_path)])
+    assert stop.value.code == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert error.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("peak_pressure = 3e3", "limb 1: peak_pressure is the whole robot's, in [robot]"),
+        ("segments = [1, 2]", "limb 1: segments is not of limbs"),
+    ],
+)
+def test_keys_that_a_limb_has_no_say_in_are_refused(line, message, tmp_path, capsys):
+    file = tmp_path / "scene.toml"
+    file.write_text(FILE.read_text().replace('name = "torso"', f'name = "torso"\n{line}'))
+    with pytest.raises(SystemExit) as stop:
+        run.main(["--scene", str(file), "--out", str(tmp_path / "out")])
+    assert stop.value.code == 2
+    assert message in capsys.readouterr().err
+
+
+def test_limbs_may_each_have_a_rigidity_of_their_own():
+    table = tomllib.loads(FILE.read_text())["robot"]
+    for number, limb in enumerate(table["limbs"], start=1):
+        limb["rigidity"] = 1e-4 * number
+    robot = build_robot({"modulus": 1e6, **table})
+    rigidities = [base_rigidity(limb.strip) for limb in robot.limbs]
+    assert rigidities == pytest.approx([1e-4, 2e-4, 3e-4, 4e-4, 5e-4])
+
+
+def test_a_walk_under_a_coefficient_of_ones_own_is_kept_whatever_fails_after_it(
+    tmp_path, capsys, monkeypatch
+):
+    def broken(walk):
+        raise ValueError(f"no reference of a walk that is {walk.status}")
+
+    monkeypatch.setattr(command, "record", broken)
+    words = ["--robot", "quadruped", "--surface.friction", "0.6", "--friction", "coulomb", *FAST]
+    with pytest.raises(SystemExit) as stop:
+        run.main([*words, "--out", str(tmp_path)])
+    assert stop.value.code == 2
+    assert "no reference of a walk that is ok" in capsys.readouterr().err
+    (path,) = tmp_path.iterdir()
+    data = xr.open_dataset(path)
+    assert float(data.time[-1]) == pytest.approx(5.0)
+    assert abs(float(data.x[-1])) > 1e-3
+
+
+def test_grounds_of_one_name_and_other_numbers_have_files_of_their_own():
+    scenes = [TreeScene(ground=Surface("mine", shear_strength=tau)) for tau in (10.0, 20.0)]
+    assert len({file_name(scene, TreeNumerics()) for scene in scenes}) == 2
+    assert file_name(TreeScene(ground=SURFACES["gelatin"]), TreeNumerics()) == "limbs-gelatin"
+
+
+def test_other_commands_say_that_limbs_are_not_theirs(tmp_path, capsys):
+    from mjsim.commands import view
+
+    with pytest.raises(SystemExit) as stop:
+        view.main(["--scene", str(FILE)])
+    assert stop.value.code == 2
+    assert "walks by undulator run and undulator export alone" in capsys.readouterr().err
+
+
+def walk_alone(surface):
+    model = standalone_spec(TreeScene(ground=SURFACES[surface])).compile()
+    data = mujoco.MjData(model)
+    gait = replace(undulation("wave"), ramp_time=2.0)
+    time = np.arange(-0.5, gait.period, model.opt.timestep)
+    for row in quadruped().peak_pressure * gait.fractions(time):
+        data.ctrl[:] = row
+        mujoco.mj_step(model, data)
+    return float(data.qpos[0])
+
+
+def test_mjcf_with_a_slider_a_limb_walks_backward_on_gelatin_by_itself():
+    assert walk_alone("gelatin") < -0.001
+
+
+def test_it_stands_on_its_legs_in_the_viewer_file_and_mujoco_reads_it(tmp_path):
+    from mjsim.model.standalone_limbs import write
+
+    write(TreeScene(), tmp_path / "felt.xml")
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "felt.xml"))
+    assert [model.actuator(i).name for i in range(model.nu)] == list(quadruped().names)
+    assert model.nskin == 5
+
+
+def test_every_number_of_the_numerics_can_be_written_in_a_file(tmp_path):
+    values = [
+        f"{item.name} = {getattr(TreeNumerics(), item.name)}" for item in fields(TreeNumerics)
+    ]
+    path = tmp_path / "scene.toml"
+    path.write_text("\n".join(['[robot]\nname = "quadruped"', "[numerics]", *values]))
+    assert build_tree(read_tables(path))[1] == TreeNumerics()

@@ -1,0 +1,133 @@
+"""Robots of limbs where few contacts resist, or none, and where the trunk points elsewhere."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from analytic import Elastica, Friction, predict
+from analytic.scene.gait import Gait
+from analytic.scene.limbs import (
+    LENGTH,
+    Limb,
+    TreeRobot,
+    as_strip,
+    outline,
+    quadruped,
+    rotation,
+)
+from analytic.scene.quadruped_gaits import undulation
+from analytic.scene.robot import Robot
+from analytic.scene.surface import SURFACES, Surface
+from analytic.solvers.limbs.kinematics import Tree
+from analytic.solvers.limbs.prediction import predict as predict_limbs
+from analytic.solvers.limbs.walk import walk as quasi_static
+from mjsim.results.status import Status
+from mjsim.scene.limbs import TreeNumerics, TreeScene
+from mjsim.simulation.limbs import TreeSimulation, simulate
+
+FELT, NUMERICS = SURFACES["felt"], TreeNumerics(timestep=0.04, elements=4)
+# on felt only flat sides resist: the middle one alone, then none
+OUTER_FIRST = ["000", "100", "101", "001", "000"]
+STAGES = np.array([[float(digit) for digit in stage] for stage in OUTER_FIRST])
+
+
+def turned(robot, angle):
+    return replace(
+        robot, limbs=tuple(replace(limb, angle=limb.angle + angle) for limb in robot.limbs)
+    )
+
+
+@pytest.mark.parametrize(
+    ("weight", "timestep", "ramp"),
+    [
+        (4.0, 0.02, 8.0),
+        *(pytest.param(w, 0.01, t, marks=pytest.mark.slow)
+          for w in (2.0, 4.0, 8.0) for t in (2.0, 8.0, 32.0)),
+    ],
+)  # fmt: skip
+def test_an_underside_between_two_tips_resists_by_nothing_and_the_strip_s_distance_results(
+    weight, timestep, ramp
+):
+    strip = Robot(weight_per_length=weight)
+    gait = Gait("outer-first", tuple(map(tuple, STAGES)), ramp)
+    friction = Friction(tension=1.0, contacts="all")
+    theory = predict(strip, gait, FELT, Elastica(40), friction=friction)
+    limbs = Gait("outer-first", tuple(map(tuple, STAGES[:, [1, 0, 2]])), ramp)
+    walk = simulate(TreeScene(as_strip(strip), limbs, FELT), TreeNumerics(timestep=timestep))
+    expected = theory.locomotion.per_cycle
+    assert walk.displacement[0] == pytest.approx(expected, rel=0.01, abs=3e-4 * strip.length)
+
+
+def test_a_heavy_torso_between_four_tips_goes_as_far_as_the_reference():
+    torso, *legs = quadruped().limbs
+    heavy = replace(torso, strip=replace(torso.strip, weight_per_length=21.69))
+    robot = TreeRobot((heavy, *legs))
+    stages = np.array([[0, 0, 0, 0, 0], [0, 1, 1, 0, 0], [0, 1, 1, 1, 1], [0, 0, 0, 1, 1], [0] * 5])
+    gait = Gait("legs", tuple(map(tuple, stages.astype(float))), 8.0)
+    found = quasi_static(robot, gait, FELT, 8, 4)
+    walk = simulate(TreeScene(robot, gait, FELT), TreeNumerics(timestep=0.02, elements=4))
+    assert walk.displacement[0] == pytest.approx(found.displacement[0], abs=5e-4 * LENGTH)
+
+
+@pytest.mark.parametrize(
+    ("viscosity", "states"),
+    [(1e3, 8), *(pytest.param(v, 20, marks=pytest.mark.slow) for v in (1e2, 1e3, 1e4))],
+)
+def test_on_a_film_alone_a_robot_of_little_mass_goes_as_far_as_the_reference(viscosity, states):
+    film = Surface("film", viscosity=viscosity)
+    found = quasi_static(quadruped(), undulation(), film, states, 4)
+    light = TreeScene(ground=film, gravity=98.1)  # its mass is a tenth
+    walk = simulate(light, TreeNumerics(elements=4))
+    assert walk.displacement[0] == pytest.approx(found.displacement[0], rel=0.06)
+
+
+@pytest.mark.parametrize("angle", [0.5 * np.pi, -2.0])
+def test_a_robot_laid_down_in_another_direction_goes_and_turns_alike(angle):
+    gait = replace(undulation("wave", left=0.7), ramp_time=4.0)
+    ground = SURFACES["gelatin"]
+    robots = quadruped(), turned(quadruped(), angle)
+    assert outline(robots[1]) == pytest.approx(outline(robots[0]), rel=1e-12)
+    one, two = (simulate(TreeScene(robot, gait, ground), NUMERICS) for robot in robots)
+    assert two.displacement == pytest.approx(one.displacement, abs=1e-3 * LENGTH)
+    assert two.turn == pytest.approx(one.turn, abs=np.radians(0.05))
+    one, two = (quasi_static(robot, gait, ground, 4, 2, bent=False) for robot in robots)
+    assert two.displacement @ rotation(angle) == pytest.approx(one.displacement, abs=1e-5 * LENGTH)
+    assert two.turn == pytest.approx(one.turn, abs=1e-5)
+
+
+@pytest.mark.slow
+def test_the_reference_of_a_robot_laid_down_in_another_direction_is_the_same():
+    gait, ground = undulation("wave", left=0.7), SURFACES["gelatin"]
+    one, two = (
+        predict_limbs(robot, gait, ground, 8, 4) for robot in (quadruped(), turned(quadruped(), 2))
+    )
+    assert two.displacement == pytest.approx(one.displacement, abs=1e-4 * LENGTH)
+    assert two.turn == pytest.approx(one.turn, abs=np.radians(0.02))
+    assert two.displacement_error == pytest.approx(one.displacement_error, abs=1e-4 * LENGTH)
+
+
+def test_one_long_limb_arches_and_comes_back_to_where_it_lay():
+    strip = Robot(segments=(1.0,), mass=0.018)
+    gait = Gait("arch", ((0.0,), (1.0,), (0.0,)), 4.0)
+    scene = TreeScene(TreeRobot((Limb("solo", strip),)), gait, FELT)
+    steps = [simulate(scene, TreeNumerics(timestep=dt)) for dt in (0.01, 0.005)]
+    assert all(walk.status is Status.OK for walk in steps)
+    highest = max(walk.coordinates[:, 4].max() for walk in steps)
+    assert highest > 1.0  # rad: its beginning stands steeply, and it has not fallen over
+    # by its symmetry it goes nowhere, up to the order of the step
+    one, two = (abs(walk.displacement[0]) / strip.length for walk in steps)
+    assert one < 2e-3
+    assert two < 0.6 * one
+
+
+@pytest.mark.parametrize("about", [4, 5])  # pitch, roll
+def test_a_robot_whose_trunk_stands_on_its_end_or_on_its_side_has_toppled(about):
+    simulation = TreeSimulation(TreeScene(), replace(NUMERICS, timestep=1e-3))
+    for angle, status in ((0.8, Status.OK), (1.2, Status.TOPPLED)):
+        simulation.reset()
+        q = np.zeros(len(simulation.data.qpos))
+        q[about] = angle
+        simulation.data.qpos[about] = angle
+        simulation.data.qpos[2] = -Tree(quadruped(), 4).pose(q).nodes[:, 2].min()
+        assert simulation.step(np.zeros(5)).status is status
