@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic.locomotion import direction
-from analytic.prediction import REFERENCE, SOLVERS, Elastica, predict
+from analytic.prediction import REFERENCE, SOLVERS
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES, Ground
@@ -16,6 +16,7 @@ from analytic.uncertainty import modes_error
 from mjsim.files import plugins
 from mjsim.files.cli import Plugins, bar, choose, fail, parse, say, strict_json
 from mjsim.pictures import gl
+from mjsim.results.prediction import HALF, WEAK, displacement, error_bar, prediction
 from mjsim.scene import Scene, registry
 
 PROGRAM = "undulator compare"
@@ -25,11 +26,13 @@ PROGRAM = "undulator compare"
 class Options:
     """Compare the quasi-static solvers and MuJoCo on one cycle of each gait on each surface.
 
-    The reference is elastica. Columns: Δ/L, displacement of the left end per cycle over the length;
-    +-, what is known of its error: of modes and lifted, what the contacts that they assume may be
-    off exact contact, a bound; of elastica, what half the links and states change; of MuJoCo, the
-    part that the anchor rule does not explain; - ref, difference from the reference; height/L,
-    the greatest height; status, ok or what limits the answer. Lists are comma-separated. Exit code
+    The reference is elastica, bent by the friction of the ground as in MuJoCo; the other solvers
+    know weak friction alone, which bends nothing, and their status says so. Columns: Δ/L,
+    displacement of the left end per cycle over the length; +-, what is known of its error: of modes
+    and lifted, what the contacts that they assume may be off exact contact, a bound; of elastica,
+    what half the links and states change; of MuJoCo, the part that the anchor rule does not
+    explain; - ref, difference from the reference; height/L, the greatest height; status, ok or what
+    limits the answer. Lists are comma-separated. Exit code
     0: done, also where a model has no answer (its status says why); 2: bad input.
 
     Example: undulator compare --surface felt,gelatin --gait wave --model modes,planar
@@ -71,15 +74,17 @@ def models() -> tuple[str, ...]:
 
 def compare(robot: Robot, gait: Gait, ground: Ground, models: Sequence[str]) -> list[Row]:
     """Rows of the models asked for, each beside the reference."""
-    reference = _quasi_static(robot, gait, ground, REFERENCE)
+    scene = Scene(robot, gait, ground)
+    reference = _quasi_static(scene, REFERENCE)
     rows = []
     for model in models:
         if model == REFERENCE:
-            row = reference._replace(
-                uncertainty_over_L=_uncertainty(robot, gait, ground, reference)
-            )
+            row = reference
+            if row.displacement_over_L is not None:
+                bar = error_bar(scene, row.displacement_over_L, prediction(scene, finer=HALF))
+                row = row._replace(uncertainty_over_L=bar)
         elif model in SOLVERS:
-            row = _quasi_static(robot, gait, ground, model)
+            row = _quasi_static(scene, model)
         else:
             row = _simulated(Scene(robot, gait, ground, body=model))
         exact, shift = reference.displacement_over_L, row.displacement_over_L
@@ -92,31 +97,22 @@ def compare(robot: Robot, gait: Gait, ground: Ground, models: Sequence[str]) -> 
     return rows
 
 
-def _quasi_static(robot: Robot, gait: Gait, ground: Ground, model: str) -> Row:
-    walk = predict(robot, gait, ground, model)
-    shift = walk.locomotion.per_cycle / robot.length
-    known, assumed = bool(np.isfinite(shift)), modes_error(walk) / robot.length
+def _quasi_static(scene: Scene, model: str) -> Row:
+    walk = prediction(scene, model)
+    shift, length = displacement(scene, walk), scene.robot.length
+    known, assumed = bool(np.isfinite(shift)), modes_error(walk) / length
     flags = "+".join(flag.name.lower() for flag in walk.flags if flag.name) or "ok"
     return Row(
-        ground.name,
-        gait.name,
+        scene.ground.name,
+        scene.gait.name,
         model,
         displacement_over_L=shift if known else None,
         uncertainty_over_L=assumed if math.isfinite(assumed) and assumed > 0 else None,
         difference_over_L=None,
         direction=None,
-        amplitude_over_L=float(walk.shapes.amplitude.max()) / robot.length if known else None,
-        status=flags,
+        amplitude_over_L=float(walk.shapes.amplitude.max()) / length if known else None,
+        status=flags if model == REFERENCE else f"{flags}, {WEAK}",
     )
-
-
-def _uncertainty(robot: Robot, gait: Gait, ground: Ground, fine: Row) -> float | None:
-    """What half the links and half the states would change in the reference, over L."""
-    if fine.displacement_over_L is None:
-        return None
-    coarse = predict(robot, gait, ground, Elastica(links=30), states_per_ramp=25)
-    gap = abs(fine.displacement_over_L - coarse.locomotion.per_cycle / robot.length)
-    return gap if np.isfinite(gap) else None
 
 
 def _simulated(scene: Scene) -> Row:

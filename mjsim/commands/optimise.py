@@ -172,10 +172,13 @@ def _record(
 
 
 def _text(record: dict[str, Any]) -> str:
+    from mjsim.results.prediction import WEAK
+
     unit = {"displacement": "L a cycle", "speed": "m/s", "air": "-l/m", "work": "-J/m"}
     where = ", ".join(record["searched_on"])
+    model = record["model"] + f", {WEAK}," * (record["model"] != "mujoco")
     lines = [
-        f"{record['evaluations']} gaits by {record['model']} in {record['wall_time_s']:.0f} s; "
+        f"{record['evaluations']} gaits by {model} in {record['wall_time_s']:.0f} s; "
         f"best on {where}: {record['worth']:+.4g} {unit[record['aim']]}, "
         f"{record['period_s']:g} s and {record['air_litres_per_cycle']:.3g} l of air a cycle",
         f"{'surface':<14}{'searched':>9}{'elastica':>10}{'MuJoCo':>9}{'10 % off':>19}"

@@ -184,6 +184,9 @@ def _confirm(
 
 
 def _record(plan: "Plan", store: "Store", done: int, seconds: float) -> dict[str, Any]:
+    from analytic.prediction import SOLVERS
+    from mjsim.results.prediction import WEAK
+
     counts = dict(
         store.select("select status, count(*) from scenes group by status order by 2 desc")
     )
@@ -193,8 +196,15 @@ def _record(plan: "Plan", store: "Store", done: int, seconds: float) -> dict[str
         "select s.displacement_over_L, c.displacement_over_L, s.status = c.status from scenes s "
         "join confirmations c using (id)"
     )
-    record = {"model": plan.model, "scenes": len(plan), "done_now": done, "wall_time_s": seconds,
-              "status": counts, "direction": ways}  # fmt: skip
+    weak = plan.model in SOLVERS and not plan.bent
+    record = {
+        "model": f"{plan.model}, {WEAK}" if weak else plan.model,
+        "scenes": len(plan),
+        "done_now": done,
+        "wall_time_s": seconds,
+        "status": counts,
+        "direction": ways,
+    }
     said = store.note("numerics")
     if said is not None and plan.tolerance is not None:
         from mjsim.simulation.checked import allowed

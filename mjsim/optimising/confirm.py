@@ -7,16 +7,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic.prediction import predict
 from analytic.scene.gait import Gait
 from analytic.scene.surface import Surface
 from mjsim.optimising.objective import Objective
 from mjsim.results.measures import measure
+from mjsim.results.prediction import displacement, prediction
 from mjsim.scene import Scene
 from mjsim.simulation.checked import walk_checked
 
 _PARTS = (0.9, 1.0, 1.1)  # of pressure and of either strength of the ground
-_STATES = 25  # of the elastica in a ramp
 
 
 class Confirmation(NamedTuple):
@@ -52,9 +51,7 @@ def confirm(objective: Objective, gait: Gait, surface: Surface) -> Confirmation:
     sign = -1.0 if objective.backward else 1.0
     searched = sign * towards.sure(scene.robot, gait, [surface])[0]
     try:
-        reference = predict(scene.robot, gait, surface, "elastica", _STATES,
-                            friction=scene.reference_friction)  # fmt: skip
-        elastica = reference.locomotion.per_cycle / scene.robot.length
+        elastica = displacement(scene, prediction(scene))
     except ValueError:
         elastica = math.nan
     mujoco, status = _simulated(scene)

@@ -7,10 +7,11 @@ import numpy as np
 
 from analytic.friction.laws import Friction
 from analytic.locomotion import undecided
-from analytic.prediction import Elastica, Prediction, predict
+from analytic.prediction import Elastica, Prediction
 from analytic.scene.surface import Surface
 from analytic.shapes import Status
 from mjsim.results.measures import Measures
+from mjsim.results.prediction import displacement, prediction
 from mjsim.scene import Scene
 
 APART = 1e-3  # of the length: what differs by more is told apart; chosen
@@ -97,24 +98,12 @@ def _near_end(scene: Scene, prediction: Prediction) -> list[str]:
     return []
 
 
-def elsewhere(scene: Scene, links: int, refinement: int) -> list[str]:
-    """What friction would do where a long robot touches the ground between its ends.
-
-    Args:
-        scene: whose friction acts at the ends alone.
-        links, refinement: of the prediction.
-    """
+def elsewhere(scene: Scene) -> list[str]:
+    """What friction would do where a long robot touches the ground between its ends."""
     if scene.contacts != "ends" or not scene.gait.dips():
         return []
-    found = predict(
-        scene.robot,
-        scene.gait,
-        scene.ground,
-        Elastica(links, scene.chamber),
-        refinement=refinement,
-        friction=replace(scene.reference_friction, contacts="all"),
-    ).locomotion.per_cycle
+    everywhere = replace(scene, contacts="all")
+    found = displacement(everywhere, prediction(everywhere))
     if not np.isfinite(found):
         return []
-    return [f"friction acts at the two ends alone; wherever it touches, "
-            f"{found / scene.robot.length:+.4f} L"]  # fmt: skip
+    return [f"friction acts at the two ends alone; wherever it touches, {found:+.4f} L"]

@@ -7,28 +7,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.locomotion import direction
-from analytic.prediction import REFERENCE, Elastica, Prediction, predict
-from analytic.scene.surface import Surface
+from analytic.prediction import REFERENCE, Prediction
 from mjsim.results.cautions import APART, cautions, elsewhere, tied
 from mjsim.results.measures import Measures, measure, slid_over_length
+from mjsim.results.prediction import HALF, STATES, displacement, error_bar, prediction
 from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Scene
 
-_STATES = 50  # of the reference in a ramp from no pressure to the peak
-_RESOLVED = 2e-4  # of the length: what no halving shows; then 51 of 53 random scenes hold
 _OPEN = 1e-4  # of the length: less is a rounding
-_LINKS, _LINKS_A_SEGMENT = 60, 24  # of the reference: contacts between the ends need finer links
-_PARTS, _PARTS_BETWEEN = 32, 8  # of increments in which contacts change, see analytic.prediction
 
 
 def record(walk: Trajectory) -> dict[str, Any]:
     """The run as plain data; quantities that do not exist are None, never a number."""
     scene, numerics = walk.scene, walk.numerics
-    prediction = reference(walk)
-    by_cycle = (prediction.by_cycle / scene.robot.length).tolist()
-    predicted = _of_cycle(scene, prediction)
+    found = reference(walk)
+    by_cycle = (found.by_cycle / scene.robot.length).tolist()
+    predicted = displacement(scene, found)
     known = math.isfinite(predicted)
-    bar = abs(_of_cycle(scene, reference(walk, 0.5)) - predicted) + _RESOLVED if known else None
+    bar = error_bar(scene, predicted, reference(walk, HALF)) if known else None
     numbers = measure(walk)
     simulated = float(len(walk.time) * numerics.timestep)
     shift = numbers.displacement if numbers else None
@@ -50,13 +46,11 @@ def record(walk: Trajectory) -> dict[str, Any]:
         "predicted_by": REFERENCE,
         "predicted_displacement_over_L": predicted if known else None,
         "predicted_by_cycle_over_L": by_cycle if known else None,
-        "prediction_uncertainty_over_L": _number(bar),
+        "prediction_uncertainty_over_L": bar,
         "predicted_direction": direction(predicted, 1.0, bar or 0.0) if known else None,
-        "prediction_undecided_over_L": tied(scene, prediction) if known else None,
-        "prediction_flags": [flag.name for flag in prediction.flags],
-        "prediction_notes": _notes(scene, numbers, prediction, predicted, bar or 0.0)
-        if known
-        else [],
+        "prediction_undecided_over_L": tied(scene, found) if known else None,
+        "prediction_flags": [flag.name for flag in found.flags],
+        "prediction_notes": _notes(scene, numbers, found, predicted, bar or 0.0) if known else [],
         "error_over_L": None if shift is None or not known else shift - predicted,
         "unexplained_over_L": _number(numbers and numbers.unexplained),
         "heading_deg": numbers and math.degrees(numbers.heading),
@@ -74,33 +68,16 @@ def reference(walk: Trajectory, finer: float = 1) -> Prediction:
     """What the quasi-static reference makes of the same scene.
 
     Chambers that lag behind their valves take the strip along another path than the gait's: then it
-    is theirs that the reference follows. Every cycle is walked where they differ from each other,
-    else one; two where a gait starts inflated, whose first cycle differs from those after.
+    is theirs that the reference follows.
 
     Args:
         walk: whose scene it is.
-        finer: multiplies links and states; 0.5 says how well the reference is resolved.
+        finer: multiplies links and states.
     """
-    scene, states = walk.scene, round(_STATES * finer)
-    path = times = None
-    if not scene.valves.ideal and walk.time[-1] > 0:
-        rows = _along(walk, states)
-        path, times = walk.pressure[rows], walk.time[rows]
-    cycles = scene.cycles
-    if path is None and isinstance(scene.ground, Surface):
-        cycles = 2 if scene.rise_time and scene.gait.repeats else 1
-    return predict(
-        scene.robot,
-        scene.gait,
-        scene.ground,
-        Elastica(round(_links(scene) * finer), scene.chamber),
-        states_per_ramp=states,
-        refinement=round((_PARTS_BETWEEN if scene.between else _PARTS) * finer),
-        friction=scene.reference_friction,
-        path=path,
-        times=times,
-        cycles=cycles,
-    )
+    if walk.scene.valves.ideal or walk.time[-1] <= 0:
+        return prediction(walk.scene, finer=finer)
+    rows = _along(walk, round(STATES * finer))
+    return prediction(walk.scene, finer=finer, path=walk.pressure[rows], times=walk.time[rows])
 
 
 def _along(walk: Trajectory, states: int) -> NDArray[np.int_]:
@@ -114,28 +91,15 @@ def _along(walk: Trajectory, states: int) -> NDArray[np.int_]:
 
 
 def _notes(
-    scene: Scene, numbers: Measures | None, prediction: Prediction, predicted: float, bar: float
+    scene: Scene, numbers: Measures | None, found: Prediction, predicted: float, bar: float
 ) -> list[str]:
-    notes = elsewhere(scene, _links(scene), _PARTS_BETWEEN)
     error = numbers.displacement - predicted if numbers else math.nan
-    return notes + cautions(scene, numbers, prediction, error, bar)
-
-
-def _of_cycle(scene: Scene, prediction: Prediction) -> float:
-    """Predicted displacement over L of the cycle that the walk's displacement is of."""
-    found = prediction.locomotion.per_cycle
-    if isinstance(scene.ground, Surface):
-        found = prediction.by_cycle[min(scene.cycles, prediction.cycles) - 1]
-    return float(found / scene.robot.length)
+    return elsewhere(scene) + cautions(scene, numbers, found, error, bar)
 
 
 def _number(value: float | None) -> float | None:
     """None for a number that does not exist."""
     return value if value is not None and math.isfinite(value) else None
-
-
-def _links(scene: Scene) -> int:
-    return max(_LINKS, _LINKS_A_SEGMENT * len(scene.robot.segments) * scene.gait.dips())
 
 
 def table(records: list[dict[str, Any]]) -> str:

@@ -3,16 +3,16 @@
 import math
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from analytic.locomotion import direction
-from analytic.prediction import SOLVERS, predict
 from analytic.uncertainty import modes_error
 from mjsim.files.quantities import with_fields
 from mjsim.files.tables import Tables, build
+from mjsim.results.prediction import displacement, prediction
 from mjsim.scene import Numerics, Scene
 
 REFUSED, CRASHED = "refused", "crashed"  # a bad scene; one that took its process down
@@ -141,18 +141,8 @@ def _walked(walk: Any) -> Row:
 
 
 def _predicted(job: Job, scene: Scene) -> Row:
-    friction = scene.reference_friction
-    if not job.bent:
-        friction = replace(friction, tension=0.0)
-    solver = SOLVERS[job.model]()
-    if hasattr(solver, "chamber"):
-        solver = replace(solver, chamber=scene.chamber)  # type: ignore[type-var]
-    starts_inflated = scene.rise_time > 0 and scene.gait.repeats
-    walk = predict(
-        scene.robot, scene.gait, scene.ground, solver, job.states, friction=friction,
-        cycles=2 if starts_inflated else 1,
-    )  # fmt: skip
-    length, shift = scene.robot.length, walk.locomotion.per_cycle
+    walk = prediction(scene, job.model, states=job.states, bent=job.bent)
+    length, shift = scene.robot.length, scene.robot.length * displacement(scene, walk)
     flags = "+".join(flag.name.lower() for flag in walk.flags if flag.name) or "ok"
     if not math.isfinite(shift):
         return {"status": flags}

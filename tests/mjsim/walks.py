@@ -9,7 +9,7 @@ from analytic import GAITS, SURFACES, Elastica, Friction, Gait, Robot, Surface, 
 from mjsim.commands import run
 from mjsim.files import cli
 from mjsim.results import limb_record as record_of_limbs
-from mjsim.results import record
+from mjsim.results import prediction
 from mjsim.results.measures import Measures, measure
 from mjsim.results.status import Status
 from mjsim.results.trajectory import Trajectory
@@ -66,7 +66,7 @@ def predicted(
 def coarsen(monkeypatch: pytest.MonkeyPatch) -> None:
     """Make the references of records coarse: few links and states."""
     for module, values in (
-        (record, {"_LINKS": 18, "_STATES": 10, "_PARTS": 4}),
+        (prediction, {"_LINKS": 18, "STATES": 10, "_PARTS": 4}),
         (record_of_limbs, {"_STATES": 8}),
     ):
         for name, value in values.items():
