@@ -1,32 +1,27 @@
 """Draw which package imports which, from the code itself: `make architecture`."""
 
 import ast
+import graphlib
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
 TOP = Path(__file__).resolve().parent.parent
 PACKAGES = ("analytic", "mjsim", "studies")
-_COLUMNS = {  # where a package is drawn: column, row
-    "analytic": (0, 2), "analytic.scene": (0, 3.3), "analytic.friction": (0.7, 0.3),
-    "analytic.solvers": (0, 0.7),
-    "mjsim.scene": (1, 1.4), "mjsim.files": (2, 3.7),
-    "mjsim.model": (2, 2.2), "mjsim.friction": (3, 1.2), "mjsim.results": (3, 3.4),
-    "mjsim.simulation": (4, 2.4), "mjsim.pictures": (5, 3.4), "mjsim.env": (5, 0.55),
-    "mjsim.fitting": (5, 1.5), "mjsim.sweeps": (5.7, 3.95), "mjsim.optimising": (6, 1.4),
-    "mjsim.commands": (6.5, 2.4), "studies": (6.5, 0.6),
-}  # fmt: skip
-_LABEL = {"analytic": "analytic\n(theory)"}
+_BELOW = ("analytic.checks", "analytic.registry", "analytic.shapes")  # plain data too
+_LABEL = {"analytic": "prediction", "mjsim": "commands"}
 
 
 def package_of(module: str) -> str:
-    """The package that a module is drawn as; commands are `mjsim`."""
+    """The package that a module is drawn as."""
+    if module in _BELOW:
+        return "analytic.scene"
     parts = module.split(".")
-    for length in (2, 1):
-        name = ".".join(parts[:length])
-        if name in _COLUMNS:
-            return name
-    return parts[0]
+    if parts[0] == "studies":
+        return "studies"
+    if (TOP / "/".join(parts[:2])).is_dir():
+        return ".".join(parts[:2])
+    return "analytic" if parts[0] == "analytic" else "mjsim.commands"
 
 
 def imports() -> set[tuple[str, str]]:
@@ -58,21 +53,54 @@ def arrows() -> set[tuple[str, str]]:
     return {(one, two) for one, two in pairs if one != two}
 
 
+def layers(pairs: set[tuple[str, str]]) -> dict[str, int]:
+    """How many packages at most lie below each."""
+    below: dict[str, set[str]] = {}
+    for one, two in pairs:
+        below.setdefault(one, set()).add(two)
+        below.setdefault(two, set())
+    depth: dict[str, int] = {}
+    for name in graphlib.TopologicalSorter(below).static_order():
+        depth[name] = 1 + max((depth[other] for other in below[name]), default=-1)
+    return depth
+
+
+def direct(pairs: set[tuple[str, str]]) -> set[tuple[str, str]]:
+    """Pairs that do not follow from others (the transitive reduction)."""
+    depth = layers(pairs)
+    reach: dict[str, set[str]] = {name: set() for name in depth}
+    for name in sorted(depth, key=lambda name: depth[name]):
+        for one, two in pairs:
+            if one == name:
+                reach[name] |= {two} | reach[two]
+    return {
+        (one, two) for one, two in pairs
+        if not any((one, other) in pairs and two in reach[other] for other in depth)
+    }  # fmt: skip
+
+
 def draw() -> Figure:
-    """Imports as arrows from right to left."""
-    figure = Figure(figsize=(11, 4.6), dpi=110)
+    """What each package builds on, left of it; what follows from other arrows is left out."""
+    pairs = arrows()
+    depth = layers(pairs)
+    rows: dict[int, list[str]] = {}
+    for name in sorted(depth):
+        rows.setdefault(depth[name], []).append(name)
+    place = {
+        name: (1.5 * column, len(names) * (0.5 - (i + 0.5) / len(names)) + 0.15 * (column % 2))
+        for column, names in rows.items() for i, name in enumerate(names)
+    }  # fmt: skip
+    figure = Figure(figsize=(11, 3.6), dpi=110)
     axes = figure.add_axes((0, 0, 1, 1))
-    axes.set(xlim=(-0.6, 6.6), ylim=(0.2, 4.2))
+    axes.set(xlim=(-0.7, 1.5 * max(rows) + 0.7), ylim=(-2.2, 2.2))
     axes.axis("off")
-    for one, two in sorted(arrows()):
-        far = two.startswith("analytic") and not one.startswith("analytic")
-        axes.annotate("", _COLUMNS[two], _COLUMNS[one], arrowprops={
-            "arrowstyle": "-|>", "color": "0.85" if far else "0.45", "shrinkA": 26, "shrinkB": 30,
-            "lw": 0.9}, zorder=0 if far else 1)  # fmt: skip
-    for name, place in _COLUMNS.items():
+    for one, two in sorted(direct(pairs)):
+        line = {"arrowstyle": "-|>", "color": "0.45", "shrinkA": 28, "shrinkB": 32, "lw": 1.0}
+        axes.annotate("", place[two], place[one], arrowprops=line)
+    for name, where in place.items():
         text = _LABEL.get(name, name.removeprefix("mjsim.").removeprefix("analytic."))
         shade = "#dbe9f4" if name.startswith("analytic") else "#f6e7d8"
-        axes.text(*place, text, ha="center", va="center", fontsize=9, zorder=2,
+        axes.text(*where, text, ha="center", va="center", fontsize=10, zorder=2,
                   bbox={"boxstyle": "round,pad=0.5", "fc": shade, "ec": "0.4"})  # fmt: skip
     return figure
 

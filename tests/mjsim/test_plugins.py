@@ -24,7 +24,7 @@ pytestmark = pytest.mark.usefixtures("forgets")
 COARSE = Numerics(links=6, timestep=0.02)
 LAW = """
 from analytic.friction.laws import ConstantBounds, register
-from mjsim import registry
+from mjsim.scene import registry
 from mjsim.model.planar import Planar
 
 class Firm(ConstantBounds):

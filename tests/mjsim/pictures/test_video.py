@@ -159,7 +159,7 @@ def test_letters_of_other_alphabets_are_drawn():
 def test_the_command_makes_its_videos(tmp_path, surface):
     """From a process of its own, as a user starts it."""
     words = [sys.executable, "-m", "mjsim.run", "--surface", surface, "--links", "6",
-             "--gait.ramp-time", "0.05", "--out", str(tmp_path)]  # fmt: skip
+             "--gait.ramp-time", "0.2", "--out", str(tmp_path)]  # fmt: skip
     done = subprocess.run(words, capture_output=True, text=True, check=True)
     assert done.stderr == ""
     videos = sorted(path.name.partition("-")[0] for path in tmp_path.glob("*.mp4"))
