@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 from many_seeds import from_groups, modes
 
-from analytic import GAITS, SURFACES, Robot, Status, predict
+from analytic import GAITS, SURFACES, Gait, Robot, Status, predict
 from analytic.uncertainty import UNSOUND, modes_error
 
 FINE = 1e-4  # of L: discretization of both solvers
