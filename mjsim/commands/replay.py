@@ -38,7 +38,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         plugins.load(options.plugin)
     except ValueError as error:
         fail(PROGRAM, str(error))
-    from mjsim.pictures.recording import write_video
+    from mjsim.pictures.films import film
     from mjsim.results.trajectory import load
 
     try:
@@ -46,6 +46,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     except (OSError, KeyError, TypeError, ValueError) as error:
         fail(PROGRAM, f"cannot read a trajectory from {str(options.trajectory)!r}: {error}")
     video = options.trajectory.with_suffix(".mp4")
-    write_video(walk, video)
+    film([walk], [video])
     print(video)
     return 0

@@ -16,6 +16,7 @@ from mjsim.files.files import check_folder, whole
 from mjsim.pictures import gl
 
 if TYPE_CHECKING:
+    from mjsim.results.limb_walk import TreeWalk
     from mjsim.results.trajectory import Trajectory
 
 PROGRAM = "undulator report"
@@ -63,13 +64,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     except ModuleNotFoundError:
         print(f"{PROGRAM}: {_EXTRA}", file=sys.stderr)
         return FAILED
-    from mjsim.results.record import record
-
     videos = [None] * len(loaded) if options.no_video else _films([walk for walk, _ in loaded])
     entries = []
     with bar("theory", len(loaded)) as advance:
         for path, (walk, origin), video in zip(options.trajectories, loaded, videos, strict=True):
-            entries.append(Entry(path.stem, walk, record(walk), origin, video))
+            entries.append(Entry(path.stem, walk, _record(walk), origin, video))
             advance(1)
     try:
         with whole(options.out) as part:
@@ -80,7 +79,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _load(path: Path) -> "tuple[Trajectory, dict[str, Any]]":
+def _load(path: Path) -> "tuple[Trajectory | TreeWalk, dict[str, Any]]":
     import h5netcdf
 
     from mjsim.results.trajectory import load
@@ -93,12 +92,22 @@ def _load(path: Path) -> "tuple[Trajectory, dict[str, Any]]":
         raise ValueError(f"cannot read a trajectory from {str(path)!r}: {error}") from error
 
 
-def _films(walks: "Sequence[Trajectory]") -> list[bytes | None]:
+def _record(walk: "Trajectory | TreeWalk") -> dict[str, Any]:
+    """The walk beside its reference."""
+    from mjsim.results import limb_record, record
+    from mjsim.results.trajectory import Trajectory
+
+    if isinstance(walk, Trajectory):
+        return record.record(walk)
+    return limb_record.record(walk)
+
+
+def _films(walks: "Sequence[Trajectory | TreeWalk]") -> list[bytes | None]:
     """A video of each, or none where nothing here renders."""
     if gl.use_backend() is None:
         print(f"{PROGRAM}: {gl.HELP}", file=sys.stderr)
         return [None] * len(walks)
-    from mjsim.pictures.recording import film
+    from mjsim.pictures.films import film
 
     with tempfile.TemporaryDirectory() as folder:
         paths = [Path(folder) / f"{number}.mp4" for number in range(len(walks))]

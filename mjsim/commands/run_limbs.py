@@ -11,7 +11,8 @@ from analytic.scene.quadruped_gaits import QUADRUPED_GAITS
 from analytic.scene.surface import SURFACES
 from mjsim.files.cli import FAILED, bar, say, strict_json
 from mjsim.results.limb_record import record, table
-from mjsim.results.limb_walk import TreeWalk, provenance
+from mjsim.results.limb_walk import TreeWalk
+from mjsim.results.provenance import provenance
 from mjsim.scene.limbs import TreeNumerics, TreeScene
 from mjsim.simulation.limbs import TreeSimulation
 
@@ -36,7 +37,7 @@ def run(
         path = out / f"{name}{'-failed' * failed}.nc"
         walk.save(path)
         records.append({**record(walk), "trajectory": str(path), "video": None,
-                        "provenance": provenance(walk)})  # fmt: skip
+                        "provenance": provenance(scene, numerics)})  # fmt: skip
         walks.append(walk)
         if failed:
             print(f"{program}: {scene.ground.name}: {walk.status} at t = {walk.time[-1]:.2f} s",

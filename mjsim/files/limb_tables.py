@@ -33,11 +33,11 @@ _OWN = {  # that the quadruped knows, and what to give in its place
                     "[[robot.limbs]] for another"),
     "rigidity": "modulus, which torso and legs share, or a rigidity in each of [[robot.limbs]]",
 }  # fmt: skip
-_WHOLE = {  # that a limb has no say in
+NOT_OF_LIMBS = {  # that a limb has no say in
     "segments": "is not of limbs, which are one segment each; chain limbs by `on` and `at`",
     "peak_pressure": "is the whole robot's, in [robot]; a gait's stages give each limb its part",
 }
-_SCENE = ("cycles", "friction", "gravity", "settle_time")
+LIMB_FIELDS = ("cycles", "friction", "gravity", "settle_time")
 
 
 def build_tree(tables: Tables, where: str = "") -> tuple[TreeScene, TreeNumerics]:
@@ -54,15 +54,15 @@ def build_tree(tables: Tables, where: str = "") -> tuple[TreeScene, TreeNumerics
     if any(tables.get("valves", {}).values()):
         raise ValueError(f"{where}[valves] are for strips, not for robots of limbs")
     values = tables.get("numerics", {})
-    known = (*_SCENE, *(field.name for field in fields(TreeNumerics)))
+    known = (*LIMB_FIELDS, *(field.name for field in fields(TreeNumerics)))
     for key in values:
         one_of(f"{where}[numerics] key of a robot of limbs", key, known)
     scene = make(
-        TreeScene, {key: value for key, value in values.items() if key in _SCENE},
+        TreeScene, {key: value for key, value in values.items() if key in LIMB_FIELDS},
         f"{where}[numerics] ", robot=robot, gait=gait,
         ground=build_ground(ground, f"{where}[ground] "),
     )  # fmt: skip
-    rest = {key: value for key, value in values.items() if key not in _SCENE}
+    rest = {key: value for key, value in values.items() if key not in LIMB_FIELDS}
     numerics = make(TreeNumerics, rest, f"{where}[numerics] ")
     numerics.check(scene)
     return scene, numerics
@@ -79,7 +79,7 @@ def build_robot(table: Table, where: str = "") -> TreeRobot:
         base = make(Robot, shared, where)
         return replace(quadruped(base), peak_pressure=base.peak_pressure)
     if "segments" in shared:
-        raise ValueError(f"{where}segments {_WHOLE['segments']}")
+        raise ValueError(f"{where}segments {NOT_OF_LIMBS['segments']}")
     limbs = table["limbs"]
     if not (isinstance(limbs, list) and limbs and all(isinstance(limb, dict) for limb in limbs)):
         raise ValueError(f"{where}limbs must be tables, got {limbs!r}")
@@ -97,8 +97,8 @@ def _limb(table: Mapping[str, Any], shared: Table, where: str) -> Limb:
     if "name" not in table:
         raise ValueError(f"{where}name is missing")
     own = {key: value for key, value in table.items() if key not in _PLACED}
-    for key in own.keys() & _WHOLE.keys():
-        raise ValueError(f"{where}{key} {_WHOLE[key]}; got {own[key]!r}")
+    for key in own.keys() & NOT_OF_LIMBS.keys():
+        raise ValueError(f"{where}{key} {NOT_OF_LIMBS[key]}; got {own[key]!r}")
     for key in ("length", "width"):
         if key not in own and key not in shared:
             raise ValueError(f"{where}{key} is missing")

@@ -9,32 +9,53 @@ from typing import Any
 import tomli_w
 
 from analytic.scene.ground import Patches
+from analytic.scene.limbs import Limb
 from analytic.scene.surface import SURFACES, Ground, Surface
+from mjsim.files.limb_tables import LIMB_FIELDS, NOT_OF_LIMBS
 from mjsim.files.tables import SCENE_FIELDS, SURFACE_FIELDS, Tables
 from mjsim.files.typed import Table
+from mjsim.scene.limbs import TreeNumerics, TreeScene
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene
 
 _LIST = re.compile(r"\[\s+([^\[\]=]+?),\s+\]")  # of numbers, a line each
 
 
-def as_tables(scene: Scene, numerics: Numerics) -> Tables:
-    """The tables from which mjsim.files.tables builds the scene, whole and without files.
+def as_tables(scene: Scene | TreeScene, numerics: Numerics | TreeNumerics) -> Tables:
+    """The tables from which a scene is built again, whole and without files.
 
     Raises:
         ValueError: the ground is of a kind that tables do not know.
     """
     gait = scene.gait
-    valves = {} if scene.valves.ideal else _plain(asdict(scene.valves))
-    own = {field.name: getattr(numerics, field.name) for field in fields(numerics)}
-    return {
-        "robot": _plain(asdict(scene.robot)),
+    named = {field.name: getattr(numerics, field.name) for field in fields(numerics)}
+    tables = {
         "gait": _plain({"name": gait.name, "stages": gait.stages, "ramp_time": gait.ramp_time,
                         "repeats": gait.repeats}),
+    }  # fmt: skip
+    if isinstance(scene, TreeScene):
+        limbs = [_limb(limb) for limb in scene.robot.limbs]
+        return {
+            "robot": {"peak_pressure": scene.robot.peak_pressure, "limbs": limbs},
+            **tables,
+            "ground": _ground(scene.ground, 0.0),
+            "numerics": _plain({name: getattr(scene, name) for name in LIMB_FIELDS} | named),
+        }
+    valves = {} if scene.valves.ideal else _plain(asdict(scene.valves))
+    return {
+        "robot": _plain(asdict(scene.robot)),
+        **tables,
         **({"valves": valves} if valves else {}),
         "ground": _ground(scene.ground, math.degrees(scene.slope)),
-        "numerics": _plain({name: getattr(scene, name) for name in SCENE_FIELDS} | own),
-    }  # fmt: skip
+        "numerics": _plain({name: getattr(scene, name) for name in SCENE_FIELDS} | named),
+    }
+
+
+def _limb(limb: Limb) -> Table:
+    """A limb without what is the whole robot's."""
+    strip = {key: value for key, value in asdict(limb.strip).items() if key not in NOT_OF_LIMBS}
+    placed = {"on": limb.on, "at": limb.at if limb.on else None, "offset": limb.offset or None}
+    return _plain({"name": limb.name, **placed, "angle_deg": math.degrees(limb.angle), **strip})
 
 
 def as_toml(tables: Tables, comments: Sequence[str] = ()) -> str:

@@ -11,7 +11,8 @@ import plotly.io
 from plotly.offline import get_plotlyjs
 
 from mjsim.files.written import as_tables, as_toml
-from mjsim.pictures import page_charts as charts
+from mjsim.pictures import limb_charts, page_charts
+from mjsim.results.limb_walk import TreeWalk
 from mjsim.results.trajectory import Trajectory
 
 _HERE = Path(__file__).parent
@@ -24,13 +25,13 @@ class Entry(NamedTuple):
     Attributes:
         name: of its file.
         walk: as loaded.
-        record: of mjsim.results.record.record.
+        record: of mjsim.results.record, or of mjsim.results.limb_record.
         origin: versions and commit it was made with.
         video: MP4; None if there is none.
     """
 
     name: str
-    walk: Trajectory
+    walk: Trajectory | TreeWalk
     record: dict[str, Any]
     origin: dict[str, Any]
     video: bytes | None
@@ -52,7 +53,7 @@ def page(entries: Sequence[Entry]) -> str:
 
 
 def _table(entries: Sequence[Entry]) -> str:
-    head = ("run", "Δ/L a cycle", "mm/s", "theory", "±", "error", "height/L", "status")
+    head = ("run", "Δ/L a cycle", "mm/s", "theory", "±", "error", "turn [°]", "height/L", "status")
     rows = []
     for entry in entries:
         row = entry.record
@@ -62,21 +63,23 @@ def _table(entries: Sequence[Entry]) -> str:
             _signed(None if speed is None else 1e3 * speed, 2),
             _signed(row["predicted_displacement_over_L"]),
             _plain(row["prediction_uncertainty_over_L"]), _signed(row["error_over_L"]),
-            _plain(row["amplitude_over_L"], 3), escape(row["status"]),
+            _signed(row.get("turn_deg"), 2), _plain(row.get("amplitude_over_L"), 3),
+            escape(row["status"]),
         )  # fmt: skip
         rows.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
     heads = "".join(f"<th>{cell}</th>" for cell in head)
     return (
         f"<div class='scroll'><table><thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}"
-        "</tbody></table></div><p class='note'>Displacement of the left end over the length L, of "
-        "the last cycle on uniform ground. Theory is the quasi-static elastica, ± what half its "
-        "links and states change.</p>"
+        "</tbody></table></div><p class='note'>Displacement per cycle over the length L: of a "
+        "strip of its left end, of a robot of limbs of its trunk, ahead; of the last cycle on "
+        "uniform ground. Theory is the quasi-static reference, ± what half its states and fewer "
+        "links change.</p>"
     )
 
 
 def _section(entry: Entry) -> str:
     row = entry.record
-    remarks = [*row["prediction_flags"], *row["prediction_notes"]]
+    remarks = [*row.get("prediction_flags", []), *row["prediction_notes"]]
     video = ""
     if entry.video:
         data = base64.b64encode(entry.video).decode("ascii")
@@ -86,7 +89,7 @@ def _section(entry: Entry) -> str:
     parts = [
         f"<section><h2>{escape(entry.name)}</h2><p>{escape(_sentence(row))}</p>",
         *(f"<p class='note'>{escape(text)}</p>" for text in remarks), video,
-        _chart(charts.shapes(entry.walk)), _chart(charts.course(entry.walk)),
+        *map(_chart, _charts(entry.walk)),
         f"<h3>Scene</h3><pre>{escape(_toml(entry.walk))}</pre>",
         f"<h3>Origin</h3><pre>{escape(json.dumps(origin, indent=2))}</pre></section>",
     ]  # fmt: skip
@@ -103,6 +106,13 @@ def _sentence(row: dict[str, Any]) -> str:
     return f"{gait}: {way}, {1e3 * row['displacement_m']:+.2f} mm = {shift:+.4f} L a cycle."
 
 
+def _charts(walk: Trajectory | TreeWalk) -> tuple[Any, Any]:
+    """Its shapes by a slider, and its course over time."""
+    if isinstance(walk, TreeWalk):
+        return limb_charts.shapes(walk), limb_charts.course(walk)
+    return page_charts.shapes(walk), page_charts.course(walk)
+
+
 def _chart(figure: Any) -> str:
     return "<div class='chart'>" + plotly.io.to_html(
         figure, full_html=False, include_plotlyjs=False, auto_play=False,
@@ -110,7 +120,7 @@ def _chart(figure: Any) -> str:
     ) + "</div>"  # fmt: skip
 
 
-def _toml(walk: Trajectory) -> str:
+def _toml(walk: Trajectory | TreeWalk) -> str:
     try:
         return as_toml(as_tables(walk.scene, walk.numerics))
     except ValueError as error:  # a ground of somebody's own

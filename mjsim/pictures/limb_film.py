@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 from analytic.scene.limbs import outline, plan, rotation
-from analytic.solvers.limbs.kinematics import Tree
 from mjsim.files.files import whole
 from mjsim.model.parts import DARK, PALE
 from mjsim.pictures.overlay import BLUE, INK, font
@@ -149,13 +148,10 @@ class Camera:
 
 def _track(walk: TreeWalk) -> tuple[Array, Array]:
     """Steps of a walk, (S,), and the ends of its outer limbs in plan at them, (S, E, 2) [m]."""
-    robot, elements = walk.scene.robot, walk.numerics.elements
-    tree = Tree(robot, elements)
-    last = [robot.place(name) * (elements + 2) + elements + 1 for name in robot.outer]
+    robot = walk.scene.robot
+    outer = [robot.place(name) for name in robot.outer]
     steps = np.unique(np.linspace(walk.start, len(walk.time) - 1, _DOTS).astype(int))
-    nodes = np.array([tree.pose(walk.coordinates[step]).nodes for step in steps])
-    middle = 0.5 * (nodes[:, : nodes.shape[1] // 2] + nodes[:, nodes.shape[1] // 2 :])
-    return steps, middle[:, last, :2]
+    return steps, walk.places(steps)[:, outer, -1, :2]
 
 
 def _written(walk: TreeWalk, frame: Frame, step: int, faster: float) -> Frame:

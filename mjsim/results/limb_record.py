@@ -50,6 +50,7 @@ def record(walk: TreeWalk) -> dict[str, Any]:
         "sideways_over_L": aside,
         "turn_deg": turn,
         "radius_over_L": _finite(walk.radius / length) if fine else None,
+        "displacement_m": None if ahead is None else ahead * length,
         "direction": direction(ahead, 1.0, bar) if ahead is not None else None,
         "speed_m_per_s": None if ahead is None else ahead * length / scene.gait.period,
         "predicted_by": REFERENCE,

@@ -1,20 +1,24 @@
 """What a walk of a robot of limbs was, and its netCDF file."""
 
+import json
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, is_dataclass
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
+import h5netcdf
 import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.limbs import outline, rotation
+from analytic.solvers.limbs.kinematics import Tree
 from mjsim.results.netcdf import Variable, write
-from mjsim.results.provenance import origin
+from mjsim.results.provenance import configuration, provenance
 from mjsim.results.status import Status
 from mjsim.scene.limbs import TreeNumerics, TreeScene
 
 Array = NDArray[np.float64]
+
+_WHOLE = ("x", "y", "height", "yaw", "pitch", "roll")  # coordinates that belong to no hinge
 
 
 @dataclass(frozen=True, repr=False)
@@ -64,6 +68,15 @@ class TreeWalk:
         found = np.searchsorted(self.time, ends - 0.5 * self.numerics.timestep)
         return np.minimum(found, len(self.time) - 1)
 
+    def places(self, rows: NDArray[np.int_]) -> Array:
+        """Vertices of the middle lines in some states, limb by limb, (R, L, N + 2, 3) [m]."""
+        robot, elements = self.scene.robot, self.numerics.elements
+        tree = Tree(robot, elements)
+        nodes = np.array([tree.pose(self.coordinates[row]).nodes for row in rows])
+        half = nodes.shape[1] // 2
+        middle = 0.5 * (nodes[:, :half] + nodes[:, half:])
+        return np.asarray(middle.reshape(len(rows), len(robot.limbs), elements + 2, 3))
+
     def moved(self, one: int, two: int) -> Array:
         """Displacement of the trunk's beginning between two states, (2,) [m].
 
@@ -99,15 +112,31 @@ class TreeWalk:
             OSError: the file cannot be written.
         """
         title = f"{self.scene.gait.name} on {self.scene.ground.name}, {self.scene.cycles} cycles"
-        write(Path(path), _variables(self), title, str(self.status), provenance(self))
+        origin = provenance(self.scene, self.numerics)
+        write(Path(path), _variables(self), title, str(self.status), origin)
 
 
-def provenance(walk: TreeWalk) -> dict[str, Any]:
-    """Plain data that says how to make a result again."""
-    scene = asdict(walk.scene)
-    if not is_dataclass(walk.scene.ground):
-        scene["ground"] = walk.scene.ground.name
-    return {**origin(), "scene": scene, "numerics": asdict(walk.numerics)}
+def load(path: Path | str) -> TreeWalk:
+    """Read a walk that `TreeWalk.save` wrote.
+
+    Raises:
+        OSError: the file cannot be read.
+        KeyError, TypeError, ValueError: it is not such a file.
+    """
+    with h5netcdf.File(path, "r") as file:
+        scene, numerics = configuration(json.loads(file.attrs["provenance"]))
+        if not (isinstance(scene, TreeScene) and isinstance(numerics, TreeNumerics)):
+            raise ValueError("it is of a strip, not of a robot of limbs")
+        hinges = file["angle"][...]
+        whole = [file[name][...] for name in _WHOLE]
+        return TreeWalk(
+            scene=scene,
+            numerics=numerics,
+            status=Status(file.attrs["status"]),
+            coordinates=np.column_stack([*whole, hinges.reshape(len(hinges), -1)]),
+            wall_time=float(file["wall_time"][...]),
+            **{name: file[name][...] for name in ("time", "pressure", "contacts")},
+        )
 
 
 def _variables(walk: TreeWalk) -> Iterator[Variable]:

@@ -7,10 +7,14 @@ from dataclasses import asdict, fields, is_dataclass
 from functools import cache
 from importlib import metadata
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from analytic import Gait, Patches, Robot, Surface
+from analytic.scene.limbs import Limb, TreeRobot
 from mjsim.scene import Numerics, Scene, Valves
+from mjsim.scene.limbs import TreeNumerics, TreeScene
+
+Kind = TypeVar("Kind")
 
 DISTRIBUTION = "undulator"
 _PACKAGES = (DISTRIBUTION, "mujoco", "dm_control", "numpy", "scipy")
@@ -37,17 +41,22 @@ def machine() -> str:
     return f"{platform.machine()} {platform.system()} {os.cpu_count()} cores"
 
 
-def provenance(scene: Scene, numerics: Numerics) -> dict[str, Any]:
+def provenance(scene: Scene | TreeScene, numerics: Numerics | TreeNumerics) -> dict[str, Any]:
     """Plain data that says how to make a result again."""
-    ground = scene.ground
-    plain = asdict(ground) if is_dataclass(ground) and not isinstance(ground, type) else ground.name
-    described = {field.name: getattr(scene, field.name) for field in fields(scene)}
-    described |= {"robot": asdict(scene.robot), "gait": asdict(scene.gait), "ground": plain}
-    described["valves"] = asdict(scene.valves)
+    described = {field.name: _plain(getattr(scene, field.name)) for field in fields(scene)}
     return {**origin(), "scene": described, "numerics": asdict(numerics)}
 
 
-def configuration(described: dict[str, Any]) -> tuple[Scene, Numerics]:
+def _plain(value: Any) -> Any:
+    """A part of a scene as plain data; of a ground of one's own its name."""
+    if is_dataclass(value) and not isinstance(value, type):
+        return asdict(value)
+    return value if isinstance(value, str | int | float) else value.name
+
+
+def configuration(
+    described: dict[str, Any],
+) -> tuple[Scene, Numerics] | tuple[TreeScene, TreeNumerics]:
     """The scene and numerics that `provenance` described.
 
     Raises:
@@ -55,21 +64,34 @@ def configuration(described: dict[str, Any]) -> tuple[Scene, Numerics]:
             this version does not know.
     """
     scene = dict(described["scene"])
+    of_limbs = "limbs" in scene["robot"]
     if isinstance(scene["ground"], dict) and "borders" in scene["ground"]:
         patches = scene["ground"]
-        surfaces = tuple(Surface(**surface) for surface in patches["surfaces"])
+        surfaces = tuple(_made(Surface, surface, "surface") for surface in patches["surfaces"])
         scene["ground"] = Patches(patches["name"], tuple(patches["borders"]), surfaces)
-    for name, kind in (("robot", Robot), ("gait", Gait), ("ground", Surface), ("valves", Valves)):
-        if isinstance(scene[name], Patches):
-            continue
-        if not isinstance(scene[name], dict):
-            raise ValueError(f"{name} {scene[name]!r} was not one of this program")
-        known = {field.name for field in fields(kind)}
-        for key in scene[name]:
-            if key not in known:
-                raise ValueError(f"key {key!r} of {name} is unknown; known are {', '.join(known)}")
-        scene[name] = kind(**{key: _frozen(value) for key, value in scene[name].items()})
+    else:
+        scene["ground"] = _made(Surface, scene["ground"], "ground")
+    scene["gait"] = _made(Gait, scene["gait"], "gait")
+    if of_limbs:
+        limbs = [
+            _made(Limb, {**limb, "strip": _made(Robot, limb["strip"], "strip")}, "limb")
+            for limb in scene["robot"]["limbs"]
+        ]
+        scene["robot"] = _made(TreeRobot, {**scene["robot"], "limbs": limbs}, "robot")
+        return TreeScene(**scene), _made(TreeNumerics, described["numerics"], "numerics")
+    scene["robot"] = _made(Robot, scene["robot"], "robot")
+    scene["valves"] = _made(Valves, scene["valves"], "valves")
     return Scene(**scene), Numerics(**described["numerics"])
+
+
+def _made(kind: type[Kind], table: Any, name: str) -> Kind:
+    if not isinstance(table, dict):
+        raise ValueError(f"{name} {table!r} was not one of this program")
+    known = [field.name for field in fields(kind)]  # type: ignore[arg-type]
+    for key in table:
+        if key not in known:
+            raise ValueError(f"key {key!r} of {name} is unknown; known are {', '.join(known)}")
+    return kind(**{key: _frozen(value) for key, value in table.items()})
 
 
 def _frozen(value: Any) -> Any:

@@ -17,6 +17,7 @@ from mjsim.scene import Numerics, Scene
 if TYPE_CHECKING:
     import xarray as xr
 
+    from mjsim.results.limb_walk import TreeWalk
     from mjsim.results.plots import Plots
 
 Array = NDArray[np.float64]
@@ -127,8 +128,8 @@ class Trajectory:
         write(Path(path), variables(self), title, str(self.status), origin)
 
 
-def load(path: Path | str) -> Trajectory:
-    """Read a trajectory that `Trajectory.save` wrote.
+def load(path: Path | str) -> "Trajectory | TreeWalk":
+    """Read a walk that was saved, of a strip or of a robot of limbs.
 
     Raises:
         OSError: the file cannot be read.
@@ -136,6 +137,10 @@ def load(path: Path | str) -> Trajectory:
     """
     with h5netcdf.File(path, "r") as file:
         scene, numerics = configuration(json.loads(file.attrs["provenance"]))
+        if not (isinstance(scene, Scene) and isinstance(numerics, Numerics)):
+            from mjsim.results import limb_walk
+
+            return limb_walk.load(path)
         names = ("time", "pressure", "coordinates", "contact_left", "contact_right",
                  "left_slip_fraction", "drift")  # fmt: skip
         forces = None
