@@ -172,9 +172,10 @@ def main(words: list[str]) -> int:
     record = words[:1] == ["--record"]
     words = words[1:] if record else words
     numbers = json.loads(NUMBERS.read_text()) if NUMBERS.is_file() else {}
-    lines, count = [], 0
+    lines, count, known = [], 0, set()
     for cases, result in FAMILIES.values():
         for name, case in cases():
+            known.add(name)
             named = any(word in name for word in words)
             if record and (named or name not in numbers):
                 numbers[name] = recorded(result, case)
@@ -182,9 +183,17 @@ def main(words: list[str]) -> int:
             elif name in numbers and not record and (named or not words):
                 count += 1
                 before, now = numbers[name], result(case)
-                for kind, row in now.items():
-                    bound = before["bounds"][kind]
-                    lines += differences(f"{name}, {kind}", before[kind], row, bound)
+                for kind in before["bounds"].keys() | now.keys():
+                    bound = before["bounds"].get(kind, 0.0)
+                    rows = before.get(kind, {}), now.get(kind, {})
+                    lines += differences(f"{name}, {kind}", *rows, bound)
+    if not record:
+        lost = [name for name in numbers if name not in known]
+        new = [name for name in known if name not in numbers]
+        lines += [f"{name}: recorded, but no scene" for name in lost]
+        lines += [f"{name}: a scene, but not recorded" for name in new]
+        lines += [f"no scene has {word!r} in its name" for word in words
+                  if not any(word in name for name in known)]  # fmt: skip
     if record:
         NUMBERS.write_text(json.dumps(numbers, indent=1) + "\n")
     print(*lines, f"{count} scenes, {len(lines)} differences", sep="\n")

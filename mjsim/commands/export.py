@@ -1,6 +1,8 @@
 """Write scenes as MJCF that walks by itself: `undulator export`."""
 
+import sys
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -47,8 +49,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         limbs = [tables] if of_limbs(tables[0]) and not options.models else []
         for name, own in _quadrupeds() if options.models else _named(*limbs):
             scene_of_limbs, own_numerics = build_tree(own)
-            write_limbs(scene_of_limbs, options.out / f"{name}.xml", own_numerics)
-            print(options.out / f"{name}.xml")
+            path = options.out / f"{name}.xml"
+            with _told(path):
+                write_limbs(scene_of_limbs, path, own_numerics)
         if limbs:
             return 0
         cases = list(documents())
@@ -56,11 +59,22 @@ def main(argv: Sequence[str] | None = None) -> int:
             built = [build(own) for own in tables]
             cases = [(scene.ground.name, scene, numerics) for scene, numerics in built]
         for name, scene, numerics in cases:
-            write(scene, options.out / f"{name}.xml", numerics)
-            print(options.out / f"{name}.xml")
+            path = options.out / f"{name}.xml"
+            with _told(path):
+                write(scene, path, numerics)
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
     return 0
+
+
+@contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Print the path of what is written, and whether it replaced something else."""
+    before = path.read_bytes() if path.is_file() else None
+    yield
+    print(path)
+    if before is not None and before != path.read_bytes():
+        print(f"{PROGRAM}: {path} is another than before", file=sys.stderr)
 
 
 def _quadrupeds() -> Iterator[tuple[str, Tables]]:

@@ -31,8 +31,11 @@ _PLACED = ("name", "on", "at", "angle_deg", "offset")  # of a limb, beside what 
 _OWN = {  # that the quadruped knows, and what to give in its place
     **dict.fromkeys(("length", "width", "mass", "weight_per_length", "segments"),
                     "[[robot.limbs]] for another"),
-    "rigidity": "modulus, which torso and legs share, or a rigidity in each of [[robot.limbs]]",
+    **dict.fromkeys(("rigidity", "rigidity_per_pressure"),
+                    "modulus, which torso and legs share, or this in each of [[robot.limbs]]"),
 }  # fmt: skip
+_INSTEAD = {"mass": "weight_per_length", "weight_per_length": "mass",
+            "rigidity": "modulus", "modulus": "rigidity"}  # fmt: skip
 NOT_OF_LIMBS = {  # that a limb has no say in
     "segments": "is not of limbs, which are one segment each; chain limbs by `on` and `at`",
     "peak_pressure": "is the whole robot's, in [robot]; a gait's stages give each limb its part",
@@ -83,6 +86,7 @@ def build_robot(table: Table, where: str = "") -> TreeRobot:
     limbs = table["limbs"]
     if not (isinstance(limbs, list) and limbs and all(isinstance(limb, dict) for limb in limbs)):
         raise ValueError(f"{where}limbs must be tables, got {limbs!r}")
+    _refuse_idle(shared, limbs, where)
     peak = make(Robot, {k: v for k, v in shared.items() if k == "peak_pressure"}, where)
     built = tuple(
         _limb(limb, shared, f"{where}limb {number}: ") for number, limb in enumerate(limbs, start=1)
@@ -91,6 +95,16 @@ def build_robot(table: Table, where: str = "") -> TreeRobot:
         return TreeRobot(built, peak.peak_pressure)
     except ValueError as error:
         raise ValueError(f"{where}{error}") from error
+
+
+def _refuse_idle(shared: Table, limbs: list[Table], where: str) -> None:
+    """Raise ValueError for what all limbs have of their own, so that it would do nothing."""
+    for key in shared.keys() - NOT_OF_LIMBS.keys():
+        names = {key, _INSTEAD.get(key, key)}
+        if all(names & limb.keys() for limb in limbs):
+            raise ValueError(
+                f"{where}{key} would do nothing, as each limb has its own; got {shared[key]!r}"
+            )
 
 
 def _limb(table: Mapping[str, Any], shared: Table, where: str) -> Limb:
@@ -102,8 +116,7 @@ def _limb(table: Mapping[str, Any], shared: Table, where: str) -> Limb:
     for key in ("length", "width"):
         if key not in own and key not in shared:
             raise ValueError(f"{where}{key} is missing")
-    for one, other in (("mass", "weight_per_length"), ("weight_per_length", "mass"),
-                       ("rigidity", "modulus"), ("modulus", "rigidity")):  # fmt: skip
+    for one, other in _INSTEAD.items():
         if one in own:
             shared = {key: value for key, value in shared.items() if key != other}
     strip = make(Robot, {**shared, **own, "segments": (1.0,)}, where)

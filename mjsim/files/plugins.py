@@ -51,7 +51,7 @@ def load(words: Iterable[str]) -> None:
             continue
         try:
             _import(plugin)
-        except Exception as error:  # whatever a plugin does while it is imported
+        except (Exception, SystemExit) as error:  # whatever a plugin does while it is imported
             raise ValueError(
                 f"plugin must be a module or a .py file that can be imported, got {word!r}: "
                 f"{type(error).__name__}: {error}"

@@ -70,7 +70,9 @@ class Tree:
         for i, limb in enumerate(robot.limbs):
             quarter = 0.25 * self._lengths[i] * limb.strip.weight_per_length  # an end, an edge
             weight += [np.append(quarter, 0.0) + np.append(0.0, quarter)]
-            arclength += [np.append(0.0, np.cumsum(self._lengths[i]))]
+            along = np.append(0.0, np.cumsum(self._lengths[i]))
+            along[-1] = limb.strip.length  # to the last digit: a tip is at no distance from its end
+            arclength += [along]
             self.parent[self.first[i]] = self._root(i)
         self.weight: Array = np.concatenate(2 * weight)
         self.arclength: Array = np.concatenate(2 * arclength)

@@ -24,6 +24,7 @@ from analytic.solvers.limbs.statics import Rest, Statics
 Array = NDArray[np.float64]
 
 _VISCOSITY = 1e-3  # of all contacts alike: weight over length; decides what bounds leave open
+_FAINT = 1e-3  # of a film's resistance, that it is at most, however slow the gait; chosen
 _HALVINGS = 3  # of increments in which contacts change
 _INSTANT = 1e-12  # s; a shortest increment
 _TRIES = 4  # to find the contacts of a state that rest on its own forces
@@ -117,7 +118,9 @@ class _Drag:
             for contact, x in zip(owners, before[:, 0], strict=True)
         ]
         bounds, drags = np.array(pairs).reshape(-1, 2).T
-        return Grip(weights, before, bounds, drags / span + self._tie)
+        film = drags / span
+        tie = min(self._tie, _FAINT * float(film.sum())) if film.any() else self._tie
+        return Grip(weights, before, bounds, film + tie)
 
 
 def _kinds(contacts: list[Contact]) -> list[tuple[int, int]]:

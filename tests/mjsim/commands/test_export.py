@@ -183,3 +183,11 @@ def test_the_textures_are_what_the_generator_draws(tmp_path):
         kept = np.asarray(Image.open(MODELS / "textures" / drawn.name), dtype=int)
         # fonts and blurs may differ by a rounding between library versions
         assert np.abs(np.asarray(Image.open(drawn), dtype=int) - kept).mean() < 1.0
+
+
+def test_a_file_that_takes_the_place_of_another_is_told(tmp_path, capsys):
+    for mass, told in (("0.01", False), ("0.01", False), ("0.05", True)):
+        assert export.main(["--robot.mass", mass, "--out", str(tmp_path)]) == 0
+        said = capsys.readouterr()
+        assert said.out.strip() == str(tmp_path / "felt.xml")
+        assert ("is another than before" in said.err) == told

@@ -67,6 +67,10 @@ def test_json_has_both_numbers_and_the_file_opens(tmp_path, capsys):
         (["--robot", "quadruped", "--links", "12"], "key of a robot of limbs"),
         (["--robot", "quadruped", "--robot.length", "1"], "length is the quadruped's own"),
         (["--robot", "quadruped", "--robot.rigidity", "3e-4"], "rigidity is the quadruped's own"),
+        (
+            ["--robot", "quadruped", "--robot.rigidity-per-pressure", "1e-9"],
+            "rigidity_per_pressure is the quadruped's own",
+        ),
         (["--robot", "quadruped", "--limbs.elements", "3"], "elements must be even"),
         (["--robot", "quadruped", "--gait", "gallop"], "must be one of wave"),
         (["--robot", "quadruped", "--tolerance", "0.1"], "tolerance is for strips"),
@@ -103,9 +107,21 @@ def test_limbs_may_each_have_a_rigidity_of_their_own():
     table = tomllib.loads(FILE.read_text())["robot"]
     for number, limb in enumerate(table["limbs"], start=1):
         limb["rigidity"] = 1e-4 * number
-    robot = build_robot({"modulus": 1e6, **table})
+    robot = build_robot(table)
     rigidities = [base_rigidity(limb.strip) for limb in robot.limbs]
     assert rigidities == pytest.approx([1e-4, 2e-4, 3e-4, 4e-4, 5e-4])
+
+
+@pytest.mark.parametrize("key", ["mass", "weight_per_length", "length", "width"])
+def test_what_each_limb_has_of_its_own_is_not_taken_and_dropped(key):
+    table = tomllib.loads(FILE.read_text())["robot"]
+    with pytest.raises(ValueError, match=f"{key} would do nothing, as each limb has its own"):
+        build_robot({key: 3.0, **table})
+    del table["limbs"][1]["mass"]
+    if key == "mass":
+        assert build_robot({key: 0.003, **table}).limbs[1].strip.weight == pytest.approx(
+            0.003 * 9.81
+        )
 
 
 def test_a_walk_under_a_coefficient_of_ones_own_is_kept_whatever_fails_after_it(

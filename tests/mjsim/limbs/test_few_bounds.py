@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from analytic import Elastica, Friction, predict
-from analytic.scene.gait import Gait
+from analytic.scene.gait import GAITS, Gait
 from analytic.scene.limbs import (
     LENGTH,
     Limb,
@@ -29,6 +29,7 @@ from mjsim.simulation.limbs import TreeSimulation, simulate
 FELT, NUMERICS = SURFACES["felt"], TreeNumerics(timestep=0.04, elements=4)
 # on felt only flat sides resist: the middle one alone, then none
 OUTER_FIRST = ["000", "100", "101", "001", "000"]
+WAVE = np.array(GAITS["wave"].stages)[:, [1, 0, 2]]
 STAGES = np.array([[float(digit) for digit in stage] for stage in OUTER_FIRST])
 
 
@@ -57,6 +58,38 @@ def test_an_underside_between_two_tips_resists_by_nothing_and_the_strip_s_distan
     walk = simulate(TreeScene(as_strip(strip), limbs, FELT), TreeNumerics(timestep=timestep))
     expected = theory.locomotion.per_cycle
     assert walk.displacement[0] == pytest.approx(expected, rel=0.01, abs=3e-4 * strip.length)
+
+
+@pytest.mark.parametrize("ground", ["felt", "gelatin"])
+def test_a_billionth_of_a_length_changes_nothing(ground):
+    """A tip stands at no distance from its end, whatever the lengths of its links add up to."""
+    gait = Gait("wave", tuple(map(tuple, WAVE)), 4.0)
+    ways = []
+    for length in (0.13, 0.13 - 1e-9, 0.125, 0.125 + 1e-9):
+        scene = TreeScene(as_strip(Robot(length=length)), gait, SURFACES[ground])
+        ways.append(float(simulate(scene).displacement[0]) / length)
+    assert ways[1] == pytest.approx(ways[0], abs=1e-4)
+    assert ways[3] == pytest.approx(ways[2], abs=1e-4)
+    assert ways[2] == pytest.approx(ways[0], rel=0.2)  # a shorter strip bends less
+
+
+def test_the_last_vertex_of_a_limb_is_at_its_length_to_the_last_digit():
+    for length in (0.043333333, 0.125 / 3, 0.14 / 3, 0.1):
+        for elements in (2, 6, 8, 16):
+            robot = as_strip(Robot(length=3 * length))
+            tree = Tree(robot, elements)
+            ends = tree.arclength.reshape(2, len(robot.limbs), -1)[:, :, -1]
+            assert (ends == [limb.strip.length for limb in robot.limbs]).all()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ramp", [2.0, 30.0])
+def test_on_a_film_alone_the_reference_does_not_know_how_slow_the_gait_is(ramp):
+    film = Surface("film", viscosity=100.0)
+    gait = replace(undulation(), ramp_time=ramp)
+    found = quasi_static(quadruped(), gait, film, 8, 4)
+    felt = quasi_static(quadruped(), undulation(), FELT, 8, 4)  # where tips hold nothing either
+    assert found.displacement[0] == pytest.approx(felt.displacement[0], rel=0.02)
 
 
 def test_a_heavy_torso_between_four_tips_goes_as_far_as_the_reference():
