@@ -27,9 +27,9 @@ def test_the_wheel_installs_in_a_clean_environment_and_runs_elsewhere(tmp_path):
     result = call(python, "-m", "mjsim.run", "--surface", "gelatin", "--no-video", "--json",
                   cwd=elsewhere)  # fmt: skip
     assert json.loads(result.stdout)["direction"] == "backward"
-    script = call(tmp_path / "env" / "bin" / "undulator", "--no-video", cwd=elsewhere).stdout
+    script = call(tmp_path / "env" / "bin" / "undulator", "run", "--no-video", cwd=elsewhere).stdout
     assert "forward" in script
-    assert not list((tmp_path / "env").rglob("studies"))
+    assert not list((tmp_path / "env").rglob("site-packages/studies"))
     where = call(
         python, "-c", "import mjsim.files.assets as a; print(a.MODELS)", cwd=elsewhere
     ).stdout
