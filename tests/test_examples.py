@@ -54,6 +54,7 @@ def test_a_law_of_ones_own_agrees_in_theory_and_mujoco():
     assert max(map(abs, example("own_law")().values())) < 0.002
 
 
+@pytest.mark.slow
 def test_a_controller_brings_the_robot_back():
     assert abs(example("controller")()) < 0.001
 

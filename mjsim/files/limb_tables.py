@@ -131,6 +131,11 @@ def build_gait(table: Table, where: str, robot: TreeRobot) -> Gait:
     table = dict(table)
     if "file" in table:
         path = Path(str(table.pop("file")))
+        if path.suffix == ".csv":
+            raise ValueError(
+                f"{where}file must be a .toml file of stages for a robot of limbs; measured "
+                f"pressures are for strips; got {str(path)!r}"
+            )
         table = {**read_toml(path, "gait"), **table}
         table.setdefault("name", path.stem)
         where = f"gait {str(path)!r}: "

@@ -12,6 +12,7 @@ from analytic.scene.robot import GRAVITY
 from analytic.scene.surface import SURFACES, Ground
 from analytic.solvers.limbs.contacts import check_ground
 from mjsim.scene.numerics import LONGEST_STEP
+from mjsim.scene.scene import check_turn
 
 FEWEST_STEPS = 4  # of a ramp; with fewer the gait is not seen; chosen
 
@@ -48,6 +49,10 @@ class TreeScene:
             )
         if any(self.gait.stages[0]):
             raise ValueError(f"gait {self.gait.name!r} must begin without pressure")
+        for i, limb in enumerate(self.robot.limbs):
+            most = max(abs(stage[i]) for stage in self.gait.stages)
+            what = f"limb {limb.name!r}"
+            check_turn(limb.strip, self.robot.peak_pressure, most, self.gait.name, what)
         check_ground(self.ground)
         if self.friction == "coulomb" and depends_on_speed(self.ground):
             raise ValueError(

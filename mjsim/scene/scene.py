@@ -83,7 +83,9 @@ class Scene:
                 f"gait {self.gait.name} is for {self.gait.segments} segments, "
                 f"the robot has {len(self.robot.segments)}"
             )
-        self._check_turn()
+        lengths = np.diff(self.robot.borders)
+        most = max(float(lengths @ np.abs(stage)) for stage in self.gait.stages)
+        check_turn(self.robot, self.robot.peak_pressure, most, self.gait.name)
         if self.friction == "coulomb" and depends_on_speed(self.ground):
             raise ValueError(
                 f"surface {self.ground.name!r} resists by speed: friction must be constant, not "
@@ -96,21 +98,6 @@ class Scene:
                 f"surface {self.ground.name!r} resists by nothing under friction {self.friction}; "
                 "give tip_force, shear_strength or viscosity (constant), friction or tip_friction "
                 "(coulomb)"
-            )
-
-    def _check_turn(self) -> None:
-        """Refuse pressures at which the strip closes into a circle, by the gait's fullest stage."""
-        lengths = np.diff(self.robot.borders)
-        most = max(float(lengths @ np.abs(stage)) for stage in self.gait.stages)
-        if most * pneunet.turn_number(self.robot) >= 2 * math.pi:
-            limit = 2 * math.pi / pneunet.turn_number(self.robot) * self.robot.peak_pressure / most
-            robot, hint = self.robot, ""
-            if limit < 0.1 * robot.peak_pressure:
-                hint = (f"; is its length {robot.length:g} m, its modulus {robot.modulus:g} Pa, "
-                        f"its thickness {robot.thickness:g} m?")  # fmt: skip
-            raise ValueError(
-                f"peak_pressure must be below {limit:.6g} Pa, where gait {self.gait.name} would "
-                f"close this strip into a circle, got {self.robot.peak_pressure:g}{hint}"
             )
 
     @property
@@ -134,3 +121,31 @@ class Scene:
     def duration(self) -> float:
         """Simulated time, what comes before the first cycle included [s]."""
         return self.rise_time + self.settle_time + self.cycles * self.gait.period
+
+
+def check_turn(
+    strip: Robot, peak_pressure: float, fullest: float, gait: str, what: str = "this strip"
+) -> None:
+    """Refuse pressures at which a strip closes into a circle.
+
+    Args:
+        strip: its length, modulus, chambers.
+        peak_pressure: of the robot that it is, or is a limb of [Pa].
+        fullest: part of the strip that is at the peak, at most, in the gait's stages [1].
+        gait: name of the gait.
+        what: closes.
+
+    Raises:
+        ValueError: it does.
+    """
+    turn = pneunet.curvature_per_pressure(strip) * peak_pressure * strip.length * fullest
+    if turn < 2 * math.pi:
+        return
+    limit, hint = 2 * math.pi / turn * peak_pressure, ""
+    if limit < 0.1 * peak_pressure:
+        hint = (f"; is its length {strip.length:g} m, its modulus {strip.modulus:g} Pa, "
+                f"its thickness {strip.thickness:g} m?")  # fmt: skip
+    raise ValueError(
+        f"peak_pressure must be below {limit:.6g} Pa, where gait {gait} would close {what} into a "
+        f"circle, got {peak_pressure:g}{hint}"
+    )

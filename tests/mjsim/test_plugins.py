@@ -202,6 +202,7 @@ def test_laws_of_an_installed_package_are_known_by_name_and_imported_when_asked_
     del sys.modules["firm"]
 
 
+@pytest.mark.slow
 def test_a_sweep_by_command_has_laws_of_an_installed_package(tmp_path):
     package(tmp_path, {"firm": "firm:Firm"})
     plan = '[scene.numerics]\nbody = "heavy"\n[grid]\n"numerics.friction" = ["firm", "none"]\n'

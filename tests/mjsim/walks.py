@@ -63,10 +63,12 @@ def predicted(
     return walk.locomotion.per_cycle / robot.length
 
 
-def coarsen(monkeypatch: pytest.MonkeyPatch) -> None:
+def coarsen(
+    monkeypatch: pytest.MonkeyPatch, links: int = 18, states: int = 10, parts: int = 4
+) -> None:
     """Make the references of records coarse: few links and states."""
     for module, values in (
-        (prediction, {"_LINKS": 18, "STATES": 10, "_PARTS": 4}),
+        (prediction, {"_LINKS": links, "STATES": states, "_PARTS": parts}),
         (record_of_limbs, {"_STATES": 8}),
     ):
         for name, value in values.items():

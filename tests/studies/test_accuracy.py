@@ -168,12 +168,11 @@ def test_what_auto_cannot_do_gets_one_line(tmp_path, capsys, words, named):
 
 @pytest.mark.slow
 def test_the_quick_chart_is_made_and_goes_on_where_it_was(tmp_path, capsys):
-    words = ["--quick", "--out", str(tmp_path), "--rows", str(tmp_path / "rows.csv")]
+    words = ["--quick", "--case", "walk", "--out", str(tmp_path)]
+    words += ["--rows", str(tmp_path / "rows.csv")]
     assert chart.main(words) == 0
     first = (tmp_path / "rows.csv").read_text()
     assert chart.main(words) == 0
     assert (tmp_path / "rows.csv").read_text() == first
-    assert {"cantilever.png", "walk.png", "coulomb.png"} <= {
-        path.name for path in tmp_path.iterdir()
-    }
+    assert "walk.png" in [path.name for path in tmp_path.iterdir()]
     assert "elastica" in capsys.readouterr().out

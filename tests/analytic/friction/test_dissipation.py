@@ -96,6 +96,7 @@ def shapes():
     return {links: solve_elastica(LONG, path, links=links) for links in (192, 384)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("surface", "near"), [("felt", 0.01), ("gelatin", 0.1)])
 def test_friction_between_the_ends_more_than_halves_the_way_of_a_long_robot(shapes, surface, near):
     """And the links are fine enough to say by how much."""

@@ -29,6 +29,7 @@ def test_far_from_the_border_it_walks_as_on_the_surface_it_is_on():
     assert cycles(ground, 2) == pytest.approx(cycles(GELATIN, 2), abs=1e-4)
 
 
+@pytest.mark.slow
 def test_from_felt_onto_gelatin_it_stalls_at_the_seam():
     """Forward on felt until its right end stands on gelatin; then ever more slowly, by the part of
     its side that still lies on felt.

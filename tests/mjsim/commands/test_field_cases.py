@@ -340,6 +340,7 @@ LONG = ["--segments", ",".join("1" * 8), "--robot.length", "0.34667", "--pressur
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("coarse")
 def test_a_long_robot_whose_friction_is_at_its_ends_alone_is_told_of_the_ground_between(
     tmp_path, capsys
 ):

@@ -48,7 +48,7 @@ def test_weak_friction_needs_a_slower_gait_and_firmer_contacts():
 
 
 @pytest.mark.parametrize("gait", ["full-wave", "pulse"])
-@pytest.mark.parametrize("reverse", [False, True])
+@pytest.mark.parametrize("reverse", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_other_gaits_meet_it_too(gait, reverse):
     result = walk("gelatin", gait, ramp_time=SLOW, reverse=reverse, friction="coulomb", links=12)
     found = measured("gelatin", gait, ramp_time=SLOW, reverse=reverse, friction="coulomb", links=12)

@@ -13,7 +13,7 @@ from mjsim.simulation.simulation import Simulation, simulate
 SLOW = replace(GAITS["wave"], ramp_time=8.0)
 
 
-@pytest.mark.parametrize("adhesion", [0.01, 0.05])
+@pytest.mark.parametrize("adhesion", [pytest.param(0.01, marks=pytest.mark.slow), 0.05])
 @pytest.mark.parametrize("surface", ["felt", "gelatin"])
 def test_a_robot_on_sticky_ground_goes_as_far_as_theory_says(surface, adhesion):
     ground = replace(SURFACES[surface], adhesion=adhesion)

@@ -25,7 +25,9 @@ def test_a_strip_lying_on_a_wet_slope_slides_at_the_speed_of_its_film():
     assert (at[-1] - at[-101]) / 0.5 == pytest.approx(-speed, rel=0.01)
 
 
-@pytest.mark.parametrize("ramp_time", [0.5, 1.0, 8.0])
+@pytest.mark.parametrize(
+    "ramp_time", [0.5, *(pytest.param(t, marks=pytest.mark.slow) for t in (1.0, 8.0))]
+)
 def test_wet_ground_turns_a_slow_robot_round_as_theory_says(ramp_time):
     gait = replace(GAITS["wave"], ramp_time=ramp_time)
     theory = predict(Robot(), gait, WET, friction=Friction(tension=1.0)).locomotion.per_cycle

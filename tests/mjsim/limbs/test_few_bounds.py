@@ -23,6 +23,7 @@ from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.prediction import predict as predict_limbs
 from analytic.solvers.limbs.walk import walk as quasi_static
 from mjsim.results.status import Status
+from mjsim.scene import Scene
 from mjsim.scene.limbs import TreeNumerics, TreeScene
 from mjsim.simulation.limbs import TreeSimulation, simulate
 
@@ -115,7 +116,7 @@ def test_on_a_film_alone_a_robot_of_little_mass_goes_as_far_as_the_reference(vis
     assert walk.displacement[0] == pytest.approx(found.displacement[0], rel=0.06)
 
 
-@pytest.mark.parametrize("angle", [0.5 * np.pi, -2.0])
+@pytest.mark.parametrize("angle", [0.5 * np.pi, pytest.param(-2.0, marks=pytest.mark.slow)])
 def test_a_robot_laid_down_in_another_direction_goes_and_turns_alike(angle):
     gait = replace(undulation("wave", left=0.7), ramp_time=4.0)
     ground = SURFACES["gelatin"]
@@ -152,6 +153,16 @@ def test_one_long_limb_arches_and_comes_back_to_where_it_lay():
     one, two = (abs(walk.displacement[0]) / strip.length for walk in steps)
     assert one < 2e-3
     assert two < 0.6 * one
+
+
+def test_a_limb_that_would_close_into_a_circle_is_refused_as_a_strip_is():
+    strip = Robot(segments=(1.0,), mass=0.018, peak_pressure=90e3)
+    gait = Gait("arch", ((0.0,), (1.0,), (0.0,)), 4.0)
+    with pytest.raises(ValueError, match="below 85920") as strip_s:
+        Scene(strip, gait)
+    with pytest.raises(ValueError, match="close limb 'solo' into a circle") as limb_s:
+        TreeScene(TreeRobot((Limb("solo", strip),), 90e3), gait, FELT)
+    assert str(limb_s.value).replace("limb 'solo'", "this strip") == str(strip_s.value)
 
 
 @pytest.mark.parametrize("about", [4, 5])  # pitch, roll

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from walks import coarsen
 
 from analytic.scene.ground import Patches
 from analytic.scene.limbs import quadruped
@@ -16,6 +15,7 @@ from mjsim.commands import replay, report
 from mjsim.files.limb_tables import build_tree
 from mjsim.files.written import as_tables, as_toml
 from mjsim.pictures import gl
+from mjsim.results import limb_record
 from mjsim.scene.limbs import TreeNumerics, TreeScene
 from mjsim.simulation.limbs import simulate
 
@@ -55,7 +55,7 @@ def test_a_scene_is_built_from_the_tables_that_it_is_written_as(ground):
 
 
 def test_the_page_of_a_robot_of_limbs_has_its_turn_its_limbs_and_its_scene(tmp_path, monkeypatch):
-    coarsen(monkeypatch)
+    monkeypatch.setattr(limb_record, "reference", lambda walk: None)  # which takes long
     walk = simulate(scene(), NUMERICS)
     walk.save(tmp_path / "walk.nc")
     out = tmp_path / "page.html"

@@ -36,7 +36,10 @@ def test_the_cable_goes_as_far_as_the_planar_chain(surface):
     assert cable.amplitude == pytest.approx(planar.amplitude, abs=1e-3)
 
 
-@pytest.mark.parametrize("surface", list(SURFACES))
+@pytest.mark.parametrize(
+    "surface",
+    ["gelatin", *(pytest.param(n, marks=pytest.mark.slow) for n in ("felt", "polyethylene"))],
+)
 def test_the_rod_comes_near_with_smaller_steps(surface):
     exact = predict(Robot(), Scene().gait, SURFACES[surface], friction=Friction(tension=1.0))
     exact = exact.locomotion.per_cycle / Robot().length

@@ -95,7 +95,7 @@ ROBOTS = {
 
 
 @pytest.mark.parametrize("surface", ["felt", "gelatin"])
-@pytest.mark.parametrize("name", list(ROBOTS))
+@pytest.mark.parametrize("name", ["two", "uneven", pytest.param("four", marks=pytest.mark.slow)])
 def test_other_robots_go_as_far_as_the_elastica(name, surface):
     segments, stages = ROBOTS[name]
     robot = Robot(segments=segments)
@@ -107,7 +107,7 @@ def test_other_robots_go_as_far_as_the_elastica(name, surface):
 SLOW = Gait("wave", GAITS["wave"].stages, 8.0)
 
 
-@pytest.mark.parametrize("degrees", [2.0, -2.0])
+@pytest.mark.parametrize("degrees", [2.0, pytest.param(-2.0, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("friction", ["constant", "coulomb"])
 def test_on_a_slope_it_goes_as_far_as_the_elastica(degrees, friction):
     slope = math.radians(degrees)
