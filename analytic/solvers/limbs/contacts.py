@@ -149,10 +149,8 @@ class Contacts:
         strip, points = self._tree.robot.limbs[contact.limb].strip, len(contact.at)
         width = strip.width
         if 0 < contact.length <= _HARDLY * strip.length and not self._law.needs_load:
-            return (
-                0.0,
-                0.0,
-            )  # no area: what rounding leaves would be the only bound there is
+            # no area: what rounding leaves would be the only bound there is
+            return 0.0, 0.0
         bound = self._law.bound(surface, width, contact.length, contact.load)
         if not contact.length and not self._law.needs_load:
             bound *= self._share[contact.limb]
