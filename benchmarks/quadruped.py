@@ -14,15 +14,17 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic.scene.gait import Gait
-from analytic.scene.limbs import LENGTH
+from analytic.scene.limbs import quadruped
 from analytic.scene.quadruped_gaits import UNDULATIONS, undulation
 from analytic.scene.surface import SHEAR_STRENGTH, SURFACES, TIP_FORCE, Surface
-from analytic.solvers.limbs.prediction import predict
-from mjsim.scene.limbs import TreeNumerics, TreeScene
-from mjsim.simulation.limbs import simulate
+from mjsim.results.measures import measure
+from mjsim.results.prediction import HALF, error_bars, reference
+from mjsim.results.trajectory import Trajectory
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.simulation import simulate
 
-NUMERICS = TreeNumerics(timestep=0.03)
-FINE = TreeNumerics(timestep=0.01, elements=12)
+NUMERICS = Numerics(timestep=0.03)
+FINE = Numerics(timestep=0.01, links=12)
 RAMP = 8.0  # s
 WITHIN, WITHIN_LENGTH, WITHIN_TURN = 0.05, 0.004, 0.5  # relative, L, degrees
 
@@ -49,7 +51,7 @@ class Outcome(NamedTuple):
         )
 
 
-def draw(seed: int) -> TreeScene:
+def draw(seed: int) -> Scene:
     """A random scene."""
     rng = np.random.default_rng(seed)
     left, right = rng.uniform(0.5, 1.0, 2) if rng.random() < 0.6 else (1.0, 1.0)
@@ -67,23 +69,30 @@ def draw(seed: int) -> TreeScene:
         ground = Surface("random", tip * TIP_FORCE, side * SHEAR_STRENGTH,
                          side * 0.37, tip * 0.37)  # fmt: skip
     law = "coulomb" if rng.random() < 0.5 else "constant"
-    return TreeScene(gait=gait, ground=ground, friction=law)
+    return Scene(quadruped(), gait=gait, ground=ground, friction=law)
+
+
+def _numbers(walk: Trajectory) -> np.ndarray:
+    numbers = measure(walk)
+    if numbers is None:
+        return np.full(3, np.nan)
+    return np.array([numbers.displacement, numbers.aside, np.degrees(numbers.turn)])
 
 
 def compare(seed: int) -> Outcome:
     """Walk a scene by both."""
     scene = draw(seed)
     walk, fine = simulate(scene, NUMERICS), simulate(scene, FINE)
-    found = predict(scene.robot, scene.gait, scene.ground, law=scene.friction)
-    c = LENGTH
+    found = reference(scene)
+    bar, turn_bar = error_bars(scene, found, reference(scene, finer=HALF))
     ground = scene.ground
     return Outcome(
         f"{seed:3d} {scene.gait.name:28s} {ground.name:12s} {scene.friction:8s}",
-        np.array([*walk.displacement / c, np.degrees(walk.turn)]),
-        np.array([*fine.displacement / c, np.degrees(fine.turn)]),
-        np.array([*found.displacement / c, np.degrees(found.turn)]),
-        np.array([found.displacement_error / c, np.degrees(found.turn_error)]),
-        str(walk.status) + ("" if found.path.converged else " unconverged"),
+        _numbers(walk),
+        _numbers(fine),
+        np.array([*found.displacement, np.degrees(found.turn)]),
+        np.array([bar, np.degrees(turn_bar)]),
+        " ".join([str(walk.status), *found.flags]),
         scene.duration / walk.wall_time,
     )
 

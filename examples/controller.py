@@ -27,7 +27,7 @@ class There:
 def main() -> float:
     scene = Scene(cycles=4)
     walk = Simulation(scene).run(There(scene))
-    x = walk.position[walk.start :, 0, 0]
+    x = walk.line[walk.start :, 0, 0]
     print(f"{walk.status}: out to {1e3 * x.max():.1f} mm, back at {1e3 * x[-1]:.1f} mm")
     return float(x[-1])
 

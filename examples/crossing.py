@@ -20,7 +20,7 @@ def main(folder: Path | None = None) -> tuple[float, float]:
     rests = np.flatnonzero((theory.pressures == 0).all(axis=1))
     for cycle in range(scene.cycles + 1):
         step = int(np.searchsorted(walk.time, cycle * scene.gait.period - 1e-9))
-        x = walk.position[min(step, len(walk.time) - 1), 0, 0]
+        x = walk.line[min(step, len(walk.time) - 1), 0, 0]
         expected = theory.locomotion.left[rests[cycle]]
         print(f"after {cycle} cycles: left end {1e3 * x:6.2f} mm, theory {1e3 * expected:6.2f} mm")
     if folder:
@@ -39,7 +39,7 @@ def main(folder: Path | None = None) -> tuple[float, float]:
         axes.set(xlabel="cycles", ylabel="x [mm]", xlim=(0, scene.cycles), ylim=(-10, 170))
         axes.legend(loc="center right", framealpha=0.9, fontsize=8)
         figure.savefig(folder / "crossing.png")
-    return float(walk.position[-1, 0, 0]), float(theory.locomotion.left[-1])
+    return float(walk.line[-1, 0, 0]), float(theory.locomotion.left[-1])
 
 
 if __name__ == "__main__":

@@ -14,24 +14,26 @@ from itertools import permutations, product
 import numpy as np
 
 from analytic.scene.gait import Gait
-from analytic.scene.limbs import ORDER
+from analytic.scene.limbs import ORDER, quadruped
 from analytic.scene.quadruped_gaits import UNDULATIONS, on_the_spot
 from analytic.scene.surface import SURFACES
-from mjsim.scene.limbs import TreeNumerics, TreeScene
-from mjsim.simulation.limbs import simulate
+from mjsim.results.measures import measure
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.simulation import simulate
 
-NUMERICS = TreeNumerics(timestep=0.02)
+NUMERICS = Numerics(timestep=0.02)
 RAMP = 8.0  # s
 PARTS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7)
 
 
 def walked(gait: Gait, surface: str) -> tuple[float, float]:
     """Displacement over L, ahead, and turn to the left in degrees; NaN if it fell or rocked."""
-    scene = TreeScene(gait=gait, ground=SURFACES[surface])
+    scene = Scene(quadruped(), gait=gait, ground=SURFACES[surface])
     walk = simulate(scene, NUMERICS)
-    if walk.status != "ok" or walk.contacts.min() < 3:
+    numbers = measure(walk)
+    if numbers is None or walk.contacts.min() < 3:
         return float("nan"), float("nan")
-    return float(walk.displacement[0] / walk.length), float(np.degrees(walk.turn))
+    return numbers.displacement, float(np.degrees(numbers.turn))
 
 
 def crawls() -> list[Gait]:

@@ -43,7 +43,7 @@ def main(folder: Path | None = None, cycles: int = CYCLES) -> dict[str, Any]:
     policy = Reversing(robot, NUMERICS.timestep)
     walk = Simulation(scene, NUMERICS).run(policy)
     went = {name: float(track.left[-1]) / robot.length for name, track in tracks.items()}
-    went |= {f"MuJoCo, {name}": float(w.position[-1, 0, 0]) / robot.length
+    went |= {f"MuJoCo, {name}": float(w.line[-1, 0, 0]) / robot.length
              for name, w in (("wave alone", alone), ("controller", walk))}  # fmt: skip
     for name, place in went.items():
         print(f"{name:<26} left end after {cycles} cycles at {place:+.3f} L")
@@ -66,7 +66,7 @@ def _draw_tracks(axes: Any, tracks: Any, walks: Any, robot: Robot, policy: Any) 
     for (name, track), style in zip(tracks.items(), (":", "--", "-.", "-"), strict=True):
         axes.plot(track.left / length + 1, style, color="0.35", lw=1, label=f"theory: {name}")
     for name, walk in walks.items():
-        time, x = walk.time / walk.scene.gait.period, walk.position[:, -1, 0] / length
+        time, x = walk.time / walk.scene.gait.period, walk.line[:, -1, 0] / length
         if name == "controller":
             for cycle, choice in enumerate(policy.chosen[:cycles]):
                 part = (time >= cycle) & (time <= cycle + 1)

@@ -1,71 +1,57 @@
-"""MuJoCo model of an undulating pneumatic strip, checked against `analytic`.
+"""MuJoCo models of robots of pneumatic limbs, checked against `analytic`.
 
 What a user needs, imported when it is first used:
 
-    from mjsim import SURFACES, Scene, measure, predict, simulate
+    from mjsim import SURFACES, Scene, measure, reference, simulate
 
     scene = Scene(ground=SURFACES["gelatin"])
     walk = simulate(scene)
-    print(walk.status, measure(walk).displacement)
+    print(walk.status, measure(walk).displacement, reference(scene).displacement[0])
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from analytic.friction.laws import Friction
-    from analytic.prediction import predict
-    from analytic.scene.gait import GAITS, Gait
-    from analytic.scene.ground import Patches
-    from analytic.scene.robot import Robot
-    from analytic.scene.surface import SURFACES, Ground, Surface
-    from mjsim.results.measures import Measures, measure
-    from mjsim.results.status import Status
-    from mjsim.results.trajectory import Trajectory, load
-    from mjsim.scene import Numerics, Scene
-    from mjsim.simulation.batch import rollout, simulate_all
-    from mjsim.simulation.simulation import Observation, Policy, Simulation, simulate
+from analytic.lazy import lazily
 
-_HOMES = {
-    "analytic.friction.laws": ("Friction",),
-    "analytic.scene.gait": ("GAITS", "Gait"),
-    "analytic.scene.ground": ("Patches",),
-    "analytic.prediction": ("predict",),
-    "analytic.scene.robot": ("Robot",),
-    "analytic.scene.surface": ("SURFACES", "Ground", "Surface"),
-    "mjsim.scene": ("Numerics", "Scene"),
-    "mjsim.simulation.batch": ("rollout", "simulate_all"),
-    "mjsim.results.measures": ("Measures", "measure"),
-    "mjsim.simulation.simulation": ("Observation", "Policy", "Simulation", "simulate"),
-    "mjsim.results.status": ("Status",),
-    "mjsim.results.trajectory": ("Trajectory", "load"),
-}
-_HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
-
-__all__ = [
-    "GAITS",
-    "SURFACES",
-    "Friction",
-    "Gait",
-    "Ground",
-    "Measures",
-    "Numerics",
-    "Observation",
-    "Patches",
-    "Policy",
-    "Robot",
-    "Scene",
-    "Simulation",
-    "Status",
-    "Surface",
-    "Trajectory",
-    "load",
-    "measure",
-    "predict",
-    "rollout",
-    "simulate",
-    "simulate_all",
-]
+_attribute, __dir__, __all__ = lazily(
+    __name__,
+    {
+        "analytic.friction.laws": ("Friction",),
+        "analytic.prediction": ("predict",),
+        "analytic.scene.gait": ("GAITS", "Gait"),
+        "analytic.scene.ground": ("Patches",),
+        "analytic.scene.limbs": ("Limb", "LimbedRobot", "quadruped"),
+        "analytic.scene.quadruped_gaits": ("QUADRUPED_GAITS", "undulation"),
+        "analytic.scene.robot": ("Robot",),
+        "analytic.scene.surface": ("SURFACES", "Ground", "Surface"),
+        "mjsim.env.task": ("Settings",),
+        "mjsim.files.tables": ("build", "read_tables"),
+        "mjsim.files.written": ("as_tables", "as_toml"),
+        "mjsim.fitting.estimate": ("Estimate", "estimate"),
+        "mjsim.fitting.observations": ("read_observations",),
+        "mjsim.fitting.parameters": ("Parameter", "parameters"),
+        "mjsim.fitting.walks": ("Predictor",),
+        "mjsim.model.standalone": ("standalone_spec",),
+        "mjsim.optimising.objective": ("Objective",),
+        "mjsim.optimising.search": ("search",),
+        "mjsim.pictures.recording": ("film",),
+        "mjsim.results.measures": ("Measures", "measure"),
+        "mjsim.results.prediction": ("Reference", "reference"),
+        "mjsim.results.record": ("record",),
+        "mjsim.results.status": ("Status",),
+        "mjsim.results.trajectory": ("Trajectory", "load"),
+        "mjsim.scene.numerics": ("Numerics",),
+        "mjsim.scene.scene": ("Scene",),
+        "mjsim.scene.valves": ("Valves",),
+        "mjsim.simulation.batch": ("rollout", "simulate_all"),
+        "mjsim.simulation.batch_simulate": ("simulate_batch",),
+        "mjsim.simulation.checked": ("Checked", "walk_checked"),
+        "mjsim.simulation.observation": ("Observation", "Policy"),
+        "mjsim.simulation.simulation": ("Simulation", "simulate"),
+        "mjsim.sweeps.plan": ("Plan", "read_plan"),
+        "mjsim.sweeps.store": ("Store",),
+    },
+)
 
 
 def __getattr__(name: str) -> Any:
@@ -73,11 +59,4 @@ def __getattr__(name: str) -> Any:
         from importlib.metadata import version
 
         return version("undulator")
-    if name not in _HOME_OF:
-        raise AttributeError(f"module 'mjsim' has no attribute {name!r}")
-    value = globals()[name] = getattr(import_module(_HOME_OF[name]), name)
-    return value
-
-
-def __dir__() -> list[str]:
-    return sorted([*__all__, "__version__"])
+    return _attribute(name)

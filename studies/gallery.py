@@ -56,22 +56,24 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _quadruped(out: Path) -> None:
+    from analytic.scene.limbs import quadruped
     from analytic.scene.quadruped_gaits import QUADRUPED_GAITS, undulation
     from analytic.scene.surface import SURFACES
-    from mjsim.pictures.limb_film import film, stages
-    from mjsim.scene.limbs import TreeNumerics, TreeScene
-    from mjsim.simulation.limbs import simulate
+    from mjsim.pictures.limb_film import stages
+    from mjsim.pictures.recording import film
+    from mjsim.scene import Numerics, Scene
+    from mjsim.simulation.simulation import simulate
 
     turning = replace(undulation("wave", left=_LEFT), ramp_time=_RAMP)
     scenes = {
-        f"quadruped_{name}": TreeScene(gait=replace(undulation("wave"), ramp_time=_RAMP),
-                                       ground=surface)
+        f"quadruped_{name}": Scene(quadruped(), replace(undulation("wave"), ramp_time=_RAMP),
+                                   surface)
         for name, surface in SURFACES.items()
     }  # fmt: skip
-    scenes["quadruped_turn"] = TreeScene(gait=turning, ground=SURFACES["gelatin"])
+    scenes["quadruped_turn"] = Scene(quadruped(), turning, SURFACES["gelatin"])
     spin = replace(QUADRUPED_GAITS["spin"], ramp_time=_RAMP)
-    scenes["quadruped_spin"] = TreeScene(gait=spin, ground=SURFACES["gelatin"], cycles=_SPINS)
-    walks = [simulate(scene, TreeNumerics(timestep=_STEP)) for scene in scenes.values()]
+    scenes["quadruped_spin"] = Scene(quadruped(), spin, SURFACES["gelatin"], cycles=_SPINS)
+    walks = [simulate(scene, Numerics(timestep=_STEP)) for scene in scenes.values()]
     paths = [out / f"{name}.mp4" for name in scenes]
     film(walks, paths)
     stages(walks[-2]).save(out / "quadruped.jpg", quality=85)

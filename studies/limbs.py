@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic.scene.limbs import LENGTH
+from analytic.scene.limbs import LENGTH, quadruped
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import FRICTION, SURFACES, Surface
 from analytic.solvers.limbs.walk import walk as quasi_static
@@ -64,14 +64,17 @@ class Point(NamedTuple):
 
 def walked(surface: str, law: str, left: float, step: float, elements: int) -> Point:
     """By MuJoCo."""
-    from mjsim.scene.limbs import TreeNumerics, TreeScene
-    from mjsim.simulation.limbs import simulate
+    from mjsim.results.measures import measure
+    from mjsim.scene import Numerics, Scene
+    from mjsim.simulation.simulation import simulate
 
     gait = replace(undulation("wave", left=left), ramp_time=RAMP)
-    scene = TreeScene(gait=gait, ground=GROUNDS[surface], friction=law)
-    walk = simulate(scene, TreeNumerics(elements=elements, timestep=step))
-    ahead, aside = walk.displacement / LENGTH
-    return Point(surface, law, left, step, elements, ahead, aside, float(np.degrees(walk.turn)),
+    scene = Scene(quadruped(), gait, GROUNDS[surface], friction=law)
+    walk = simulate(scene, Numerics(links=elements, timestep=step))
+    numbers = measure(walk)
+    assert numbers is not None
+    return Point(surface, law, left, step, elements, numbers.displacement, numbers.aside,
+                 float(np.degrees(numbers.turn)),
                  scene.duration / walk.wall_time, str(walk.status))  # fmt: skip
 
 

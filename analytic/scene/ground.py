@@ -92,6 +92,17 @@ def check_adhesion(ground: Ground) -> None:
         raise ValueError(f"adhesion must be of uniform ground, got {ground.name!r}")
 
 
+def check_for_limbs(ground: Ground) -> None:
+    """Raise ValueError for ground that limbs are not told of: sticky, or stronger at rest."""
+    for surface in surfaces_of(ground):
+        if surface.adhesion or surface.static_ratio > 1:
+            what = "adhesion" if surface.adhesion else "static_ratio"
+            raise ValueError(
+                f"{what} of surface {surface.name!r} is for strips, not for robots of limbs; got "
+                f"{getattr(surface, what)!r}"
+            )
+
+
 def over(ground: Ground, begin: float, end: float) -> Surface:
     """What a side contact between two places rests on: the mean of the ground's properties.
 

@@ -1,10 +1,12 @@
 """Limbs that make a robot: pneu-nets that bend in upright planes of their own.
 
-A limb is a strip of one pneu-net, an analytic.Robot of one segment. It begins at one end of the
-limb that carries it, or is the trunk, and runs away from there at an angle in plan.
+A limb is a strip of one or more segments, an analytic.Robot. It begins at one end of the limb that
+carries it, or is the trunk, and runs away from there at an angle in plan. A strip is a robot of one
+limb.
 """
 
 from dataclasses import dataclass, field, replace
+from itertools import accumulate
 from typing import Literal
 
 import numpy as np
@@ -28,7 +30,7 @@ class Limb:
     name: str
     """how gaits and files call it"""
     strip: Robot
-    """its geometry, material and weight, of one segment"""
+    """its geometry, material, weight and segments, the first where the limb begins"""
     on: str | None = None
     """limb that carries it; None for the trunk"""
     at: End = "end"
@@ -39,10 +41,6 @@ class Limb:
     """of its beginning to the left of the carrier's middle line [m]"""
 
     def __post_init__(self) -> None:
-        if len(self.strip.segments) != 1:
-            raise ValueError(
-                f"limb {self.name!r} must be one segment, got {len(self.strip.segments)}"
-            )
         one_of("at", self.at, ("begin", "end"))
         for name in ("angle", "offset"):
             if not is_number(getattr(self, name)):
@@ -50,8 +48,8 @@ class Limb:
 
 
 @dataclass(frozen=True)
-class TreeRobot:
-    """A robot of limbs, the trunk first; each is carried by one before it.
+class LimbedRobot:
+    """A robot of several limbs, the trunk first; each is carried by one before it.
 
     Raises:
         ValueError: it is no tree of such limbs, or two have one name.
@@ -76,8 +74,22 @@ class TreeRobot:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the limbs, in the order of a gait's fractions."""
+        """Names of the limbs, the trunk's first."""
         return tuple(limb.name for limb in self.limbs)
+
+    @property
+    def chambers(self) -> tuple[str, ...]:
+        """Names of the chambers, limb by limb: the columns of a gait."""
+        return tuple(
+            limb.name if len(limb.strip.segments) == 1 else f"{limb.name}-{number}"
+            for limb in self.limbs
+            for number in range(1, len(limb.strip.segments) + 1)
+        )
+
+    @property
+    def length(self) -> float:
+        """Length along the trunk's direction, lying flat, L [m]."""
+        return outline(self)[0]
 
     def place(self, name: str) -> int:
         """Of a limb among them."""
@@ -96,7 +108,32 @@ class TreeRobot:
         return sum(limb.strip.weight for limb in self.limbs)
 
 
-def plan(robot: TreeRobot) -> dict[str, tuple[Array, Array]]:
+AnyRobot = Robot | LimbedRobot
+
+
+def limbs_of(robot: AnyRobot) -> tuple[Limb, ...]:
+    """The limbs of a robot, of which a strip is one."""
+    return robot.limbs if isinstance(robot, LimbedRobot) else (Limb("strip", robot),)
+
+
+def chambers_by_limb(robot: AnyRobot) -> list[slice]:
+    """Which of the chambers each limb has."""
+    counts = [len(limb.strip.segments) for limb in limbs_of(robot)]
+    ends = list(accumulate(counts))
+    return [slice(end - count, end) for count, end in zip(counts, ends, strict=True)]
+
+
+def depth_first(robot: LimbedRobot, name: str | None = None) -> list[str]:
+    """Names of the limbs as MuJoCo counts joints: a limb, those at its end, at its beginning."""
+    name = robot.names[0] if name is None else name
+    carried = [
+        limb.name for at in ("end", "begin")
+        for limb in robot.limbs if (limb.on, limb.at) == (name, at)
+    ]  # fmt: skip
+    return [name, *(part for limb in carried for part in depth_first(robot, limb))]
+
+
+def plan(robot: LimbedRobot) -> dict[str, tuple[Array, Array]]:
     """Where the middle line of each limb begins and ends, lying flat, by its name, (2,) [m]."""
     found: dict[str, tuple[Array, Array]] = {}
     for limb in robot.limbs:
@@ -110,7 +147,7 @@ def plan(robot: TreeRobot) -> dict[str, tuple[Array, Array]]:
     return found
 
 
-def outline(robot: TreeRobot) -> tuple[float, float]:
+def outline(robot: LimbedRobot) -> tuple[float, float]:
     """Length along the trunk and width across it, lying flat, between ends of middle lines [m]."""
     places = np.array([place for ends in plan(robot).values() for place in ends])
     along, across = np.ptp(places @ rotation(robot.limbs[0].angle), axis=0)
@@ -130,7 +167,7 @@ TORSO_WIDTH, LEG_WIDTH = 0.0323, 0.0135  # m
 ORDER = ("torso", "rear-left", "rear-right", "front-left", "front-right")
 
 
-def quadruped(base: Robot | None = None, angle: float = LEG_ANGLE) -> TreeRobot:
+def quadruped(base: Robot | None = None, angle: float = LEG_ANGLE) -> LimbedRobot:
     """The paper's robot: a torso and four legs, each a third of its length along the body.
 
     Args:
@@ -151,14 +188,14 @@ def quadruped(base: Robot | None = None, angle: float = LEG_ANGLE) -> TreeRobot:
         for name, rear, left in zip(ORDER[1:], (True, True, False, False), (1, -1, 1, -1),
                                     strict=True)
     ]  # fmt: skip
-    return TreeRobot((Limb("torso", torso), *legs))
+    return LimbedRobot((Limb("torso", torso), *legs))
 
 
-def as_strip(strip: Robot) -> TreeRobot:
+def as_strip(strip: Robot) -> LimbedRobot:
     """A strip of three segments as a torso with a leg before and one behind, to verify by."""
     lengths = strip.length * np.diff(strip.borders)
     rear, middle, front = (replace(strip, length=float(part), segments=(1.0,)) for part in lengths)
-    return TreeRobot(
+    return LimbedRobot(
         (
             Limb("torso", middle),
             Limb("rear", rear, "torso", "begin", float(np.pi)),

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from analytic.checks import is_number
+from analytic.checks import is_number, one_of
 from analytic.scene.gait import GAITS, Gait
-from analytic.scene.limbs import ORDER
+from analytic.scene.limbs import ORDER, AnyRobot
 
 UNDULATIONS = ("wave", "full-wave", "pulse")
 
@@ -40,6 +40,20 @@ def undulation(gait: Gait | str = "wave", left: float = 1.0, right: float = 1.0)
     stages = tuple(map(tuple, np.stack(columns, axis=1).tolist()))
     name = own.name if left == right == 1 else f"{own.name}-{left:g}-{right:g}"
     return replace(own, name=name, stages=stages)
+
+
+def for_robot(gait: Gait | str, robot: AnyRobot) -> Gait:
+    """A gait, or the one of a name, as a robot is to walk it.
+
+    Raises:
+        ValueError: there is none of that name.
+    """
+    of_quadruped = robot.chambers == ORDER
+    if isinstance(gait, str):
+        known = {**GAITS, **QUADRUPED_GAITS} if of_quadruped else GAITS
+        one_of("name of a gait", gait, known)
+        gait = known[gait]
+    return undulation(gait) if of_quadruped and gait.segments == 3 else gait
 
 
 def on_the_spot(gait: str = "wave", part: float = 0.3, ramp_time: float = 2.0) -> Gait:

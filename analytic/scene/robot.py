@@ -9,6 +9,7 @@ PSI = 6894.757293168  # Pa in a pound-force per square inch (NIST SP 811)
 GRAVITY = 9.81  # m/s^2
 THREE_EQUAL = (1.0, 1.0, 1.0)  # [Majidi13], section 2.3
 
+_THREE = ("left", "middle", "right")
 _OPTIONAL = ("mass", "rigidity", "curvature_per_pressure", "rigidity_per_pressure")
 
 
@@ -95,6 +96,12 @@ class Robot:
         total = sum(self.segments)
         inner = accumulate(self.segments[:-1])
         return (0.0, *(end / total for end in inner), 1.0)
+
+    @property
+    def chambers(self) -> tuple[str, ...]:
+        """Names of the segments, a gait's columns: left, middle, right of three, else numbers."""
+        count = len(self.segments)
+        return _THREE if count == 3 else tuple(f"{number}" for number in range(1, count + 1))
 
     @property
     def weight(self) -> float:

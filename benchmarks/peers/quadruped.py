@@ -30,13 +30,13 @@ from pydrake.multibody.tree import (  # noqa: E402
 )
 
 from analytic.scene.chain import joint_springs, link_lengths  # noqa: E402
-from analytic.scene.limbs import LENGTH  # noqa: E402
+from analytic.scene.limbs import LENGTH, quadruped  # noqa: E402
 from analytic.scene.quadruped_gaits import undulation  # noqa: E402
 from analytic.scene.surface import FRICTION  # noqa: E402
-from mjsim.scene.limbs import TreeNumerics, TreeScene  # noqa: E402
+from mjsim.scene import Numerics, Scene  # noqa: E402
 
 ELEMENTS, DOWN = 6, (0, -1, 0)  # hinges of a limb, and their axis: an end turns up
-RAMP, DAMPING = 8.0, TreeNumerics.damping_time  # s; of hinges over their stiffness
+RAMP, DAMPING = 8.0, Numerics.damping_time  # s; of hinges over their stiffness
 STEPS = (0.02, 0.01, 0.005, 0.002, 0.001, 0.0005)
 TABLE = HERE.parents[1] / "docs" / "quadruped_drake.csv"
 
@@ -92,7 +92,7 @@ def built(scene, elements, timestep):
 
 def walked(gait, elements, timestep):
     """Displacement over L, ahead and to the left, turn in degrees, times real time."""
-    scene = TreeScene(gait=gait)
+    scene = Scene(quadruped(), gait=gait)
     diagram, plant, torso = built(scene, elements, timestep)
     simulator, mine = start(diagram, plant)
     simulator.AdvanceTo(scene.settle_time)

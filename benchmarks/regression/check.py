@@ -22,13 +22,11 @@ import numpy as np
 import strips
 
 from analytic import SOLVERS, Elastica, Friction, Gait, Robot, Surface, predict
-from analytic.scene.limbs import rotation
+from analytic.scene.limbs import limbs_of, rotation
 from analytic.solvers.limbs.walk import walk as walk_of_limbs
-from mjsim.files.limb_tables import build_tree
+from mjsim.files.tables import build
 from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene, Valves
-from mjsim.scene.limbs import TreeNumerics, TreeScene
-from mjsim.simulation.limbs import simulate as simulate_limbs
 from mjsim.simulation.simulation import simulate
 
 Case = dict[str, Any]
@@ -74,7 +72,7 @@ def simulated(case: Case, robot: Robot, gait: Gait) -> Row:
     row: Row = {"status": str(walk.status), "end_time": float(walk.time[-1])}
     numbers = measure(walk)
     if numbers:
-        x = walk.position[:, :, 0]
+        x = walk.line[:, :, 0]
         row |= {
             "displacement": numbers.displacement,
             "amplitude": numbers.amplitude,
@@ -95,32 +93,38 @@ def of_strip(case: Case, change: float = 0.0) -> dict[str, Row]:
 
 def of_limbs(case: Case, change: float = 0.0) -> dict[str, Row]:
     tables = {**case["tables"], "numerics": {**case["tables"]["numerics"],
-                                             "elements": case["hinges"]}}  # fmt: skip
-    scene, numerics = build_tree(tables)
-    heavier = tuple(
-        replace(limb, strip=replace(limb.strip, weight_per_length=(1 + change)
-                                    * limb.strip.weight_per_length))
-        for limb in scene.robot.limbs
-    )  # fmt: skip
-    scene = replace(scene, robot=replace(scene.robot, limbs=heavier))
+                                             "links": case["hinges"]}}  # fmt: skip
+    scene, numerics = build(tables)
+    limbs_heavier = tuple(
+        replace(limb, strip=_heavier(limb.strip, change)) for limb in limbs_of(scene.robot)
+    )
+    robot = (replace(scene.robot, limbs=limbs_heavier) if scene.in_space
+             else limbs_heavier[0].strip)  # fmt: skip
+    scene = replace(scene, robot=robot)
     rows = {"mujoco": simulated_limbs(scene, numerics)}
     if case["theory"]:
         rows["theory"] = quasi_static_limbs(scene, case["hinges"], rows["mujoco"]["length"])
     return rows
 
 
-def simulated_limbs(scene: TreeScene, numerics: TreeNumerics) -> Row:
-    walk = simulate_limbs(scene, numerics)
-    row: Row = {"status": str(walk.status), "end_time": float(walk.time[-1]),
-                "length": walk.length}  # fmt: skip
-    if walk.status == "ok":
-        ahead, aside = (walk.displacement / walk.length).tolist()
-        row |= {"displacement": ahead, "sideways": aside, "turn": float(walk.turn),
-                "height": float(walk.coordinates[:, 2].max()) / walk.length}  # fmt: skip
+def _heavier(strip: Robot, change: float) -> Robot:
+    return replace(strip, weight_per_length=(1 + change) * strip.weight_per_length)
+
+
+def simulated_limbs(scene: Scene, numerics: Numerics) -> Row:
+    walk = simulate(scene, numerics)
+    length = scene.robot.length
+    row: Row = {"status": str(walk.status), "end_time": float(walk.time[-1]), "length": length}
+    numbers = measure(walk)
+    if numbers:
+        row |= {"displacement": numbers.displacement, "sideways": numbers.aside,
+                "turn": numbers.turn,
+                "height": float(walk.coordinates[:, 2].max()) / length if scene.in_space
+                else numbers.amplitude}  # fmt: skip
     return row
 
 
-def quasi_static_limbs(scene: TreeScene, hinges: int, length: float) -> Row:
+def quasi_static_limbs(scene: Scene, hinges: int, length: float) -> Row:
     path = walk_of_limbs(scene.robot, scene.gait, scene.ground, STATES, hinges, law=scene.friction)
     ahead, aside = (path.displacement @ rotation(scene.robot.limbs[0].angle) / length).tolist()
     return {"displacement": ahead, "sideways": aside, "turn": float(path.turn),

@@ -16,7 +16,6 @@ AREA = "a carrier that lies flat resists by its area, and here by nothing"
 LOAD = "a limb that rests on its middle does not load its tip alone"
 LINKS = "not converged in hinges and steps"
 TIES = "limbs in a line whose ends resist alike go otherwise than the strip, in both models"
-SYMMETRY = "by its symmetry it goes nowhere; what it goes falls with the time step"
 
 
 def ground(tip: float, side: float, **other: float) -> Case:
@@ -144,7 +143,10 @@ def of_others() -> Iterator[tuple[str, Case]]:
     for where in SURFACES:
         tied = () if where == "felt" else (TIES,)
         yield f"strip {where}", case(STRIP, arch, where, awaits=tied)
-        yield f"one {where}", case(ONE, stages("0", "1", "0"), where, awaits=(SYMMETRY,))
+        yield (
+            f"one {where}",
+            case(ONE, stages("0", "1", "0"), where, theory=False, hinges=24, timestep=0.005),
+        )  # a strip: it comes back
     yield "strip coulomb", case(STRIP, arch, ground(0.5, 1.0), friction="coulomb")
     heavy = {"limbs": [{**part, "mass": 0.017669045} for part in STRIP["limbs"]]}
     outer = stages("000", "010", "011", "001", "000")

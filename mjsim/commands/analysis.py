@@ -21,8 +21,6 @@ class Options:
     means over its lowest and highest level. Draws main-effects.png, a panel a field, and
     pairs.png, maps of each two of the four strongest fields with the neutral curve, where the
     quantity is 0 and the robot turns round. Exit code 0: done; 2: bad input.
-
-    Example: undulator analyse sweep.sqlite --out figures
     """
 
     results: Annotated[Path, tyro.conf.Positional] = Path("sweep.sqlite")
@@ -37,7 +35,7 @@ class Options:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
-    options = parse(Options, PROGRAM, argv)
+    options = parse(Options, PROGRAM, argv, ("sweep.sqlite --out figures",))
     from mjsim.sweeps.effects import levels, load, pairs
     from mjsim.sweeps.pictures import main_effects, pair_maps
 

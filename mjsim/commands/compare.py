@@ -1,188 +1,232 @@
 """Every model on the same scenes in one table: `undulator compare`."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from pathlib import Path
+from typing import Annotated, Any
 
 import numpy as np
+import tyro
 
+from analytic.checks import one_of
 from analytic.locomotion import direction
 from analytic.prediction import REFERENCE, SOLVERS
-from analytic.scene.gait import GAITS, Gait
+from analytic.scene.gait import GAITS
+from analytic.scene.limbs import ORDER, AnyRobot, LimbedRobot
+from analytic.scene.quadruped_gaits import QUADRUPED_GAITS
 from analytic.scene.robot import Robot
-from analytic.scene.surface import SURFACES, Ground
+from analytic.scene.surface import SURFACES
 from analytic.uncertainty import modes_error
 from mjsim.files import plugins
-from mjsim.files.cli import Plugins, bar, choose, fail, parse, say, strict_json
+from mjsim.files.cli import ALL, Plugins, bar, choose, fail, parse, say, strict_json
+from mjsim.files.limb_tables import build_robot, of_limbs
+from mjsim.files.options import ROBOTS
+from mjsim.files.tables import Tables, build, merged, read_tables
+from mjsim.files.text_table import Column, text_table
+from mjsim.files.typed import Table, make
 from mjsim.pictures import gl
-from mjsim.results.prediction import HALF, WEAK, displacement, error_bar, prediction
-from mjsim.scene import Scene, registry
+from mjsim.results.prediction import (
+    HALF,
+    QUASI_STATIC,
+    WEAK,
+    displacement,
+    error_bars,
+    prediction,
+    reference,
+)
+from mjsim.scene import Numerics, Scene, registry
 
 PROGRAM = "undulator compare"
+EXAMPLES = (
+    "--surface felt,gelatin --gait wave --model modes,elastica,planar",
+    "--robot quadruped --surface gelatin --gait wave",
+    "--scene my.toml",
+)
 
 
 @dataclass(frozen=True)
 class Options:
-    """Compare the quasi-static solvers and MuJoCo on one cycle of each gait on each surface.
+    """Compare the quasi-static models and MuJoCo on one cycle of each gait on each surface.
 
-    The reference is elastica, bent by the friction of the ground as in MuJoCo; the other solvers
-    know weak friction alone, which bends nothing, and their status says so. Columns: Δ/L,
-    displacement of the left end per cycle over the length; +-, what is known of its error: of modes
-    and lifted, what the contacts that they assume may be off exact contact, a bound; of elastica,
-    what half the links and states change; of MuJoCo, the part that the anchor rule does not
-    explain; - ref, difference from the reference; height/L, the greatest height; status, ok or what
-    limits the answer. Lists are comma-separated. Exit code
+    One row per model, beside the reference; docs/output.md explains models and columns. Exit code
     0: done, also where a model has no answer (its status says why); 2: bad input.
-
-    Example: undulator compare --surface felt,gelatin --gait wave --model modes,planar
     """
 
     surface: str = "all"
-    """felt, polyethylene, gelatin, or all"""
+    """felt, polyethylene, gelatin, several with commas between; all: those three, or the scene's"""
     gait: str = "all"
-    """wave, full-wave, pulse, or all"""
+    """wave, full-wave, pulse, of the quadruped spin and crawl too, several with commas between;
+    all: those, or the scene's"""
     model: str = "all"
-    """modes, lifted, obstacle, elastica, planar, cable, rod, or all; or a body of your own"""
+    """modes, lifted, obstacle, elastica, planar, cable, rod, or a body of your own, several with
+    commas between, or all; of a robot of limbs quasi-static and planar"""
+    scene: Annotated[Path | None, tyro.conf.arg(help_behavior_hint="")] = None
+    """a TOML file, whose robot walks; its gait and its ground where none is named"""
+    robot: Annotated[str | None, tyro.conf.arg(help_behavior_hint="")] = None
+    """strip or quadruped, in place of a scene's"""
     plugin: Plugins = ()
     reverse: bool = False
     """run the gaits backwards too"""
-    pressure: float = Robot().peak_pressure
-    """peak pressure of a segment [Pa]"""
+    pressure: float | None = None
+    """peak pressure of a chamber [Pa]"""
     json: bool = False
     """print one JSON object instead of the table"""
 
 
-class Row(NamedTuple):
-    """One model on one scene; what does not exist is None."""
-
-    surface: str
-    gait: str
-    model: str
-    displacement_over_L: float | None  # noqa: N815 - the contract's name
-    uncertainty_over_L: float | None  # noqa: N815
-    difference_over_L: float | None  # noqa: N815
-    direction: str | None
-    amplitude_over_L: float | None  # noqa: N815
-    status: str
+Row = dict[str, Any]  # one model on one scene; what does not exist is None
+COLUMNS = (
+    Column("surface", "surface"), Column("gait", "gait"), Column("model", "model"),
+    Column("direction", "direction"), Column("Δ/L", "displacement_over_L", "+.4f"),
+    Column("±", "uncertainty_over_L", ".4f"), Column("- ref", "difference_over_L", "+.4f"),
+    Column("turn °", "turn_deg", "+.2f"), Column("height/L", "amplitude_over_L", ".3f"),
+    Column("status", "status"),
+)  # fmt: skip
 
 
-def models() -> tuple[str, ...]:
-    """Names of all, cheapest theory first, then MuJoCo."""
+def models(robot: AnyRobot) -> tuple[str, ...]:
+    """Names of all that know a robot, cheapest theory first, then MuJoCo."""
+    if isinstance(robot, LimbedRobot):
+        return (QUASI_STATIC, Scene.body)
     return (*SOLVERS, *registry.names())
 
 
-def compare(robot: Robot, gait: Gait, ground: Ground, models: Sequence[str]) -> list[Row]:
-    """Rows of the models asked for, each beside the reference."""
-    scene = Scene(robot, gait, ground)
-    reference = _quasi_static(scene, REFERENCE)
+def compare(scene: Scene, models: Sequence[str], numerics: Numerics | None = None) -> list[Row]:
+    """Rows of the models asked for, each beside the reference.
+
+    Args:
+        scene: what walks; its body is replaced.
+        models: names, see `models`.
+        numerics: of MuJoCo; chosen for the robot where not given.
+    """
+    by = QUASI_STATIC if scene.in_space else REFERENCE
+    exact = _reference(scene, numerics)
     rows = []
     for model in models:
-        if model == REFERENCE:
-            row = reference
-            if row.displacement_over_L is not None:
-                bar = error_bar(scene, row.displacement_over_L, prediction(scene, finer=HALF))
-                row = row._replace(uncertainty_over_L=bar)
+        if model == by:
+            row = exact
         elif model in SOLVERS:
-            row = _quasi_static(scene, model)
+            row = _weak(scene, model)
         else:
-            row = _simulated(Scene(robot, gait, ground, body=model))
-        exact, shift = reference.displacement_over_L, row.displacement_over_L
-        if exact is not None and shift is not None:
-            row = row._replace(difference_over_L=shift - exact)
-        if shift is not None:
-            way = direction(shift, 1.0, row.uncertainty_over_L or 0.0)
-            row = row._replace(direction=way)
+            row = _simulated(replace(scene, body=model), numerics)
+        shift, zero = row["displacement_over_L"], exact["displacement_over_L"]
+        known = shift is not None and zero is not None
+        row = {
+            "surface": scene.ground.name, "gait": scene.gait.name, "model": model, **row,
+            "difference_over_L": shift - zero if known else None,
+            "direction": None if shift is None
+            else direction(shift, 1.0, row["uncertainty_over_L"] or 0.0),
+        }  # fmt: skip
         rows.append(row)
     return rows
 
 
-def _quasi_static(scene: Scene, model: str) -> Row:
+def _reference(scene: Scene, numerics: Numerics | None) -> Row:
+    fine = reference(scene, numerics)
+    ahead = float(fine.displacement[0])
+    if not math.isfinite(ahead):
+        return _row(None, None, None, "+".join(fine.flags))
+    bar, _ = error_bars(scene, fine, reference(scene, numerics, HALF))
+    return _row(ahead, bar, fine.height / scene.robot.length, "+".join(fine.flags) or "ok",
+                math.degrees(fine.turn) if scene.in_space else None)  # fmt: skip
+
+
+def _weak(scene: Scene, model: str) -> Row:
+    """A solver of strips that knows weak friction alone."""
     walk = prediction(scene, model)
     shift, length = displacement(scene, walk), scene.robot.length
     known, assumed = bool(np.isfinite(shift)), modes_error(walk) / length
     flags = "+".join(flag.name.lower() for flag in walk.flags if flag.name) or "ok"
-    return Row(
-        scene.ground.name,
-        scene.gait.name,
-        model,
-        displacement_over_L=shift if known else None,
-        uncertainty_over_L=assumed if math.isfinite(assumed) and assumed > 0 else None,
-        difference_over_L=None,
-        direction=None,
-        amplitude_over_L=float(walk.shapes.amplitude.max()) / length if known else None,
-        status=flags if model == REFERENCE else f"{flags}, {WEAK}",
+    return _row(
+        shift if known else None,
+        assumed if math.isfinite(assumed) and assumed > 0 else None,
+        float(walk.shapes.amplitude.max()) / length if known else None,
+        f"{flags}, {WEAK}",
     )
 
 
-def _simulated(scene: Scene) -> Row:
+def _simulated(scene: Scene, numerics: Numerics | None) -> Row:
     from mjsim.results.measures import measure
     from mjsim.simulation.simulation import simulate
 
-    walk = simulate(scene)
+    walk = simulate(scene, numerics)
     numbers = measure(walk)
-    return Row(
-        scene.ground.name,
-        scene.gait.name,
-        scene.body,
-        displacement_over_L=numbers and numbers.displacement,
-        uncertainty_over_L=numbers and abs(numbers.unexplained),
-        difference_over_L=None,
-        direction=None,
-        amplitude_over_L=numbers and numbers.amplitude,
-        status=str(walk.status),
-    )
+    if numbers is None:
+        return _row(None, None, None, str(walk.status))
+    known = abs(numbers.unexplained)
+    return _row(numbers.displacement, None if math.isnan(known) else known, numbers.amplitude,
+                str(walk.status),
+                math.degrees(numbers.turn) if scene.in_space else None)  # fmt: skip
+
+
+def _row(
+    shift: float | None, bar: float | None, height: float | None, status: str,
+    turn: float | None = None,
+) -> Row:  # fmt: skip
+    return {"displacement_over_L": shift, "uncertainty_over_L": bar, "turn_deg": turn,
+            "amplitude_over_L": height, "status": status}  # fmt: skip
 
 
 def table(rows: Sequence[Row]) -> str:
     """The rows as text, a blank line between scenes."""
-    lines = [
-        f"{'surface':<14}{'gait':<19}{'model':<10}{'direction':<11}{'Δ/L':>9}{'+-':>8}"
-        f"{'- ref':>9}{'height/L':>10}  status"
-    ]
-    scene = None
+    lines: list[Row] = []
     for row in rows:
-        if scene not in (None, (row.surface, row.gait)):
-            lines.append("")
-        scene = (row.surface, row.gait)
-        lines.append(
-            f"{row.surface:<14}{row.gait:<19}{row.model:<10}{row.direction or '-':<11}"
-            f"{_number(row.displacement_over_L, 9, '+.4f')}"
-            f"{_number(row.uncertainty_over_L, 8, '.4f')}"
-            f"{_number(row.difference_over_L, 9, '+.4f')}"
-            f"{_number(row.amplitude_over_L, 10, '.3f')}  {row.status}"
-        )
-    return "\n".join(lines)
-
-
-def _number(value: float | None, width: int, kind: str) -> str:
-    return f"{'-' if value is None else format(value, kind):>{width}}"
+        if lines and (lines[-1]["surface"], lines[-1]["gait"]) != (row["surface"], row["gait"]):
+            lines.append({})
+        lines.append(row)
+    turns = any(row["turn_deg"] is not None for row in rows)
+    return text_table([c for c in COLUMNS if turns or c.key != "turn_deg"], lines)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
-    options = parse(Options, PROGRAM, argv)
+    options = parse(Options, PROGRAM, argv, EXAMPLES)
     gl.prepare()
     try:
         plugins.load(options.plugin)
-        surfaces = choose("surface", options.surface, SURFACES)
-        gaits = [GAITS[name] for name in choose("gait", options.gait, GAITS)]
-        chosen = choose("model", options.model, models())
-        robot = replace(Robot(), peak_pressure=options.pressure)
-        for gait in gaits:
-            Scene(robot, gait)  # says whether the pressure is absurd
+        cases = [build(tables) for tables in _tables(options)]
+        chosen = choose("model", options.model, models(cases[0][0].robot))
     except ValueError as error:
         fail(PROGRAM, str(error))
-    if options.reverse:
-        gaits = [way for gait in gaits for way in (gait, gait.reversed())]
     rows: list[Row] = []
-    with bar("comparing", len(surfaces) * len(gaits)) as advance:
-        for gait in gaits:
-            for name in surfaces:
-                rows += compare(robot, gait, SURFACES[name], chosen)
-                advance(1)
+    with bar("comparing", len(cases)) as advance:
+        for scene, numerics in cases:
+            rows += compare(scene, chosen, numerics)
+            advance(1)
     if options.json:
-        say(strict_json({"reference": REFERENCE, "rows": [row._asdict() for row in rows]}))
+        by = QUASI_STATIC if cases[0][0].in_space else REFERENCE
+        say(strict_json({"reference": by, "rows": rows}))
     else:
         say(table(rows))
     return 0
+
+
+def _tables(options: Options) -> list[Tables]:
+    """Tables of every scene: gait by gait, each on all surfaces."""
+    base = merged(read_tables(options.scene)) if options.scene else merged()
+    if options.robot is not None:
+        one_of("robot", options.robot, ROBOTS)
+        named = {"name": options.robot} if options.robot != ROBOTS[0] else {}
+        base = {**base, "robot": named}
+    if options.pressure is not None:
+        base = merged(base, {"robot": {"peak_pressure": options.pressure}})
+    table = base["robot"]
+    chambers = (build_robot(table) if of_limbs(table) else make(Robot, table)).chambers
+    gaits = {**GAITS, **QUADRUPED_GAITS} if chambers == ORDER else GAITS
+    known = gaits if chambers in (ORDER, Robot().chambers) else {}
+    layers = [
+        merged({"gait": gait}, {"ground": ground}, {"gait": {"reverse": True} if backward else {}})
+        for gait in _choice("gait", options.gait, known, base["gait"], "name")
+        for backward in (False, *([True] if options.reverse else []))
+        for ground in _choice("surface", options.surface, SURFACES, base["ground"], "surface")
+    ]
+    return [merged(base, layer) for layer in layers]
+
+
+def _choice(
+    option: str, text: str, known: Iterable[str], table: Table, key: str
+) -> list[Table]:  # fmt: skip
+    """Tables of what is named; for all of it, the scene's own alone if it has one."""
+    if text == ALL and (table or not known):
+        return [{}]
+    return [{key: name} for name in choose(option, text, known)]

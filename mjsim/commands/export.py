@@ -6,11 +6,12 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from analytic.scene.limbs import quadruped
 from analytic.scene.surface import SURFACES
 from mjsim.files.cli import fail, parse
 from mjsim.files.files import check_folder
 from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import Tables, build, build_ground, of_limbs
+from mjsim.files.tables import Tables, build
 from mjsim.pictures import gl
 from mjsim.scene import Numerics, Scene
 
@@ -21,11 +22,9 @@ PROGRAM = "undulator export"
 class Options(SceneOptions):
     """Write a scene as MJCF with its textures, to open in MuJoCo's viewer and to drive.
 
-    Actuators take the pressures of the segments in Pa; friction is MuJoCo's own, by load; chambers
+    Actuators take the pressures of the chambers in Pa; friction is MuJoCo's own, by load; chambers
     are at constant pressure. The files load from any folder on any machine with mujoco 3.17 or
     later, 4 included, and in dm_control by mjcf.from_path. Exit code 0: done; 2: bad input.
-
-    Example: undulator export --scene my.toml --out folder
     """
 
     out: Path = Path("exported")
@@ -37,27 +36,14 @@ class Options(SceneOptions):
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
-    options = parse(Options, PROGRAM, argv)
+    options = parse(Options, PROGRAM, argv, ("--scene my.toml --out folder", "--robot quadruped"))
     gl.prepare()
-    from mjsim.files.limb_tables import build_tree
     from mjsim.model.standalone import write
-    from mjsim.model.standalone_limbs import write as write_limbs
 
     try:
         tables = tables_of(options)
         check_folder(options.out)
-        limbs = [tables] if of_limbs(tables[0]) and not options.models else []
-        for name, own in _quadrupeds() if options.models else _named(*limbs):
-            scene_of_limbs, own_numerics = build_tree(own)
-            path = options.out / f"{name}.xml"
-            with _told(path):
-                write_limbs(scene_of_limbs, path, own_numerics)
-        if limbs:
-            return 0
-        cases = list(documents())
-        if not options.models:
-            built = [build(own) for own in tables]
-            cases = [(scene.ground.name, scene, numerics) for scene, numerics in built]
+        cases = list(documents()) if options.models else [_named(own) for own in tables]
         for name, scene, numerics in cases:
             path = options.out / f"{name}.xml"
             with _told(path):
@@ -65,6 +51,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
     return 0
+
+
+def _named(tables: Tables) -> tuple[str, Scene, Numerics]:
+    scene, numerics = build(tables)
+    return "limbs-" * scene.in_space + scene.ground.name, scene, numerics
 
 
 @contextmanager
@@ -77,22 +68,11 @@ def _told(path: Path) -> Iterator[None]:
         print(f"{PROGRAM}: {path} is another than before", file=sys.stderr)
 
 
-def _quadrupeds() -> Iterator[tuple[str, Tables]]:
-    for surface in ("felt", "gelatin"):
-        yield (
-            f"quadruped_{surface}",
-            {"robot": {"name": "quadruped"}, "ground": {"surface": surface}},
-        )
-
-
-def _named(tables: Sequence[Tables] = ()) -> Iterator[tuple[str, Tables]]:
-    for own in tables:
-        yield f"limbs-{build_ground(own.get('ground', {})).name}", own
-
-
 def documents() -> Iterator[tuple[str, Scene, Numerics]]:
     """Names of the files in models/, and what they hold."""
     for name, surface in SURFACES.items():
         yield name, Scene(ground=surface), Numerics()
     for body in ("cable", "rod"):
         yield body, replace(Scene(ground=SURFACES["gelatin"]), body=body), Numerics(links=12)
+    for name in ("felt", "gelatin"):
+        yield f"quadruped_{name}", Scene(quadruped(), ground=SURFACES[name]), Numerics()

@@ -21,27 +21,22 @@ if TYPE_CHECKING:
     from mjsim.fitting.estimate import Estimate
 
 PROGRAM = "undulator fit"
+EXAMPLES = (
+    "track.csv --scene my.toml --free robot.modulus,surface.tip_force,surface.shear_strength",
+    "runs.csv --robot quadruped --free surface.tip_force,robot.modulus --model quasi-static",
+)
 _CORRELATED = 0.3  # of neighbouring residuals; more and the intervals are too narrow; chosen
 _SEEN = 0.9  # correlation of parameters that is worth a word
 
 
 @dataclass(frozen=True)
 class Options(SceneOptions):
-    """Fit fields of a scene to data by least squares, with intervals, in MuJoCo.
+    """Fit fields of a scene to measurements by least squares, with 95 % intervals.
 
-    Data are CSV files with units in the heads, of three kinds: `time [s]` with `left [mm]`,
-    `right [mm]`, `x@0.25 [mm]` or `z@0.5 [mm]`, places of the ends and of points marked at a part
-    of the length; `pressure [kPa]` with `angle [deg]` (and `length [mm]`) of a free segment;
-    `displacement [mm]` per cycle, `speed [mm/s]` or `height [mm]`, a row a run. Columns `surface`
-    and fields such as `robot.peak_pressure [kPa]` tell runs apart. Cells may be empty.
-
-    Noise is estimated, outliers count less, and where the camera's x is 0 is found. Prints each
-    parameter with its 95 % interval, and what the data do not determine; writes the fitted scene
-    (TOML) and a picture of data, model and residuals. Exit code 0: done; 2: bad input; 3: a
-    parameter is not determined or ended at a bound.
-
-    Example: undulator fit track.csv --scene my.toml --free
-    robot.modulus,surface.tip_force,surface.shear_strength
+    Data are CSV files with units in the heads; docs/fitting.md describes them. Prints each
+    parameter with its interval, and what the data do not determine; writes the fitted scene (TOML)
+    and a picture of data, model and residuals. Exit code 0: done; 2: bad input; 3: a parameter is
+    not determined or ended at a bound.
     """
 
     data: Annotated[tuple[Path, ...], tyro.conf.Positional] = ()
@@ -67,7 +62,7 @@ class Options(SceneOptions):
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
-    options = parse(Options, PROGRAM, argv)
+    options = parse(Options, PROGRAM, argv, EXAMPLES)
     from mjsim.fitting.determined import at_bounds, undetermined
 
     try:

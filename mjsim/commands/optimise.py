@@ -24,24 +24,20 @@ if TYPE_CHECKING:
     from mjsim.optimising.search import Generation
 
 PROGRAM = "undulator optimise"
+EXAMPLES = (
+    "--surface felt,gelatin,polyethylene",
+    "--surface gelatin --backward --aim air",
+    "--robot quadruped --surface felt --evaluations 200",
+)
 
 
 @dataclass(frozen=True)
 class Options(SceneOptions):
     """Search for the gait that goes farthest, fastest, or for the least air, on given ground.
 
-    Searched are lags between segments, how long each is pressed, how gently, and how high, in
-    steps of 1 % of the cycle and of the peak pressure, by CMA-ES on the quasi-static model. With
-    several surfaces the worst counts. What rests on states with a flag does not count, so that the
-    search finds no holes of the model; what is found is then walked by the elastica that friction
-    bends and by MuJoCo, and with pressure and friction 10 % off. Writes best.toml, a gait for
-    --gait, and best.png.
-
-    Columns: surface; searched, elastica, MuJoCo: displacement per cycle over L by each; 10 % off,
-    from and to; wave, what the gait of [Majidi13] does in MuJoCo. Exit code 0: done; 2: bad input;
-    3: nothing goes that way.
-
-    Example: undulator optimise --surface felt,gelatin,polyethylene
+    What is found by CMA-ES is then walked by finer models, and with pressure and friction 10 % off;
+    docs/gaits.md tells how, docs/output.md explains the columns. Writes best.toml, a gait for
+    --gait, and best.png. Exit code 0: done; 2: bad input; 3: nothing goes that way.
     """
 
     aim: Literal["displacement", "speed", "air", "work"] = "displacement"
@@ -66,7 +62,7 @@ class Options(SceneOptions):
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
-    options = parse(Options, PROGRAM, argv)
+    options = parse(Options, PROGRAM, argv, EXAMPLES)
     try:
         whole("evaluations", options.evaluations, 1)
         whole("seed", options.seed, 0)
@@ -120,7 +116,7 @@ def _found(
     from mjsim.optimising.space import Space
 
     scene = objective.scene
-    space = Space(len(scene.robot.segments), scene.gait.period, options.aim == "speed")
+    space = Space(len(scene.strip.segments), scene.gait.period, options.aim == "speed")
     with processes("mjsim.optimising.confirm", workers) as pool:
         history: list[Generation] = []
         with bar("search", options.evaluations) as advance:
@@ -159,7 +155,7 @@ def _record(
     from analytic.scene.air import air_per_cycle
 
     gait: Gait = last.best
-    air = air_per_cycle(objective.scene.robot, gait)
+    air = air_per_cycle(objective.scene.strip, gait)
     return {
         "aim": options.aim, "backward": options.backward, "model": objective.model,
         "evaluations": last.evaluations, "worth": last.worth,

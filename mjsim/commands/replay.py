@@ -29,7 +29,7 @@ class Options:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
-    options = parse(Options, PROGRAM, argv)
+    options = parse(Options, PROGRAM, argv, ("videos/felt.nc",))
     if gl.use_backend() is None:
         print(f"{PROGRAM}: {gl.HELP}", file=sys.stderr)
         return FAILED
@@ -38,7 +38,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         plugins.load(options.plugin)
     except ValueError as error:
         fail(PROGRAM, str(error))
-    from mjsim.pictures.films import film
+    from mjsim.pictures.recording import film
     from mjsim.results.trajectory import load
 
     try:

@@ -16,7 +16,6 @@ from mjsim.files.files import check_folder, whole
 from mjsim.pictures import gl
 
 if TYPE_CHECKING:
-    from mjsim.results.limb_walk import TreeWalk
     from mjsim.results.trajectory import Trajectory
 
 PROGRAM = "undulator report"
@@ -32,8 +31,6 @@ class Options:
     scene as TOML, versions and commit. It opens without a network, on a phone and on paper.
 
     Exit code 0: done; 2: bad input; 3: plotly is not there.
-
-    Example: undulator report videos/felt.nc videos/gelatin.nc --out page.html
     """
 
     trajectories: Annotated[tuple[Path, ...], tyro.conf.Positional]
@@ -47,7 +44,7 @@ class Options:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
-    options = parse(Options, PROGRAM, argv)
+    options = parse(Options, PROGRAM, argv, ("videos/felt.nc videos/gelatin.nc --out page.html",))
     if options.out.suffix not in (".html", ".htm"):
         fail(PROGRAM, f"out must end in .html, got {str(options.out)!r}")
     if not options.trajectories:
@@ -61,6 +58,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         fail(PROGRAM, str(error))
     try:
         from mjsim.pictures.document import Entry, page
+        from mjsim.results.record import record
     except ModuleNotFoundError:
         print(f"{PROGRAM}: {_EXTRA}", file=sys.stderr)
         return FAILED
@@ -68,7 +66,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     entries = []
     with bar("theory", len(loaded)) as advance:
         for path, (walk, origin), video in zip(options.trajectories, loaded, videos, strict=True):
-            entries.append(Entry(path.stem, walk, _record(walk), origin, video))
+            entries.append(Entry(path.stem, walk, record(walk), origin, video))
             advance(1)
     try:
         with whole(options.out) as part:
@@ -79,7 +77,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _load(path: Path) -> "tuple[Trajectory | TreeWalk, dict[str, Any]]":
+def _load(path: Path) -> "tuple[Trajectory, dict[str, Any]]":
     import h5netcdf
 
     from mjsim.results.trajectory import load
@@ -92,22 +90,12 @@ def _load(path: Path) -> "tuple[Trajectory | TreeWalk, dict[str, Any]]":
         raise ValueError(f"cannot read a trajectory from {str(path)!r}: {error}") from error
 
 
-def _record(walk: "Trajectory | TreeWalk") -> dict[str, Any]:
-    """The walk beside its reference."""
-    from mjsim.results import limb_record, record
-    from mjsim.results.trajectory import Trajectory
-
-    if isinstance(walk, Trajectory):
-        return record.record(walk)
-    return limb_record.record(walk)
-
-
-def _films(walks: "Sequence[Trajectory | TreeWalk]") -> list[bytes | None]:
+def _films(walks: "Sequence[Trajectory]") -> list[bytes | None]:
     """A video of each, or none where nothing here renders."""
     if gl.use_backend() is None:
         print(f"{PROGRAM}: {gl.HELP}", file=sys.stderr)
         return [None] * len(walks)
-    from mjsim.pictures.films import film
+    from mjsim.pictures.recording import film
 
     with tempfile.TemporaryDirectory() as folder:
         paths = [Path(folder) / f"{number}.mp4" for number in range(len(walks))]

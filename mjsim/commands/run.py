@@ -10,13 +10,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from analytic.scene.gait import GAITS
+from analytic.scene.limbs import ORDER, quadruped
+from analytic.scene.quadruped_gaits import QUADRUPED_GAITS, for_robot
+from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
 from mjsim.files.cli import FAILED, bar, fail, parse, say, strict_json
 from mjsim.files.files import check_folder
 from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import Tables, build, of_limbs
+from mjsim.files.tables import Tables, build
 from mjsim.pictures import gl
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Scene, resolved
 from mjsim.scene.auto import check_tolerance
 
 if TYPE_CHECKING:
@@ -24,42 +27,21 @@ if TYPE_CHECKING:
 
 PROGRAM = "undulator run"
 AUTO = "auto"  # the body that is picked from what was measured
+EXAMPLES = (
+    "--surface gelatin --cycles 2 --reverse",
+    "--robot quadruped --surface all",
+    "--robot.length 0.09 --robot.mass 0.012 --surface.tip-force 0.15",
+    "--scene my.toml --body auto",
+)
 _TOLERANCE = 0.02  # of it, relative on displacement
 
 
 @dataclass(frozen=True)
 class Options(SceneOptions):
-    """Walk a pneumatic strip over a surface in MuJoCo and compare with the analytic theory.
+    """Walk a robot of pneumatic limbs over a ground in MuJoCo, beside the quasi-static theory.
 
-    The same gait takes the strip forward on felt, where flat sides hold, and backward on wet
-    gelatin, where tips dig in. Prints a table, then writes a video and the trajectory (netCDF).
-
-    Columns of the table: surface; direction (forward, backward, or none: within its error bar or
-    below 0.002 L); Δ/L, displacement of the left end per cycle over the length, of the last cycle
-    on uniform ground; elastica, the same by the quasi-static reference; ±, what half its links
-    and states change; error, the difference of the two; unexpl., the part of Δ/L that the anchor
-    rule does not explain, an estimate of what inertia does (none on wet ground); height/L, the
-    greatest height; sim s, wall s, × real: simulated time, time that the stepping took, and their
-    ratio; status, ok or how it failed, and in brackets what makes the number unsure: jumped,
-    friction lets go at once somewhere; branch_end, no stable shape goes on; rolled_up, an end is
-    off the ground; what hangs on ties or on bounds that nearly are; a branch that ends at little
-    more pressure; other cycles that go elsewhere; inertia.
-
-    Keys of --json: surface, gait, body, friction, cycles, links, timestep_s, peak_pressure_Pa,
-    the scene; displacement_over_L and displacement_by_cycle_over_L, Δ/L and each cycle's,
-    displacement_m, speed_m_per_s, direction; predicted_by, predicted_displacement_over_L,
-    predicted_by_cycle_over_L, predicted_direction, the reference's;
-    prediction_uncertainty_over_L, the column ±; prediction_undecided_over_L, what hangs on ties;
-    prediction_flags, _notes, what is in brackets; error_over_L, unexplained_over_L,
-    amplitude_over_L, as the columns; heading_deg, the angle it turned by to the left;
-    sideways_over_L, how far it was beside its plane; slid_over_L, how far it slid down a slope in
-    its cycles; sim_time_s, wall_time_s, realtime_factor, status, as the columns; trajectory,
-    video, the files; provenance, versions and every number of the scene.
-
-    Exit code 0: done; 2: bad input; 3: the simulation failed.
-
-    Example: undulator run --surface gelatin --cycles 2 --reverse
-    Your own: undulator run --robot.length 0.09 --robot.mass 0.012 --surface.tip-force 0.15
+    Prints a table, then writes a video and the trajectory (netCDF). docs/output.md explains each
+    column and each key of --json. Exit code 0: done; 2: bad input; 3: the simulation failed.
     """
 
     tolerance: float | None = None
@@ -76,12 +58,10 @@ class Options(SceneOptions):
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
-    options = parse(Options, PROGRAM, argv)
+    options = parse(Options, PROGRAM, argv, EXAMPLES)
     gl.prepare()
     try:
         tables = tables_of(options)
-        if of_limbs(tables[0]):
-            return _walk_limbs(tables, options)
         tables, tolerance = _bodies(tables, options.tolerance)
         cases = [build(table) for table in tables]
         check_folder(options.out)
@@ -104,18 +84,6 @@ def main(argv: Sequence[str] | None = None) -> int:
             print(joint)
     fine = all(row["status"] in ("ok", "slid") for row in records)
     return 0 if fine else FAILED
-
-
-def _walk_limbs(tables: list[Tables], options: Options) -> int:
-    if options.tolerance is not None:
-        raise ValueError(f"tolerance is for strips, got {options.tolerance!r}")
-    from mjsim.files.limb_tables import build_tree
-
-    cases = [build_tree(table) for table in tables]
-    check_folder(options.out)
-    from mjsim.commands.run_limbs import run
-
-    return run(PROGRAM, cases, options.out, options.json, not options.no_video)
 
 
 def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables], float | None]:
@@ -157,7 +125,7 @@ def _walk(
         row = {**record(walk), "trajectory": str(path), "video": None, "provenance": origin}
         row["prediction_notes"] += note
         if failed:
-            print(f"{PROGRAM}: {_obituary(walk, path)}", file=sys.stderr)
+            print(f"{PROGRAM}: {_failure(walk, path)}", file=sys.stderr)
         records.append(row)
         walks.append(walk)
     return records, walks
@@ -170,7 +138,7 @@ def _simulate(
     from mjsim.simulation.checked import walk_checked
     from mjsim.simulation.simulation import simulate
 
-    total = round(scene.duration / numerics.timestep)
+    total = round(scene.duration / resolved(scene, numerics).timestep)
     with bar(f"simulating {scene.ground.name}", total) as advance:
         if tolerance is None:
             return simulate(scene, numerics, advance, forces=True), []
@@ -192,7 +160,7 @@ def _film(walks: "list[Trajectory]", records: list[dict[str, Any]], out: Path) -
     done = [i for i, walk in enumerate(walks) if walk.status in ("ok", "slid")]
     paths = [Path(records[i]["trajectory"]).with_suffix(".mp4") for i in done]
     joint = None
-    if len(done) > 1:
+    if len(done) > 1 and not walks[0].scene.in_space:
         own = [path.stem.partition("-")[2] for path in paths]
         joint = out / ("-".join(["all", own[0]]).rstrip("-") + ".mp4")
     try:
@@ -207,31 +175,36 @@ def _film(walks: "list[Trajectory]", records: list[dict[str, Any]], out: Path) -
 def file_name(scene: Scene, numerics: Numerics) -> str:
     """File name of a run, alike for the same scene and numerics alone.
 
-    The surface; what of gait, body and friction is not the default; and, where anything else is
-    not, a digest of everything.
+    The surface, after "limbs" for a robot of them; what of gait, body and friction is not the
+    default; and, where anything else is not, a digest of everything.
     """
-    words = [scene.ground.name]
-    words += [w for w, d in ((scene.gait.name, Scene.gait.name), (scene.body, Scene.body),
+    gait = for_robot(Scene.gait, scene.robot)
+    words = ["limbs"] * scene.in_space + [scene.ground.name]
+    words += [w for w, d in ((scene.gait.name, gait.name), (scene.body, Scene.body),
                              (scene.friction, Scene.friction)) if w != d]  # fmt: skip
-    named = scene.gait in [*GAITS.values(), *(gait.reversed() for gait in GAITS.values())]
+    known = {**GAITS, **QUADRUPED_GAITS}
+    named = [for_robot(own, scene.robot) for own in known.values()]
     usual = Scene(
-        gait=scene.gait if named and len(scene.robot.segments) == 3 else Scene.gait,
+        robot=quadruped() if scene.in_space else Robot(),
+        gait=scene.gait if scene.gait in [*named, *(gait.reversed() for gait in named)] else gait,
         ground=SURFACES.get(scene.ground.name, Scene.ground),
         body=scene.body,
         friction=scene.friction,
-    )
-    if (scene, numerics) != (usual, Numerics().resolved(scene.body, scene.friction)):
+    ) if scene.robot.chambers in (ORDER, Robot().chambers) else None  # fmt: skip
+    if usual is None or (scene, numerics) != (usual, resolved(usual)):
         described = json.dumps([repr(scene), asdict(numerics)], sort_keys=True)
         words.append(hashlib.sha256(described.encode()).hexdigest()[:8])
     return "-".join(words)
 
 
-def _obituary(walk: "Trajectory", path: Path) -> str:
+def _failure(walk: "Trajectory", path: Path) -> str:
+    """What is said of a walk that failed."""
     _, z = walk.nodes()
-    left, right = 1e3 * z[-1, [0, -1]]
+    begin, end = 1e3 * z[-1, [0, -1]]
     kilopascals = "/".join(f"{1e-3 * p:.0f}" for p in walk.pressure[-1])
+    whose = "trunk's ends" if walk.scene.in_space else "ends"
     return (
-        f"{walk.scene.ground.name}: {walk.status} at t = {walk.time[-1]:.2f} s, at segment "
-        f"pressures {kilopascals} kPa, ends {left:+.1f} and {right:+.1f} mm off the ground; "
+        f"{walk.scene.ground.name}: {walk.status} at t = {walk.time[-1]:.2f} s, at chamber "
+        f"pressures {kilopascals} kPa, {whose} {begin:+.1f} and {end:+.1f} mm off the ground; "
         f"see the last states with undulator replay {path}"
     )

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from mjsim.sweeps.store import Store
 
 PROGRAM = "undulator sweep"
+EXAMPLES = ("--example > plan.toml", "plan.toml --out results.sqlite --export results.csv")
 INTERRUPTED = 130
 
 
@@ -38,8 +39,6 @@ class Options:
 
     Exit code 0: every scene has a row, and one a result; 2: bad input, every scene is refused; 3:
     the cluster is gone, or no scene has a result; 130: interrupted.
-
-    Example: undulator sweep plan.toml --out results.sqlite --export results.csv
     """
 
     plan: Annotated[Path | None, tyro.conf.Positional] = None
@@ -62,7 +61,7 @@ class Options:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
-    options = parse(Options, PROGRAM, argv)
+    options = parse(Options, PROGRAM, argv, EXAMPLES)
     from mjsim.sweeps.executors import LostError
     from mjsim.sweeps.export import check_ending, export
     from mjsim.sweeps.plan import EXAMPLE, read_plan

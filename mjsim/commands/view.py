@@ -17,14 +17,12 @@ PROGRAM = "undulator view"
 class Options(SceneOptions):
     """Play a scene in a window: the gait over and over, or pressures by hand.
 
-    Space plays and pauses the gait, Backspace starts anew. Under Control, at the right, there is a
-    slider a chamber, in kPa, which takes it in hand, and one that chooses the ground: the scene's
-    own, or a named one. What moves is the simulation of undulator run, of any body and law. Prints
-    on closing how many frames a second were shown, and times real time.
+    Space plays and pauses the gait, Backspace starts anew. Under Control, at the right, there is
+    one slider per chamber, in kPa, which takes it in hand, and one that chooses the ground: the
+    scene's own, or a named one. What moves is the simulation of undulator run, of any robot. Prints
+    on closing the frames per second, and times real time.
 
     Exit code 0: closed; 2: bad input; 3: no screen here.
-
-    Example: undulator view --surface gelatin
     """
 
     speed: float = 1.0
@@ -35,7 +33,7 @@ class Options(SceneOptions):
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
-    options = parse(Options, PROGRAM, argv)
+    options = parse(Options, PROGRAM, argv, ("--surface gelatin", "--robot quadruped"))
     try:
         _check("speed", options.speed)
         if options.seconds is not None:
@@ -61,8 +59,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     shown = show(session, options.speed, options.seconds)
     rate, times = shown.frames / shown.wall_time, shown.simulated / shown.wall_time
-    print(f"{rate:.0f} frames a second, {times:.2f} times real time, "
-          f"left end {session.displacement:+.4f} L, {session.seen.status}")  # fmt: skip
+    print(f"{rate:.0f} frames per second, {times:.2f} times real time, "
+          f"{session.displacement:+.4f} L ahead, {session.seen.status}")  # fmt: skip
     return 0
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from analytic.scene.surface import SURFACES
 from mjsim.env.task import FALL, Settings, commands, middle, names, sense
 from mjsim.results.status import Status
-from mjsim.scene import Scene
+from mjsim.scene import Scene, resolved
 from mjsim.simulation.batch_strips import Strips
 from mjsim.simulation.simulation import Simulation
 
@@ -88,12 +88,13 @@ class WalkEnv(gymnasium.Env):  # type: ignore[misc]
             from mjsim.pictures.still import Still
 
             try:
-                self._picture = Still(self._simulation.scene, self.settings.numerics.links)
+                self._picture = Still(self._simulation.scene, self.settings.resolved)
             except mujoco.FatalError as error:
                 raise gymnasium.error.DependencyNotInstalled(
                     "no OpenGL: set MUJOCO_GL=egl (without a screen) before Python starts"
                 ) from error
-        return self._picture.draw(self._simulation.nodes(), self._felt[: self.settings.segments])
+        simulation, pressed = self._simulation, self._felt[: self.settings.segments]
+        return self._picture.draw(simulation.nodes(), simulation.data.qpos, pressed)
 
     def close(self) -> None:
         """Let go of the renderer."""
@@ -142,7 +143,7 @@ class WalkVectorEnv(VectorEnv):  # type: ignore[misc]
         self.action_space = batch_space(self.single_action_space, num_envs)
         self.metadata = {**self.metadata, "render_modes": []}
         base = self.settings.scene({"ground.surface": self.settings.surfaces[0]})
-        numerics = self.settings.numerics.resolved(base.body, base.friction)
+        numerics = resolved(base, self.settings.numerics)
         self._strips = Strips([base] * num_envs, numerics, threads)
         self._numerics, self.render_mode = numerics, None
         self._rngs: list[np.random.Generator] = []

@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 from analytic.friction.contact_length import may_lie_flat
 from mjsim.env.dm_binding import mujoco as dm_mujoco
 from mjsim.env.dm_binding import wrapper
-from mjsim.friction.contact_length import ContactForces, pads_by_node
+from mjsim.friction.contact_length import ContactForces
 from mjsim.model.builder import compile_model
+from mjsim.model.pads import pads_by_node
 from mjsim.model.standalone import walking_scene
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Resolved, Scene, resolved
 
 Array = NDArray[np.float64]
 
@@ -24,7 +25,7 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
     """
 
     _pads: NDArray[np.int_]
-    _numerics: Numerics
+    _numerics: Resolved
     _scene: Scene
     _start: float
 
@@ -36,7 +37,7 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
             ValueError: the body cannot do what the scene asks for.
         """
         scene = walking_scene(scene)
-        numerics = (numerics or Numerics()).resolved(scene.body, scene.friction)
+        numerics = resolved(scene, numerics)
         physics: Physics = cls.from_model(wrapper.MjModel(compile_model(scene, numerics)))
         physics._scene, physics._numerics = scene, numerics
         physics._pads = pads_by_node(physics.model.ptr)
@@ -78,5 +79,4 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
         }
 
     def _radius(self) -> float:
-        assert self._numerics.pad_radius is not None
         return self._numerics.pad_radius

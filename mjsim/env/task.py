@@ -12,6 +12,7 @@ environments; slower).
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,7 +22,7 @@ from analytic.checks import is_number, positive
 from analytic.scene.chain import segment_overlap
 from mjsim.files.quantities import check_field, field_value, with_fields
 from mjsim.files.tables import Tables, build
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Resolved, Scene, resolved
 from mjsim.scene.scene import Contacts
 
 Array = NDArray[np.float64]
@@ -60,10 +61,10 @@ class Settings:
         positive("duration", self.duration, "s")
         if not self.surfaces:
             raise ValueError("surfaces must be one name at least, got none")
-        steps = self.control_period / self.numerics.timestep
+        steps = self.control_period / self.resolved.timestep
         if not (round(steps) >= 1 and abs(steps - round(steps)) < _WHOLE * steps):
             raise ValueError(
-                f"control_period must be whole time steps of {self.numerics.timestep:g} s, got "
+                f"control_period must be whole time steps of {self.resolved.timestep:g} s, got "
                 f"{self.control_period:g} s"
             )
         for name, said in self.randomise.items():
@@ -73,10 +74,15 @@ class Settings:
         for surface in self.surfaces:
             self.scene({"ground.surface": surface})
 
+    @cached_property
+    def resolved(self) -> Resolved:
+        """The numerics with a number for everything."""
+        return resolved(self.scene({}), self.numerics)
+
     @property
     def steps(self) -> int:
         """Time steps of a control period."""
-        return round(self.control_period / self.numerics.timestep)
+        return round(self.control_period / self.resolved.timestep)
 
     @property
     def length(self) -> int:
@@ -86,7 +92,7 @@ class Settings:
     @property
     def segments(self) -> int:
         """Chambers of the robot."""
-        return len(self.scene({}).robot.segments)
+        return len(self.scene({}).robot.chambers)
 
     def scene(self, values: Mapping[str, Any]) -> Scene:
         """The scene with other values of some fields.
@@ -131,7 +137,7 @@ def names(segments: int) -> Names:
 
 def sense(
     scenes: Sequence[Scene],
-    numerics: Numerics,
+    numerics: Resolved,
     pressure: Array,
     coordinates: Array,
     contact: Array,
@@ -149,11 +155,11 @@ def sense(
         inclinations of left and right end, rising inwards is positive [rad]; lengths of side
         contact over L.
     """
-    peak = np.array([scene.robot.peak_pressure for scene in scenes])
-    length = np.array([scene.robot.length for scene in scenes])
+    peak = np.array([scene.strip.peak_pressure for scene in scenes])
+    length = np.array([scene.strip.length for scene in scenes])
     hinges = coordinates[:, 3:]
     bends = np.stack(
-        [-turn @ segment_overlap(scene.robot.borders, numerics.links)
+        [-turn @ segment_overlap(scene.strip.borders, numerics.links)
          for scene, turn in zip(scenes, hinges, strict=True)]
     )  # fmt: skip
     left = coordinates[:, 2]
@@ -163,16 +169,16 @@ def sense(
     )
 
 
-def middle(scenes: Sequence[Scene], numerics: Numerics, coordinates: Array) -> Array:
+def middle(scenes: Sequence[Scene], numerics: Resolved, coordinates: Array) -> Array:
     """Place of the middle between the two ends over L, (B,)."""
     from mjsim.simulation.batch_simulate import planar_nodes
 
     return np.array(
-        [planar_nodes(scene, numerics, row[None])[0, [0, -1], 0].mean() / scene.robot.length
+        [planar_nodes(scene, numerics, row[None])[0, [0, -1], 0].mean() / scene.strip.length
          for scene, row in zip(scenes, coordinates, strict=True)]
     )  # fmt: skip
 
 
 def commands(scene: Scene, action: ArrayLike) -> Array:
     """Pressures that an action commands to the valves, (S,) [Pa]; outside [0, 1] it is cut."""
-    return scene.robot.peak_pressure * np.clip(np.asarray(action, dtype=float), 0.0, 1.0)
+    return scene.strip.peak_pressure * np.clip(np.asarray(action, dtype=float), 0.0, 1.0)

@@ -90,10 +90,18 @@ def bar(text: str, total: int) -> Iterator[Callable[[int], None]]:
         yield lambda steps: (shown.update(steps), None)[1]
 
 
-def parse(kind: type[Options], program: str, argv: Sequence[str] | None) -> Options:
+def parse(
+    kind: type[Options], program: str, argv: Sequence[str] | None, examples: Sequence[str] = ()
+) -> Options:
     """Read options into a dataclass whose field comments are the help.
 
     Exits with 0 after --help, and with 2 and one line for a word it cannot read.
+
+    Args:
+        kind: the dataclass; its documentation says in two lines what the command does.
+        program: name of the command.
+        argv: what was typed; that of this process if None.
+        examples: that the help ends with, without the name of the command.
     """
     printed = io.StringIO()
     try:
@@ -101,6 +109,7 @@ def parse(kind: type[Options], program: str, argv: Sequence[str] | None) -> Opti
             return tyro.cli(kind, prog=program, args=argv, config=(tyro.conf.FlagCreatePairsOff,))
     except SystemExit as stop:
         if stop.code == 0:
+            say("\n".join(["examples:", *(f"  {program} {words}" for words in examples)]))
             raise
     fail(program, _first_message(printed.getvalue()))
 

@@ -1,32 +1,26 @@
-"""Scenes of robots of limbs from TOML tables and options.
+"""Robots of limbs from TOML tables and options.
 
 [robot]         name = "quadruped", and fields that all its limbs share: modulus, thickness, ...
 [[robot.limbs]] in place of a name: name, and for all but the first `on`, the limb that carries
                 it, `at`, its "begin" or "end", `angle_deg` of its direction in plan, from the
                 ground's x to the left, `offset` to the left [m]; and fields of analytic.Robot of
-                its own over the shared ones: length, width, mass, ...
-[gait]          name of an undulation, left and right, parts of the pressure that legs of that
-                side get; or stages of a fraction a limb, ramp_time, or file
-[ground]        as for strips
-[numerics]      cycles, friction, gravity, settle_time; fields of mjsim.scene.limbs.TreeNumerics
+                its own over the shared ones: length, width, mass, segments, ...
+
+A robot of one limb that points along x is a strip.
 """
 
 import math
 from collections.abc import Mapping
-from dataclasses import fields, replace
-from pathlib import Path
+from dataclasses import replace
 from typing import Any
 
 from analytic.checks import one_of
-from analytic.scene.gait import Gait
-from analytic.scene.limbs import Limb, TreeRobot, quadruped
-from analytic.scene.quadruped_gaits import QUADRUPED_GAITS, UNDULATIONS, undulation
+from analytic.scene.limbs import AnyRobot, Limb, LimbedRobot, quadruped
 from analytic.scene.robot import Robot
-from mjsim.files.tables import Tables, build_ground
-from mjsim.files.typed import Table, as_number, make, read_toml
-from mjsim.scene.limbs import TreeNumerics, TreeScene
+from mjsim.files.typed import Table, as_number, make
 
 ROBOTS = ("quadruped",)
+KEYS = ("name", "limbs")  # of [robot], that tell such a robot
 _PLACED = ("name", "on", "at", "angle_deg", "offset")  # of a limb, beside what its strip is
 _OWN = {  # that the quadruped knows, and what to give in its place
     **dict.fromkeys(("length", "width", "mass", "weight_per_length", "segments"),
@@ -36,43 +30,16 @@ _OWN = {  # that the quadruped knows, and what to give in its place
 }  # fmt: skip
 _INSTEAD = {"mass": "weight_per_length", "weight_per_length": "mass",
             "rigidity": "modulus", "modulus": "rigidity"}  # fmt: skip
-NOT_OF_LIMBS = {  # that a limb has no say in
-    "segments": "is not of limbs, which are one segment each; chain limbs by `on` and `at`",
-    "peak_pressure": "is the whole robot's, in [robot]; a gait's stages give each limb its part",
-}
-LIMB_FIELDS = ("cycles", "friction", "gravity", "settle_time")
+PEAK = "peak_pressure"
 
 
-def build_tree(tables: Tables, where: str = "") -> tuple[TreeScene, TreeNumerics]:
-    """The scene and the numerics of tables.
-
-    Raises:
-        ValueError: a value cannot be; the message names its table and key.
-    """
-    robot = build_robot(tables.get("robot", {}), f"{where}[robot] ")
-    gait = build_gait(tables.get("gait", {}), f"{where}[gait] ", robot)
-    ground = dict(tables.get("ground", {}))
-    if ground.pop("slope_deg", 0.0):
-        raise ValueError(f"{where}[ground] slope_deg is for strips, not for robots of limbs")
-    if any(tables.get("valves", {}).values()):
-        raise ValueError(f"{where}[valves] are for strips, not for robots of limbs")
-    values = tables.get("numerics", {})
-    known = (*LIMB_FIELDS, *(field.name for field in fields(TreeNumerics)))
-    for key in values:
-        one_of(f"{where}[numerics] key of a robot of limbs", key, known)
-    scene = make(
-        TreeScene, {key: value for key, value in values.items() if key in LIMB_FIELDS},
-        f"{where}[numerics] ", robot=robot, gait=gait,
-        ground=build_ground(ground, f"{where}[ground] "),
-    )  # fmt: skip
-    rest = {key: value for key, value in values.items() if key not in LIMB_FIELDS}
-    numerics = make(TreeNumerics, rest, f"{where}[numerics] ")
-    numerics.check(scene)
-    return scene, numerics
+def of_limbs(table: Table) -> bool:
+    """Whether a table is that of a robot of limbs, or of one with a name."""
+    return bool({*KEYS} & table.keys())
 
 
-def build_robot(table: Table, where: str = "") -> TreeRobot:
-    """A robot by its name, or of limbs."""
+def build_robot(table: Table, where: str = "") -> AnyRobot:
+    """A robot by its name, or of limbs; of one that points along x, the strip that it is."""
     shared = {key: value for key, value in table.items() if key not in ("name", "limbs")}
     if "limbs" not in table:
         one_of(f"{where}name", table["name"], ROBOTS)
@@ -82,24 +49,26 @@ def build_robot(table: Table, where: str = "") -> TreeRobot:
         base = make(Robot, shared, where)
         return replace(quadruped(base), peak_pressure=base.peak_pressure)
     if "segments" in shared:
-        raise ValueError(f"{where}segments {NOT_OF_LIMBS['segments']}")
+        raise ValueError(f"{where}segments are each limb's own, in [[robot.limbs]]")
     limbs = table["limbs"]
     if not (isinstance(limbs, list) and limbs and all(isinstance(limb, dict) for limb in limbs)):
         raise ValueError(f"{where}limbs must be tables, got {limbs!r}")
     _refuse_idle(shared, limbs, where)
-    peak = make(Robot, {k: v for k, v in shared.items() if k == "peak_pressure"}, where)
+    peak = make(Robot, {k: v for k, v in shared.items() if k == PEAK}, where).peak_pressure
     built = tuple(
         _limb(limb, shared, f"{where}limb {number}: ") for number, limb in enumerate(limbs, start=1)
     )
     try:
-        return TreeRobot(built, peak.peak_pressure)
+        robot = LimbedRobot(built, peak)
     except ValueError as error:
         raise ValueError(f"{where}{error}") from error
+    one = len(built) == 1 and built[0].angle == 0
+    return replace(built[0].strip, peak_pressure=peak) if one else robot
 
 
 def _refuse_idle(shared: Table, limbs: list[Table], where: str) -> None:
     """Raise ValueError for what all limbs have of their own, so that it would do nothing."""
-    for key in shared.keys() - NOT_OF_LIMBS.keys():
+    for key in shared.keys() - {PEAK}:
         names = {key, _INSTEAD.get(key, key)}
         if all(names & limb.keys() for limb in limbs):
             raise ValueError(
@@ -111,58 +80,19 @@ def _limb(table: Mapping[str, Any], shared: Table, where: str) -> Limb:
     if "name" not in table:
         raise ValueError(f"{where}name is missing")
     own = {key: value for key, value in table.items() if key not in _PLACED}
-    for key in own.keys() & NOT_OF_LIMBS.keys():
-        raise ValueError(f"{where}{key} {NOT_OF_LIMBS[key]}; got {own[key]!r}")
+    if PEAK in own:
+        raise ValueError(
+            f"{where}{PEAK} is the whole robot's, in [robot]; a gait's stages give each chamber "
+            f"its part; got {own[PEAK]!r}"
+        )
     for key in ("length", "width"):
         if key not in own and key not in shared:
             raise ValueError(f"{where}{key} is missing")
     for one, other in _INSTEAD.items():
         if one in own:
             shared = {key: value for key, value in shared.items() if key != other}
-    strip = make(Robot, {**shared, **own, "segments": (1.0,)}, where)
+    strip = make(Robot, {"segments": (1.0,), **shared, **own}, where)
     angle = math.radians(as_number(table.get("angle_deg", 0.0), f"{where}angle_deg", "deg"))
     offset = as_number(table.get("offset", 0.0), f"{where}offset", "m")
     placed = {key: table[key] for key in ("name", "on", "at") if key in table}
     return make(Limb, placed, where, strip=strip, angle=angle, offset=offset)
-
-
-def build_gait(table: Table, where: str, robot: TreeRobot) -> Gait:
-    """A gait of a fraction a limb."""
-    table = dict(table)
-    if "file" in table:
-        path = Path(str(table.pop("file")))
-        if path.suffix == ".csv":
-            raise ValueError(
-                f"{where}file must be a .toml file of stages for a robot of limbs; measured "
-                f"pressures are for strips; got {str(path)!r}"
-            )
-        table = {**read_toml(path, "gait"), **table}
-        table.setdefault("name", path.stem)
-        where = f"gait {str(path)!r}: "
-    backward = table.pop("reverse", False)
-    if "stages" in table:
-        table.setdefault("name", "custom")
-        gait = make(Gait, table, where)
-    else:
-        sides = {
-            side: as_number(table.pop(side), f"{where}{side}", "1")
-            for side in ("left", "right") if side in table
-        }  # fmt: skip
-        name = table.pop("name", "wave")
-        known = (*UNDULATIONS, *QUADRUPED_GAITS)
-        one_of(f"{where}name of a gait without stages", name, known)
-        if robot.names != quadruped().names:
-            raise ValueError(f"{where}stages must be given for limbs {', '.join(robot.names)}")
-        for key in table:
-            one_of(f"{where}key", key, ("name", "left", "right", "ramp_time", "reverse", "stages"))
-        if name in QUADRUPED_GAITS and sides:
-            raise ValueError(
-                f"{where}{next(iter(sides))} is for {', '.join(UNDULATIONS)}, not {name}"
-            )
-        try:
-            gait = QUADRUPED_GAITS[name] if name in QUADRUPED_GAITS else undulation(name, **sides)
-        except ValueError as error:
-            raise ValueError(f"{where}{error}") from error
-        if "ramp_time" in table:
-            gait = make(Gait, table, where, name=gait.name, stages=gait.stages)
-    return gait.reversed() if backward else gait

@@ -79,7 +79,6 @@ _LimbOptions = optional(
          field(default=None)),
         ("right", option(float, "part of the pressure that the right legs get", 1.0),
          field(default=None)),
-        ("elements", option(int, "hinges of each limb", 6), field(default=None)),
     ],
 )  # fmt: skip
 _bare = tyro.conf.arg(help_behavior_hint="")
@@ -101,7 +100,7 @@ class SceneOptions:
     reverse: bool = False
     """run the gait's stages backwards"""
     robot: Annotated[str | None, _bare] = None
-    """strip, or quadruped: a torso and four legs in space, by undulator run and undulator export"""
+    """strip, or quadruped: a torso and four legs in space"""
     plugin: Plugins = ()
     limbs_: Annotated[_LimbOptions, tyro.conf.arg(name="limbs")] = field(
         default_factory=_LimbOptions
@@ -153,10 +152,7 @@ def tables_of(options: SceneOptions) -> list[Tables]:
         gait["reverse"] = True
     layers = [read_tables(options.scene)] if options.scene else []
     numerics = given(options.numerics_)
-    sides = given(options.limbs_)
-    if "elements" in sides:
-        numerics["elements"] = sides.pop("elements")
-    gait.update(sides)
+    gait.update(given(options.limbs_))
     if options.robot is not None:
         one_of("robot", options.robot, ROBOTS)
         if options.robot != ROBOTS[0]:

@@ -1,9 +1,11 @@
 """Scenes as tables of plain values, from TOML files and from the command line.
 
-    [robot]     fields of analytic.Robot, in SI units
+    [robot]     fields of analytic.Robot, in SI units; or a name, or [[robot.limbs]], see
+                mjsim.files.limb_tables
     [gait]      name of a gait, or stages and ramp_time, or lag, duty, ramp and period of
                 analytic.scene.trapezoid, or file: a TOML table of these, or a CSV of measured
-                pressures
+                pressures; left and right, parts of the pressure that the quadruped's legs of that
+                side get
     [valves]    fields of mjsim.scene.Valves: time constants, dead time, flow limit
     [ground]    surface, a name; or fields of analytic.Surface; slope_deg; or patches beside each
                 other, [[ground.patches]] with `from` [m] and a surface
@@ -22,16 +24,21 @@ from typing import Any
 from analytic.checks import one_of
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.ground import Patches
+from analytic.scene.limbs import ORDER, AnyRobot, LimbedRobot
+from analytic.scene.quadruped_gaits import QUADRUPED_GAITS, undulation
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES, Ground, Surface
 from analytic.scene.trapezoid import trapezoid
+from mjsim.files.limb_tables import KEYS as ROBOT_KEYS
+from mjsim.files.limb_tables import build_robot, of_limbs
 from mjsim.files.measured import read_gait
-from mjsim.files.typed import UNITS, Table, as_type, checked, make, read_toml
+from mjsim.files.typed import UNITS, Table, as_number, as_type, checked, make, read_toml
 from mjsim.scene.numerics import Numerics
-from mjsim.scene.scene import Scene
+from mjsim.scene.scene import Scene, resolved
 from mjsim.scene.valves import Valves
 
 Tables = dict[str, Table]
+_STRIP = Robot()
 
 NAMES = ("robot", "gait", "valves", "ground", "numerics")
 SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation", "gravity",
@@ -39,29 +46,16 @@ SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation"
 SURFACE_FIELDS = tuple(field.name for field in fields(Surface) if field.name != "name")
 FILES = (".toml", ".csv")  # of gaits
 TRAPEZOID = ("lag", "duty", "ramp")
-# of robots of limbs, which mjsim.files.limb_tables builds
-LIMBS = {
-    "robot": ("name", "limbs"),
-    "gait": ("left", "right"),
-    "numerics": ("elements", "contact_softness", "tie_time"),
-}
+SIDES = ("left", "right")  # of the quadruped
+_RENAMED = {("numerics", "elements"): "links"}  # keys of older files
 _KEYS: dict[str, tuple[str, ...]] = {
-    "robot": (*(field.name for field in fields(Robot)), *LIMBS["robot"]),
-    "gait": (
-        "name",
-        "stages",
-        "ramp_time",
-        *TRAPEZOID,
-        "period",
-        "reverse",
-        "file",
-        "repeats",
-        *LIMBS["gait"],
-    ),
+    "robot": (*(field.name for field in fields(Robot)), *ROBOT_KEYS),
+    "gait": ("name", "stages", "ramp_time", *TRAPEZOID, "period", "reverse", "file", "repeats",
+             *SIDES),
     "valves": tuple(field.name for field in fields(Valves)),
     "ground": ("surface", *SURFACE_FIELDS, "slope_deg", "patches"),
-    "numerics": (*SCENE_FIELDS, *(field.name for field in fields(Numerics)), *LIMBS["numerics"]),
-}
+    "numerics": (*SCENE_FIELDS, *(field.name for field in fields(Numerics))),
+}  # fmt: skip
 
 
 def read_tables(path: Path) -> Tables:
@@ -82,6 +76,8 @@ def read_tables(path: Path) -> Tables:
 def check_keys(name: str, table: Mapping[str, Any], where: str = "") -> None:
     """Raise ValueError for a key that a table does not have."""
     for key in table:
+        if (name, key) in _RENAMED:
+            raise ValueError(f"{where}key {key!r} of [{name}] is now {_RENAMED[name, key]!r}")
         if key not in _KEYS[name]:
             raise ValueError(
                 f"{where}key {key!r} of [{name}] is unknown; known are {', '.join(_KEYS[name])}"
@@ -99,20 +95,15 @@ def merged(*layers: Tables) -> Tables:
             if name == "ground" and {"surface", "patches"} & table.keys():
                 kept = {k: v for k, v in result[name].items() if k == "slope_deg"}
                 result[name] = kept
-            if name == "robot" and {"name", "limbs"} & table.keys():
-                result[name] = {k: v for k, v in result[name].items() if k not in LIMBS["robot"]}
+            if name == "robot" and of_limbs(table):
+                result[name] = {k: v for k, v in result[name].items() if k not in ROBOT_KEYS}
             if name == "gait" and {"name", "stages", "file", *TRAPEZOID} & table.keys():
                 own = (*TRAPEZOID, "period") if {*TRAPEZOID} & table.keys() else ("ramp_time",)
                 result[name] = {
-                    k: v for k, v in result[name].items() if k in (*own, "reverse", *LIMBS["gait"])
+                    k: v for k, v in result[name].items() if k in (*own, "reverse", *SIDES)
                 }
             result[name] = {**result[name], **table}
     return result
-
-
-def of_limbs(tables: Tables) -> bool:
-    """Whether a scene's robot is one of limbs, see mjsim.files.limb_tables."""
-    return bool({*LIMBS["robot"]} & tables.get("robot", {}).keys())
 
 
 def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
@@ -121,19 +112,20 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
     Raises:
         ValueError: a value cannot be; the message names its table and key.
     """
-    if of_limbs(tables):
-        raise ValueError(
-            f"{where}[robot] a robot of limbs walks by undulator run and undulator export alone"
-        )
-    robot = make(Robot, tables.get("robot", {}), f"{where}[robot] ")
-    gait, highest = _gait_of(tables.get("gait", {}), f"{where}[gait] ", len(robot.segments))
-    if highest is not None and "peak_pressure" in tables.get("robot", {}):
+    table = tables.get("robot", {})
+    robot: AnyRobot = (
+        build_robot(table, f"{where}[robot] ") if of_limbs(table)
+        else make(Robot, table, f"{where}[robot] ")
+    )  # fmt: skip
+    gait, highest = _gait_of(tables.get("gait", {}), f"{where}[gait] ", robot)
+    if highest is not None and "peak_pressure" in table:
         gait = _of_peak(gait, highest, robot.peak_pressure, f"{where}[robot] ")
     elif highest is not None:
         robot = replace(robot, peak_pressure=highest)
     ground = tables.get("ground", {})
     slope = as_type(float, ground.get("slope_deg", 0.0), f"{where}[ground] slope_deg", "deg")
     values = tables.get("numerics", {})
+    check_keys("numerics", values, where)
     scene_values = {key: value for key, value in values.items() if key in SCENE_FIELDS}
     scene = make(
         Scene, scene_values, f"{where}[numerics] ", robot=robot, gait=gait,
@@ -141,7 +133,12 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
         ground=build_ground(ground, f"{where}[ground] "), slope=math.radians(slope),
     )  # fmt: skip
     rest = {key: value for key, value in values.items() if key not in SCENE_FIELDS}
-    return scene, make(Numerics, rest, f"{where}[numerics] ")
+    numerics = make(Numerics, rest, f"{where}[numerics] ")
+    try:
+        resolved(scene, numerics)
+    except ValueError as error:
+        raise ValueError(f"{where}[numerics] {error}") from error
+    return scene, numerics
 
 
 def build_ground(table: Table, where: str = "") -> Ground:
@@ -192,8 +189,11 @@ def build_surface(table: Table, where: str = "") -> Surface:
     return make(Surface, given, where, name=name)
 
 
-def build_gait(table: Table, where: str = "", segments: int = 3) -> Gait:
-    """A named gait, one of given stages, of a lag, or from a file; reversed and timed as given."""
+def build_gait(table: Table, where: str = "", robot: AnyRobot = _STRIP) -> Gait:
+    """A named gait, one of given stages, of a lag, or from a file; reversed and timed as given.
+
+    For the quadruped a gait of three segments is that of its rear legs, torso and front legs.
+    """
     table = dict(table)
     if "file" in table:
         path = Path(str(table.pop("file")))
@@ -205,24 +205,41 @@ def build_gait(table: Table, where: str = "", segments: int = 3) -> Gait:
         table = {**content, **table}
         where = f"gait {str(path)!r}: "
     backward = table.pop("reverse", False)
+    of_quadruped = robot.chambers == ORDER
+    sides = _sides(table, where) if of_quadruped else {}
     if {*TRAPEZOID} & table.keys():
-        gait = _trapezoid(table, where, segments)
+        gait = _trapezoid(table, where, 3 if of_quadruped else len(robot.chambers))
     elif "stages" in table:
         table.setdefault("name", "custom")
         gait = make(Gait, table, where)
     else:
-        name = table.pop("name", "wave")
-        one_of(f"{where}name of a gait without stages", name, GAITS)
-        gait = GAITS[name]
-        if table:
-            gait = replace(gait, **checked(Gait, table, where))
+        name, known = table.pop("name", "wave"), {**GAITS, **QUADRUPED_GAITS}
+        if isinstance(robot, LimbedRobot) and not of_quadruped:
+            raise ValueError(f"{where}stages must be given for {', '.join(robot.chambers)}")
+        one_of(f"{where}name of a gait without stages", name, known if of_quadruped else GAITS)
+        gait = replace(known[name], **checked(Gait, table, where)) if table else known[name]
+    if sides and gait.segments != 3:
+        raise ValueError(f"{where}{next(iter(sides))} is for gaits of three segments such as "
+                         f"{', '.join(GAITS)}, not {gait.name}")  # fmt: skip
+    if of_quadruped and gait.segments == 3:
+        try:
+            gait = undulation(gait, **sides)
+        except ValueError as error:
+            raise ValueError(f"{where}{error}") from error
     return gait.reversed() if backward else gait
 
 
-def _gait_of(table: Table, where: str, segments: int) -> tuple[Gait, float | None]:
+def _sides(table: Table, where: str) -> dict[str, float]:
+    """Parts of the pressure of the quadruped's legs, taken out of the table of its gait."""
+    return {
+        side: as_number(table.pop(side), f"{where}{side}", "1") for side in SIDES if side in table
+    }
+
+
+def _gait_of(table: Table, where: str, robot: AnyRobot) -> tuple[Gait, float | None]:
     """The gait, and the highest pressure if it was measured [Pa]."""
     if not str(table.get("file", "")).endswith(".csv"):
-        return build_gait(table, where, segments), None
+        return build_gait(table, where, robot), None
     for key in table:
         one_of(f"{where}key beside a .csv file", key, ("file", "reverse", "name"))
     gait, highest = read_gait(Path(str(table["file"])))

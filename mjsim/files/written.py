@@ -9,51 +9,45 @@ from typing import Any
 import tomli_w
 
 from analytic.scene.ground import Patches
-from analytic.scene.limbs import Limb
+from analytic.scene.limbs import Limb, limbs_of
 from analytic.scene.surface import SURFACES, Ground, Surface
-from mjsim.files.limb_tables import LIMB_FIELDS, NOT_OF_LIMBS
+from mjsim.files.limb_tables import PEAK
 from mjsim.files.tables import SCENE_FIELDS, SURFACE_FIELDS, Tables
 from mjsim.files.typed import Table
-from mjsim.scene.limbs import TreeNumerics, TreeScene
-from mjsim.scene.numerics import Numerics
+from mjsim.scene.numerics import OF_SPACE, OF_THE_PLANE, Numerics
 from mjsim.scene.scene import Scene
 
 _LIST = re.compile(r"\[\s+([^\[\]=]+?),\s+\]")  # of numbers, a line each
 
 
-def as_tables(scene: Scene | TreeScene, numerics: Numerics | TreeNumerics) -> Tables:
+def as_tables(scene: Scene, numerics: Numerics) -> Tables:
     """The tables from which a scene is built again, whole and without files.
 
     Raises:
         ValueError: the ground is of a kind that tables do not know.
     """
-    gait = scene.gait
-    named = {field.name: getattr(numerics, field.name) for field in fields(numerics)}
-    tables = {
+    gait, robot = scene.gait, scene.robot
+    idle = OF_THE_PLANE if scene.in_space else OF_SPACE
+    named = {
+        field.name: getattr(numerics, field.name) for field in fields(numerics)
+        if field.name not in idle
+    }  # fmt: skip
+    table = _plain(asdict(robot))
+    if scene.in_space:
+        table["limbs"] = [_limb(limb) for limb in limbs_of(robot)]
+    return {
+        "robot": table,
         "gait": _plain({"name": gait.name, "stages": gait.stages, "ramp_time": gait.ramp_time,
                         "repeats": gait.repeats}),
-    }  # fmt: skip
-    if isinstance(scene, TreeScene):
-        limbs = [_limb(limb) for limb in scene.robot.limbs]
-        return {
-            "robot": {"peak_pressure": scene.robot.peak_pressure, "limbs": limbs},
-            **tables,
-            "ground": _ground(scene.ground, 0.0),
-            "numerics": _plain({name: getattr(scene, name) for name in LIMB_FIELDS} | named),
-        }
-    valves = {} if scene.valves.ideal else _plain(asdict(scene.valves))
-    return {
-        "robot": _plain(asdict(scene.robot)),
-        **tables,
-        **({"valves": valves} if valves else {}),
+        **({} if scene.valves.ideal else {"valves": _plain(asdict(scene.valves))}),
         "ground": _ground(scene.ground, math.degrees(scene.slope)),
         "numerics": _plain({name: getattr(scene, name) for name in SCENE_FIELDS} | named),
-    }
+    }  # fmt: skip
 
 
 def _limb(limb: Limb) -> Table:
     """A limb without what is the whole robot's."""
-    strip = {key: value for key, value in asdict(limb.strip).items() if key not in NOT_OF_LIMBS}
+    strip = {key: value for key, value in asdict(limb.strip).items() if key != PEAK}
     placed = {"on": limb.on, "at": limb.at if limb.on else None, "offset": limb.offset or None}
     return _plain({"name": limb.name, **placed, "angle_deg": math.degrees(limb.angle), **strip})
 

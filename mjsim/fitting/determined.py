@@ -93,7 +93,7 @@ def at_bounds(estimate: Estimate) -> list[str]:
 def groups(base: Tables, values: dict[str, float]) -> dict[str, float]:
     """The dimensionless groups of a scene: load, turn, friction number, ratio of the bounds."""
     scene, _ = build(with_values(base, values))
-    robot, surface = scene.robot, scene.ground.at(0.0)
+    robot, surface = scene.strip, scene.ground.at(0.0)
     side = surface.shear_strength * robot.width * robot.length / len(robot.segments)
     rigidity = pneunet.base_rigidity(robot)
     return {

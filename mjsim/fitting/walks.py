@@ -19,7 +19,7 @@ from mjsim.files.tables import Tables, build
 from mjsim.fitting.observations import Run, Series
 from mjsim.fitting.parameters import with_values
 from mjsim.results.measures import measure
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Scene, resolved
 from mjsim.simulation.simulation import simulate
 
 Array = NDArray[np.float64]
@@ -62,10 +62,9 @@ def by_mujoco(scene: Scene, numerics: Numerics, places: tuple[float, ...]) -> Mo
     numbers = measure(walk)
     if numbers is None:
         return None
-    assert walk.numerics.links is not None
     length, rows = scene.robot.length, slice(walk.start, None)
     x, z = (part[rows] for part in walk.nodes())
-    nodes = node_positions(scene.robot, walk.numerics.links)
+    nodes = node_positions(scene.strip, walk.numerics.links)
     at = np.array(places) * length
     return Motion(
         walk.time[rows], CubicSpline(nodes, x, axis=1)(at), CubicSpline(nodes, z, axis=1)(at),
@@ -77,7 +76,7 @@ def quasi_static(scene: Scene, numerics: Numerics, places: tuple[float, ...]) ->
     """The same by the elastica that friction bends; valves are ideal in it."""
     fractions, times = scene.gait.path(_STATES, scene.cycles)
     found = predict(
-        scene.robot, scene.gait, scene.ground, Elastica(60, scene.chamber),
+        scene.strip, scene.gait, scene.ground, Elastica(60, scene.chamber),
         refinement=1, friction=scene.reference_friction, cycles=scene.cycles,
         path=scene.robot.peak_pressure * fractions, times=times,
     )  # fmt: skip
@@ -98,9 +97,8 @@ def coarse(scene: Scene, numerics: Numerics) -> Numerics:
     if (scene.body, scene.friction) != (Scene.body, Scene.friction):
         return numerics
     a_segment, longest = _COARSE["all" if scene.between else "ends"]
-    own = numerics.resolved(scene.body, scene.friction)
-    assert own.links is not None
-    links = max(12, a_segment * len(scene.robot.segments))
+    own = resolved(scene, numerics)
+    links = max(12, a_segment * len(scene.strip.segments))
     step = min(longest, min(scene.gait.ramp_times) / 40)
     return replace(numerics, links=min(links, own.links), timestep=max(step, own.timestep))
 
@@ -158,7 +156,7 @@ class Predictor:
 
     @staticmethod
     def _walked(scene: Scene, numerics: Numerics) -> Numerics:
-        return numerics.resolved(scene.body, scene.friction)
+        return resolved(scene, numerics)
 
     @property
     def _places(self) -> tuple[float, ...]:
@@ -194,7 +192,7 @@ class Predictor:
 
     def _angle(self, series: Series, values: Mapping[str, float]) -> Array:
         run = series.runs[0]
-        robot = build(self._tables(values, run)[1])[0].robot
+        robot = build(self._tables(values, run)[1])[0].strip
         length = series.length or robot.length * (robot.borders[1] - robot.borders[0])
         return pneunet.natural_curvature(robot, series.at) * length
 

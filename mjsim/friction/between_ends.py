@@ -13,10 +13,10 @@ import mujoco
 from analytic.friction.contacts import Finder, Patch
 from analytic.friction.dissipation import minimisers
 from analytic.scene.chain import node_positions
-from mjsim.friction.contact_length import pads_by_node
 from mjsim.friction.traction import Bounded, ContactFriction
+from mjsim.model.pads import pads_by_node
 from mjsim.model.parts import PREFIX
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Resolved, Scene
 
 _APART = 1e12  # divisor of a pulley that takes a node out of the mean
 
@@ -67,7 +67,7 @@ class ContactFrictionEverywhere(ContactFriction):
     """Coulomb friction of a strip that may be held between its ends; `left_slip` is NaN."""
 
     def __init__(
-        self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
+        self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         super().__init__(scene, numerics, model, data)
         self._tendons = node_tendons(model, self._left, self._right, numerics.links + 2)
@@ -99,13 +99,13 @@ class BoundedContacts(Bounded):
     """See Traction; `left_slip` is NaN, as more than the two ends share the motion."""
 
     def __init__(
-        self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
+        self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         super().__init__(scene, numerics, model, data)
-        nodes = node_positions(scene.robot, numerics.links)
-        press = scene.ground.at(0.0).press(scene.robot.width)
-        self._finder = Finder(scene.robot, nodes, press)
-        self._half = 0.5 * scene.robot.length
+        nodes = node_positions(scene.strip, numerics.links)
+        press = scene.ground.at(0.0).press(scene.strip.width)
+        self._finder = Finder(scene.strip, nodes, press)
+        self._half = 0.5 * scene.strip.length
         self._tendons = node_tendons(model, self._left, self._right, len(nodes))
         self._bounds[self._tendons] = 0.0
         self._held_by: list[int] = [self._both]

@@ -4,30 +4,16 @@ The length follows from the ground's forces, finer than the pads; see
 analytic.friction.contact_length. Plain floats: numpy is slow on a few numbers.
 """
 
-import re
-
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.contact_length import flat_length
 from analytic.scene.chain import node_positions
-from mjsim.model.parts import PREFIX
-from mjsim.scene import Numerics, Scene
+from mjsim.model.pads import pads_by_node
+from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
-
-_PAD = re.compile(rf"{PREFIX}pad_(\d+)(_\d+)?")
-
-
-def pads_by_node(model: mujoco.MjModel) -> NDArray[np.int_]:
-    """Geoms of the contact pads, a row a node, those abreast beside each other, (N + 2, A)."""
-    nodes: dict[int, list[int]] = {}
-    for geom in range(model.ngeom):
-        match = _PAD.fullmatch(model.geom(geom).name)
-        if match:
-            nodes.setdefault(int(match[1]), []).append(geom)
-    return np.array([nodes[node] for node in sorted(nodes)])
 
 
 class ContactForces:
@@ -39,14 +25,13 @@ class ContactForces:
     """
 
     def __init__(
-        self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
+        self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
-        assert numerics.pad_radius is not None
         self._model, self._data, self._radius = model, data, numerics.pad_radius
-        robot = scene.robot
+        robot = scene.strip
         self._length = robot.length
         self._weight = robot.weight_per_length + scene.ground.at(0.0).press(robot.width)
-        arclength = node_positions(scene.robot, numerics.links)
+        arclength = node_positions(scene.strip, numerics.links)
         self._least = float(arclength[1])  # the first link lies flat as a whole
         pads = pads_by_node(model)
         first, last = int(pads.min()), int(pads.max()) + 1

@@ -4,11 +4,11 @@ import mujoco
 
 from mjsim.friction.between_ends import BoundedContacts, ContactFrictionEverywhere
 from mjsim.friction.traction import BoundedEnds, ContactFriction, Traction
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Resolved, Scene
 
 
 def traction(
-    scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
+    scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
 ) -> Traction:
     """The law of a scene at work."""
     if scene.friction == "coulomb":

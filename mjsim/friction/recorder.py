@@ -1,33 +1,21 @@
 """What the ground does to each node in each step, read from MuJoCo's constraint forces."""
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.ground import depends_on_speed
-from mjsim.friction.contact_length import pads_by_node
+from mjsim.model.pads import pads_by_node
 from mjsim.model.parts import PREFIX, TENDONS
+from mjsim.results.forces import GroundForces
 from mjsim.scene import Scene
 
 Array = NDArray[np.float64]
 
 _CONTACT = int(mujoco.mjtConstraint.mjCNSTR_CONTACT_FRICTIONLESS)
 _TENDON = int(mujoco.mjtConstraint.mjCNSTR_FRICTION_TENDON)
-
-
-class GroundForces(NamedTuple):
-    """What the ground did in each step, left end first.
-
-    Attributes:
-        normal: push of the ground on each node, (T, N + 2) [N].
-        friction: along +x on each node, viscous resistance included, (T, N + 2) [N]. What holds a
-            side contact acts at the one node that stands for it.
-    """
-
-    normal: Array
-    friction: Array
 
 
 class ContactRecorder:

@@ -15,9 +15,10 @@ import mujoco
 from analytic.friction.laws import LAWS, slip_fraction
 from analytic.scene.ground import depends_on_speed, over
 from analytic.scene.surface import Surface
-from mjsim.friction.contact_length import ContactForces, pads_by_node
+from mjsim.friction.contact_length import ContactForces
+from mjsim.model.pads import pads_by_node
 from mjsim.model.parts import PREFIX, TENDONS, contact_softness, tie_force
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Resolved, Scene
 
 _TIPS = (0.0, 0.0)  # side contact of two tips
 _UNLOADED = (0.0, 0.0)  # what a law gets that needs no load
@@ -62,7 +63,7 @@ class Ends:
     """What both ways share: the ends' contact lengths, and who moves."""
 
     def __init__(
-        self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
+        self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         self.contact_left = self.contact_right = 0.0
         self.left_slip, self.drift = 0.5, float("nan")
@@ -101,15 +102,14 @@ class Bounded(Ends):
     """What bounds at the ends and everywhere share: the law, and softer ground under steep ends."""
 
     def __init__(
-        self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
+        self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         super().__init__(scene, numerics, model, data)
-        self._law, self._ground, self._width = LAWS[scene.friction], scene.ground, scene.robot.width
+        self._law, self._ground, self._width = LAWS[scene.friction], scene.ground, scene.strip.width
         self._surface = scene.ground if isinstance(scene.ground, Surface) else None
         self._level, self._tie = scene.slope == 0, tie_force(scene, numerics)
         self._softness, self._bounds = model.geom_solref, model.tendon_frictionloss
         self._drag, self._by_speed = model.tendon_damping, depends_on_speed(scene.ground)
-        assert numerics.steep_contact_time is not None
         self._firm = contact_softness(scene, numerics)[0][0]
         self._soft = numerics.steep_contact_time * numerics.timestep
         self._steep_angle, self._steep = numerics.steep_angle, (False, False)
@@ -149,7 +149,7 @@ class BoundedEnds(Bounded):
     """
 
     def __init__(
-        self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
+        self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         super().__init__(scene, numerics, model, data)
         self._always = self._law.needs_load or self._surface is None or self._by_speed
@@ -184,7 +184,7 @@ class ContactFriction(Ends):
     """
 
     def __init__(
-        self, scene: Scene, numerics: Numerics, model: mujoco.MjModel, data: mujoco.MjData
+        self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         super().__init__(scene, numerics, model, data)
         self._ground, self._friction = scene.ground, model.geom_friction

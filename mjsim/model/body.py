@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
 
@@ -47,7 +47,7 @@ class Body(Protocol):
 
     name: str
 
-    def check(self, scene: Scene, numerics: Numerics) -> None:
+    def check(self, scene: Scene, numerics: Resolved) -> None:
         """Whether the body can do what a scene asks for.
 
         Raises:
@@ -55,7 +55,7 @@ class Body(Protocol):
         """
         ...
 
-    def spec(self, scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
+    def spec(self, scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
         """The strip alone, flat along +x, its left end at the origin of its neutral line.
 
         It has pads and sites as mjsim.model.parts makes them.
@@ -63,7 +63,7 @@ class Body(Protocol):
         ...
 
     def bind(
-        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Numerics
+        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Resolved
     ) -> Joints:
         """The joints of the compiled model, whose names begin with "robot_"."""
         ...

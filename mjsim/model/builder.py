@@ -3,15 +3,15 @@
 import mujoco
 import numpy as np
 
-from mjsim.model.parts import PREFIX, set_options
+from mjsim.files.assets import BARE
+from mjsim.model.limbs import tree_spec
+from mjsim.model.parts import PREFIX, TOUCH, set_options
 from mjsim.model.stage import stage
-from mjsim.scene import Numerics, Scene, registry
-
-TOUCH = 1e-6  # how deep the strip starts in the ground, over L: a contact at 0 is not seen; chosen
+from mjsim.scene import Resolved, Scene, registry
 
 
-def scene_spec(scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
-    """The strip on its ground, with lights, cameras and ruler.
+def scene_spec(scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
+    """The robot on its ground, with lights, cameras and ruler.
 
     Raises:
         ValueError: the body cannot do what the scene asks for.
@@ -21,16 +21,17 @@ def scene_spec(scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
     return on_ground(spec, scene, numerics)
 
 
-def on_ground(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
-    """The strip put on a ground that is given as MJCF.
+def on_ground(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
+    """The robot put on a ground that is given as MJCF.
 
     Raises:
         ValueError: the body cannot do what the scene asks for.
     """
+    if scene.in_space:
+        return tree_spec(scene, numerics, spec)
     body = registry.find(scene.body)
     body.check(scene, numerics)
     set_options(spec, scene, numerics)
-    assert numerics.pad_radius is not None
     height = numerics.pad_radius - TOUCH * scene.robot.length
     strip = body.spec(scene, numerics)
     for item in (*strip.worldbody.bodies, *strip.worldbody.sites):
@@ -41,7 +42,7 @@ def on_ground(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> mujoco.M
     return spec
 
 
-def compile_model(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
+def compile_model(scene: Scene, numerics: Resolved) -> mujoco.MjModel:
     """The compiled model of a scene, which does not start anew by itself after a divergence.
 
     Args:
@@ -51,10 +52,13 @@ def compile_model(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
     Raises:
         ValueError: the body cannot do what the scene asks for, or mujoco refuses the model.
     """
+    if scene.in_space:  # which is not looked at as it is stepped
+        return compiled(on_ground(mujoco.MjSpec.from_file(str(BARE)), scene, numerics), scene,
+                        numerics)  # fmt: skip
     return compiled(scene_spec(scene, numerics), scene, numerics)
 
 
-def compiled(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> mujoco.MjModel:
+def compiled(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> mujoco.MjModel:
     """A spec compiled, or why it cannot be.
 
     Raises:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from analytic.scene.chain import joint_springs, link_lengths
 from mjsim.model import parts
 from mjsim.model.body import Joints
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
 
@@ -29,13 +29,13 @@ class Cable:
 
     name = "cable"
 
-    def check(self, scene: Scene, numerics: Numerics) -> None:
+    def check(self, scene: Scene, numerics: Resolved) -> None:
         """Neither actuators nor sealed chambers."""
         parts.refuse_planar_only(self.name, scene)
 
-    def spec(self, scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
+    def spec(self, scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
         """Links that hang from each other, the first one free in space."""
-        robot, links = scene.robot, numerics.links
+        robot, links = scene.strip, numerics.links
         spec = parts.template()
         stiffness, _ = joint_springs(robot, links, np.zeros((1, len(robot.segments))))
         edges = [(0.5 * side * robot.width, 0.0) for side in (-1, 1)]
@@ -67,7 +67,7 @@ class Cable:
         return spec
 
     def bind(
-        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Numerics
+        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Resolved
     ) -> Joints:
         """The ball joints."""
         return _Balls(model, data, scene, numerics)
@@ -77,7 +77,7 @@ class _Balls:
     """Springs of the ball joints, set at each step."""
 
     def __init__(
-        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Numerics
+        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Resolved
     ) -> None:
         self._scene, self._links = scene, numerics.links
         self._stiffness = model.jnt_stiffness[_FIRST_JOINT:]
@@ -87,7 +87,7 @@ class _Balls:
 
     def loads(self, valves: Array, before: Array, pressures: Array) -> Sequence[Any]:
         scene = self._scene
-        stiffness, rest = joint_springs(scene.robot, self._links, pressures, scene.chamber)
+        stiffness, rest = joint_springs(scene.strip, self._links, pressures, scene.chamber)
         # a positive angle turns x to z: about -y
         return list(zip(stiffness, np.cos(rest / 2), -np.sin(rest / 2), strict=True))
 

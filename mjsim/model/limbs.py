@@ -7,17 +7,21 @@ coefficients, set at each step, are the Jacobian of the place that is held.
 """
 
 import math
+from collections.abc import Sequence
+from typing import Any
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from analytic.scene import pneunet
 from analytic.scene.chain import joint_springs, link_lengths
-from analytic.scene.limbs import TreeRobot, rotation
+from analytic.scene.limbs import LimbedRobot, chambers_by_limb, limbs_of, rotation
 from analytic.solvers.limbs.contacts import ripple
-from mjsim.model.builder import TOUCH
-from mjsim.model.parts import PREFIX
-from mjsim.scene.limbs import TreeNumerics, TreeScene
+from mjsim.model.parts import PREFIX, TOUCH
+from mjsim.scene import Resolved, Scene
+
+Array = NDArray[np.float64]
 
 ROOT = ("x", "y", "z", "yaw", "pitch", "roll")
 _THIN = 1e-9  # MuJoCo wants A + B >= C of inertias, of which a plate has A + B = C
@@ -30,33 +34,41 @@ _SINKS, _DEEPEST = 0.12, 0.27
 _FIRM = (0.001, 1.0), (0.9999, 0.9999, 0.001)  # nearly without creep
 
 
-def softness(scene: TreeScene, numerics: TreeNumerics) -> float:
+def softness(scene: Scene, numerics: Resolved) -> float:
     """Part of an acceleration that contacts yield to: 1 - d of MuJoCo's impedance d.
 
     MuJoCo holds J a at a contact, where the ground stops J a + J' v: a limb that turns about it at
     a rate v / r would leave it by v^2 / r, unless the contact yields by more than that to gravity.
     """
-    pressures = scene.robot.peak_pressure * np.array(scene.gait.stages)
-    rates = np.abs(np.diff(pressures, axis=0)) / np.array(scene.gait.ramp_times)[:, None]
+    robot, gait = scene.robot, scene.gait
+    rates = np.abs(np.diff(robot.peak_pressure * np.array(gait.stages), axis=0))
+    rates /= np.array(gait.ramp_times)[:, None]
     swift = 0.0
-    for limb, rate in zip(scene.robot.limbs, rates.max(axis=0).tolist(), strict=True):
-        length = limb.strip.length
-        turning = pneunet.curvature_per_pressure(limb.strip) * length * rate  # of an end [rad/s]
-        swift = max(swift, 0.5 * length * float(turning) ** 2)
+    for limb, part in zip(limbs_of(robot), chambers_by_limb(robot), strict=True):
+        strip = limb.strip
+        # how fast its end turns as all its segments change [rad/s]
+        change = float((rates[:, part] @ np.diff(strip.borders)).max())
+        turning = pneunet.curvature_per_pressure(strip) * strip.length * change
+        swift = max(swift, 0.5 * strip.length * float(turning) ** 2)
     return min(numerics.contact_softness + _TOWARDS * swift / scene.gravity,
                max(_SOFTEST, numerics.contact_softness))  # fmt: skip
 
 
-def longest_step(scene: TreeScene, numerics: TreeNumerics) -> float:
+def longest_step(scene: Scene, numerics: Resolved) -> float:
     """Time step beyond which limbs sink in so deep that it matters [s].
 
     Where that is not small beside the height to which a flat limb ripples between its nodes, the
     ground's forces tell less well how much of it lies flat.
     """
-    limbs = scene.robot.limbs
-    lowest = min(ripple(limb.strip, numerics.elements) for limb in limbs)
+    lowest = min(ripple(limb.strip, numerics.links) for limb in limbs_of(scene.robot))
     depth = _SINKS * softness(scene, numerics) * scene.gravity * numerics.contact_time**2
     return math.sqrt(_DEEPEST * lowest / depth)
+
+
+def limbed(scene: Scene) -> LimbedRobot:
+    """The robot of a scene in space."""
+    assert isinstance(scene.robot, LimbedRobot)
+    return scene.robot
 
 
 def limb_body(limb: str, link: int) -> str:
@@ -65,29 +77,30 @@ def limb_body(limb: str, link: int) -> str:
 
 
 def tree_spec(
-    scene: TreeScene, numerics: TreeNumerics, ground: mujoco.MjSpec, held: bool = True
+    scene: Scene, numerics: Resolved, ground: mujoco.MjSpec, held: bool = True
 ) -> mujoco.MjSpec:
     """The robot put on a ground that is given as MJCF; with friction's rows if `held`."""
     spec = ground
     spec.option.timestep = numerics.timestep
     spec.option.gravity = (0.0, 0.0, -scene.gravity)
     ends: dict[str, dict[str, tuple[mujoco.MjsBody, float]]] = {}
-    for i, limb in enumerate(scene.robot.limbs):
+    robot = limbed(scene)
+    for i, limb in enumerate(robot.limbs):
         if limb.on is None:
             carrier, along, heading = spec.worldbody, 0.0, 0.0
         else:
             carrier, along = ends[limb.on][limb.at]
-            heading = scene.robot.limbs[scene.robot.place(limb.on)].angle
+            heading = robot.limbs[robot.place(limb.on)].angle
         first, last, length = _chain(scene, numerics, i, carrier, along, limb.angle - heading)
         ends[limb.name] = {"begin": (first, 0.0), "end": (last, length)}
-    for number in range(len(scene.robot.limbs) if held else 0):
-        for place in range(places_of(scene.robot, number)):
+    for number in range(len(robot.limbs) if held else 0):
+        for place in range(places_of(robot, number)):
             for direction in (0, 1):
-                _add_row(spec, scene, numerics, number, f"{place}_{direction}")
+                _add_row(spec, robot, numerics, number, f"{place}_{direction}")
     return spec
 
 
-def places_of(robot: TreeRobot, limb: int) -> int:
+def places_of(robot: LimbedRobot, limb: int) -> int:
     """How many places of a limb may be held at once.
 
     Two of a side, for each end that something may touch the ground by, and one between such ends.
@@ -98,17 +111,17 @@ def places_of(robot: TreeRobot, limb: int) -> int:
 
 
 def _chain(
-    scene: TreeScene,
-    numerics: TreeNumerics,
+    scene: Scene,
+    numerics: Resolved,
     limb: int,
     carrier: mujoco.MjsBody,
     along: float,
     angle: float,
 ) -> tuple[mujoco.MjsBody, mujoco.MjsBody, float]:
     """The links of a limb; its first and last body, and the length of the last."""
-    own, elements = scene.robot.limbs[limb], numerics.elements
-    lengths = link_lengths(own.strip, elements)
-    stiffness, rest = joint_springs(own.strip, elements, np.zeros((1, 1)))
+    own, links = limbs_of(scene.robot)[limb], numerics.links
+    lengths = link_lengths(own.strip, links)
+    stiffness, rest = joint_springs(own.strip, links, np.zeros((1, len(own.strip.segments))))
     firmness = 1.0 - softness(scene, numerics)
     parent, first = carrier, carrier
     for i, length in enumerate(lengths.tolist()):
@@ -131,15 +144,15 @@ def _chain(
         body.explicitinertial, body.mass, body.ipos = True, mass, (length / 2, 0.0, 0.0)
         body.inertia = (across, long, (across + long) * (1 - _THIN))
         _add_pads(body, numerics, firmness, own.name, i, 0.0, width)
-        if i == elements:
+        if i == links:
             _add_pads(body, numerics, firmness, own.name, i + 1, length, width)
         parent = body
     return first, parent, float(lengths[-1])
 
 
-def _height(scene: TreeScene, numerics: TreeNumerics) -> float:
+def _height(scene: Scene, numerics: Resolved) -> float:
     """A little in the ground: a contact at 0 is not seen."""
-    return numerics.pad_radius - TOUCH * scene.robot.limbs[0].strip.length
+    return numerics.pad_radius - TOUCH * limbs_of(scene.robot)[0].strip.length
 
 
 def _add_root(body: mujoco.MjsBody, angle: float) -> None:
@@ -155,7 +168,7 @@ def _add_root(body: mujoco.MjsBody, angle: float) -> None:
 
 def _add_pads(
     body: mujoco.MjsBody,
-    numerics: TreeNumerics,
+    numerics: Resolved,
     firmness: float,
     limb: str,
     node: int,
@@ -172,28 +185,57 @@ def _add_pads(
 
 
 def _add_row(
-    spec: mujoco.MjSpec, scene: TreeScene, numerics: TreeNumerics, limb: int, which: str
+    spec: mujoco.MjSpec, robot: LimbedRobot, numerics: Resolved, limb: int, which: str
 ) -> None:
-    name = f"{PREFIX}{scene.robot.names[limb]}_hold_{which}"
+    name = f"{PREFIX}{robot.names[limb]}_hold_{which}"
     tendon = spec.add_tendon(name=name, frictionloss=_NO_BOUND)
     tendon.group = 4
     tendon.solref_friction[:], tendon.solimp_friction[:3] = _FIRM
-    for joint in joints_to(scene.robot, numerics.elements, limb):
+    for joint in joints_to(robot, numerics.links, limb):
         tendon.wrap_joint(joint, float(joint == PREFIX + ROOT[0]))
 
 
-def hinge_names(robot: TreeRobot, elements: int) -> list[str]:
+class Hinges:
+    """Springs of all hinges, set at each step; see mjsim.model.body.Joints.
+
+    Args:
+        model, scene, numerics: as compiled, and what it is of.
+    """
+
+    def __init__(self, model: mujoco.MjModel, scene: Scene, numerics: Resolved) -> None:
+        self._scene, self._links = scene, numerics.links
+        joints = [model.joint(name) for name in hinge_names(limbed(scene), numerics.links)]
+        self._hinges = np.array([joint.id for joint in joints])
+        self._angles = np.array([int(joint.qposadr[0]) for joint in joints])
+        self._stiffness, self._rest = model.jnt_stiffness, model.qpos_spring
+
+    def loads(self, valves: Array, before: Array, pressures: Array) -> Sequence[Any]:
+        """Stiffness and rest angle of all hinges at each step."""
+        robot, chamber = self._scene.robot, self._scene.chamber
+        parts = [
+            joint_springs(limb.strip, self._links, pressures[:, chambers], chamber)
+            for limb, chambers in zip(limbs_of(robot), chambers_by_limb(robot), strict=True)
+        ]
+        stiffness, rest = (np.concatenate(part, axis=1) for part in zip(*parts, strict=True))
+        return list(zip(stiffness, rest, strict=True))
+
+    def apply(self, load: Any) -> None:
+        """Set them for the next step."""
+        self._stiffness[self._hinges], self._rest[self._angles] = load
+
+
+def hinge_names(robot: LimbedRobot, links: int) -> list[str]:
     """Of all limbs, in their order."""
-    return [f"{PREFIX}{limb}_hinge_{i}" for limb in robot.names for i in range(1, elements + 1)]
+    return [f"{PREFIX}{limb}_hinge_{i}" for limb in robot.names for i in range(1, links + 1)]
 
 
-def joints_to(robot: TreeRobot, elements: int, limb: int) -> list[str]:
+def joints_to(robot: LimbedRobot, links: int, limb: int) -> list[str]:
     """Names of the joints that move a limb, its own included."""
     own = robot.limbs[limb]
     before = [*(PREFIX + name for name in ROOT)]
     if own.on is not None:
         carrier = robot.place(own.on)
-        before = joints_to(robot, elements, carrier)
+        before = joints_to(robot, links, carrier)
         if own.at == "begin":
-            before = before[: len(before) - elements]
-    return before + [f"{PREFIX}{own.name}_hinge_{i}" for i in range(1, elements + 1)]
+            before = before[: len(before) - links]
+    return before + [f"{PREFIX}{own.name}_hinge_{i}" for i in range(1, links + 1)]

@@ -15,13 +15,14 @@ import numpy as np
 
 from analytic.scene import pneunet
 from analytic.scene.chain import link_lengths
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Resolved, Scene
 
 PALE, DARK = (0.86, 0.82, 0.72), (0.16, 0.17, 0.20)  # passive and inflated, as in Figure 4
 FAR = 100.0  # m; a line to a point this far is horizontal to 1 part in 1e6
 _FARTHER = 1e4  # m; a walk of 0.1 m changes the distance to there by 1e-6 m
 _NO_BOUND = 1e-12  # N; without any bound a tendon would get no row to be given one
 TENDONS = ("left", "right", "both")
+TOUCH = 1e-6  # how deep the robot starts in the ground, over L: a contact at 0 is not seen; chosen
 PREFIX = "robot_"  # of the strip's names once it is on its ground
 TEMPLATE = Path(__file__).with_name("strip.xml")
 
@@ -42,7 +43,7 @@ def refuse_planar_only(body: str, scene: Scene) -> None:
         )
 
 
-def set_options(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
+def set_options(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
     """Time step, integrator, gravity and, under Coulomb friction, cones."""
     spec.option.timestep = numerics.timestep
     spec.option.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{numerics.integrator.upper()}")
@@ -53,7 +54,7 @@ def set_options(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
         spec.option.impratio = numerics.impratio
 
 
-def contact_softness(scene: Scene, numerics: Numerics) -> tuple[Sequence[float], Sequence[float]]:
+def contact_softness(scene: Scene, numerics: Resolved) -> tuple[Sequence[float], Sequence[float]]:
     """solref and solimp of the pads' contacts.
 
     Frictionless ones are as stiff as the discrete integrator bears. With friction MuJoCo's convex
@@ -61,7 +62,6 @@ def contact_softness(scene: Scene, numerics: Numerics) -> tuple[Sequence[float],
     stiffness; a pad that is lifted off loses its load for a step and falls. So those are given
     little damping, and grow firm over a depth greater than that.
     """
-    assert numerics.contact_time is not None
     time = numerics.contact_time * numerics.timestep
     if scene.friction == "coulomb":
         return (-0.125 / time**2, -0.5 / time), (0.9, 0.999, numerics.contact_depth)
@@ -69,12 +69,12 @@ def contact_softness(scene: Scene, numerics: Numerics) -> tuple[Sequence[float],
 
 
 def add_pads(
-    body: mujoco.MjsBody, scene: Scene, numerics: Numerics, node: int, places: Sequence[Place]
+    body: mujoco.MjsBody, scene: Scene, numerics: Resolved, node: int, places: Sequence[Place]
 ) -> None:
     """Contact pads of one node, side by side at places in its body's frame [m]."""
     coulomb = scene.friction == "coulomb"
     surface = scene.ground.at(0.0)
-    press, reach = surface.press(scene.robot.width), surface.adhesion_reach
+    press, reach = surface.press(scene.strip.width), surface.adhesion_reach
     for i, place in enumerate(places):
         pad = body.add_geom(name=f"pad_{node}" + (f"_{i}" if i else ""))
         pad.type, pad.pos = mujoco.mjtGeom.mjGEOM_SPHERE, place
@@ -88,9 +88,9 @@ def add_pads(
             pad.friction[:] = pad_friction(scene, node in (0, numerics.links + 1)), 0.0, 0.0
 
 
-def _share(scene: Scene, numerics: Numerics, node: int) -> float:
+def _share(scene: Scene, numerics: Resolved, node: int) -> float:
     """Length of the strip that a node stands for, half of the links beside it [m]."""
-    lengths = np.concatenate([[0.0], link_lengths(scene.robot, numerics.links), [0.0]])
+    lengths = np.concatenate([[0.0], link_lengths(scene.strip, numerics.links), [0.0]])
     return 0.5 * float(lengths[node] + lengths[node + 1])
 
 
@@ -129,7 +129,7 @@ def add_ends(
             _tie(spec, f"grip_{node}", "far", [names[node]], bound)
 
 
-def hold_sideways(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
+def hold_sideways(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
     """Bounds across the walk for a body in space, where friction's bounds are of the plane only.
 
     They keep each end on the heading that nothing turns it from.
@@ -142,9 +142,9 @@ def hold_sideways(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None
         _tie(spec, f"aside_{site}", "aside", (site,), tie_force(scene, numerics))
 
 
-def tie_force(scene: Scene, numerics: Numerics) -> float:
+def tie_force(scene: Scene, numerics: Resolved) -> float:
     """Bound of the friction that holds what no law decides [N]."""
-    return numerics.tie_bound * pneunet.base_rigidity(scene.robot) / scene.robot.length**2
+    return numerics.tie_bound * pneunet.base_rigidity(scene.strip) / scene.strip.length**2
 
 
 def _tie(spec: mujoco.MjSpec, name: str, to: str, sites: Sequence[str], bound: float) -> None:

@@ -22,7 +22,7 @@ from analytic.scene.chain import (
 from mjsim.model import parts
 from mjsim.model.body import Joints
 from mjsim.model.pneumatics import add_actuators, controls
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
 
@@ -34,21 +34,21 @@ class Planar:
 
     name = "planar"
 
-    def check(self, scene: Scene, numerics: Numerics) -> None:
+    def check(self, scene: Scene, numerics: Resolved) -> None:
         """Sealed chambers and actuators need whole elements."""
-        check_chamber(scene.robot, numerics.links, scene.chamber)
+        check_chamber(scene.strip, numerics.links, scene.chamber)
         if scene.actuation != "actuators":
             return
         if scene.chamber == "sealed":
             raise ValueError("chamber sealed needs actuation rest-angles, got actuators")
-        if not segments_fit(scene.robot, numerics.links):
+        if not segments_fit(scene.strip, numerics.links):
             raise ValueError(
                 f"links must make every segment whole elements for actuators, got {numerics.links}"
             )
 
-    def spec(self, scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
+    def spec(self, scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
         """Links that hang from each other, the first one free in the plane."""
-        robot, links = scene.robot, numerics.links
+        robot, links = scene.strip, numerics.links
         spec = parts.template()
         lengths = link_lengths(robot, links)
         stiffness, rest = joint_springs(robot, links, np.zeros((1, len(robot.segments))))
@@ -81,7 +81,7 @@ class Planar:
         return spec
 
     def bind(
-        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Numerics
+        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Resolved
     ) -> Joints:
         """By the way that pressure acts."""
         if scene.actuation == "actuators":
@@ -95,7 +95,7 @@ class _Hinges:
     """Springs of the hinges, set at each step."""
 
     def __init__(
-        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Numerics
+        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Resolved
     ) -> None:
         self._scene, self._numerics = scene, numerics
         self._stiffness = model.jnt_stiffness[_FIRST_HINGE:]
@@ -106,7 +106,7 @@ class _Hinges:
 
     def loads(self, valves: Array, before: Array, pressures: Array) -> Sequence[Any]:
         scene = self._scene
-        stiffness, rest = joint_springs(scene.robot, self._numerics.links, pressures, scene.chamber)
+        stiffness, rest = joint_springs(scene.strip, self._numerics.links, pressures, scene.chamber)
         return list(zip(stiffness, rest, strict=True))
 
     def apply(self, load: Any) -> None:
@@ -126,7 +126,7 @@ class _Sealed(_Hinges):
         return list(pressures)
 
     def apply(self, load: Any) -> None:
-        robot, links = self._scene.robot, self._numerics.links
+        robot, links = self._scene.strip, self._numerics.links
         self._stiffness[:], self._rest[:] = sealed_springs(robot, links, load, self._turns)
 
 

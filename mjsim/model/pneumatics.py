@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from analytic.scene import pneunet
 from analytic.scene.chain import segment_overlap
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
 
 
 def controls(
-    scene: Scene, numerics: Numerics, valves: Array, before: Array, pressures: Array
+    scene: Scene, numerics: Resolved, valves: Array, before: Array, pressures: Array
 ) -> Array:
     """The control sequence of a model with actuators.
 
@@ -39,7 +39,7 @@ def controls(
     if scene.chamber == "constant-pressure":
         return inputs
     square = pressures**2
-    hinges = inputs @ segment_overlap(scene.robot.borders, numerics.links).T
+    hinges = inputs @ segment_overlap(scene.strip.borders, numerics.links).T
     if follows:
         keep = np.exp(-numerics.timestep / follows)
         earlier = np.concatenate([before[None] ** 2, square[:-1]])
@@ -52,9 +52,9 @@ def _filtered(scene: Scene) -> float:
     return scene.valves.time_constant or 0.0
 
 
-def add_actuators(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
+def add_actuators(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
     """Give the planar strip its actuators, in the order of `controls`."""
-    robot = scene.robot
+    robot = scene.strip
     bend = pneunet.curvature_per_pressure(robot) * pneunet.base_rigidity(robot)
     stiffen = pneunet.rigidity_per_pressure(robot)
     by_segment = scene.chamber == "constant-pressure"

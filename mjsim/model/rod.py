@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from analytic.scene.chain import joint_springs, link_lengths, node_positions
 from mjsim.model import parts
 from mjsim.model.body import Joints
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
 
@@ -33,13 +33,13 @@ class Rod:
 
     name = "rod"
 
-    def check(self, scene: Scene, numerics: Numerics) -> None:
+    def check(self, scene: Scene, numerics: Resolved) -> None:
         """Neither actuators nor sealed chambers."""
         parts.refuse_planar_only(self.name, scene)
 
-    def spec(self, scene: Scene, numerics: Numerics) -> mujoco.MjSpec:
+    def spec(self, scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
         """Point masses on slides along each axis, and the flex through them."""
-        robot, links = scene.robot, numerics.links
+        robot, links = scene.strip, numerics.links
         spec = parts.template()
         half = 0.5 * robot.weight_per_length / scene.gravity * link_lengths(robot, links)
         mass = np.concatenate([[0.0], half]) + np.concatenate([half, [0.0]])
@@ -62,13 +62,13 @@ class Rod:
         return spec
 
     def bind(
-        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Numerics
+        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Resolved
     ) -> Joints:
         """The vertices."""
         return _Vertices(model, data, scene, numerics)
 
 
-def _join(spec: mujoco.MjSpec, bodies: Sequence[mujoco.MjsBody], numerics: Numerics) -> None:
+def _join(spec: mujoco.MjSpec, bodies: Sequence[mujoco.MjsBody], numerics: Resolved) -> None:
     """Let the edges between bodies resist bending, and hold their lengths."""
     flex = spec.add_flex(name="rod", dim=1, radius=_RADIUS, young=1.0)
     flex.damping, flex.contype, flex.conaffinity = numerics.damping_time, 0, 0
@@ -76,7 +76,6 @@ def _join(spec: mujoco.MjSpec, bodies: Sequence[mujoco.MjsBody], numerics: Numer
     flex.vertbody = [body.name for body in bodies]
     vertices = np.arange(len(bodies))
     flex.elem = np.column_stack([vertices[:-1], vertices[1:]]).ravel()
-    assert numerics.edge_time is not None
     held = spec.add_equality(type=mujoco.mjtEq.mjEQ_FLEX, name1=flex.name)
     held.solref[:] = numerics.edge_time * numerics.timestep, 1.0
     held.solimp[:3] = 0.9999, 0.9999, 0.001
@@ -91,7 +90,7 @@ def half_stiffness(model: mujoco.MjModel) -> Array:
 
 def rest_stiffness(model: mujoco.MjModel, scene: Scene, links: int) -> None:
     """Give the vertices the stiffness of a strip without pressure, which compiling does not."""
-    stiffness, _ = joint_springs(scene.robot, links, np.zeros((1, len(scene.robot.segments))))
+    stiffness, _ = joint_springs(scene.strip, links, np.zeros((1, len(scene.strip.segments))))
     half_stiffness(model)[:] = 0.5 * stiffness[0]
 
 
@@ -99,17 +98,17 @@ class _Vertices:
     """Stiffness of the vertices and couples on the edges, set at each step."""
 
     def __init__(
-        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Numerics
+        self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Resolved
     ) -> None:
         self._scene, self._links = scene, numerics.links
-        self._lengths = link_lengths(scene.robot, numerics.links)
+        self._lengths = link_lengths(scene.strip, numerics.links)
         self._bending = half_stiffness(model)
         self._qpos = data.qpos.reshape(-1, 3)
         self._force = data.qfrc_applied.reshape(-1, 3)
 
     def loads(self, valves: Array, before: Array, pressures: Array) -> Sequence[Any]:
         scene, links = self._scene, self._links
-        stiffness, rest = joint_springs(scene.robot, links, pressures, scene.chamber)
+        stiffness, rest = joint_springs(scene.strip, links, pressures, scene.chamber)
         tan, cos2 = np.tan(rest / 2), np.cos(rest / 2) ** 2
         stiffness = stiffness * cos2 / (1 + 3 * tan**2)  # over g'(r)
         couple = np.zeros((len(pressures), links + 2))  # none at the two ends

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from analytic.scene.chain import link_lengths, node_positions
 from analytic.scene.robot import Robot
 from mjsim.model.parts import PALE, PREFIX
-from mjsim.scene import Numerics
+from mjsim.scene import Resolved
 
 Array = NDArray[np.float64]
 
@@ -33,10 +33,9 @@ class Skin(NamedTuple):
     bones: list[tuple[int, NDArray[np.int_], Array]]
 
 
-def add_skins(spec: mujoco.MjSpec, robot: Robot, numerics: Numerics) -> None:
+def add_skins(spec: mujoco.MjSpec, robot: Robot, numerics: Resolved) -> None:
     """Give a planar strip on its ground what it looks like, a skin a segment."""
     nodes = node_positions(robot, numerics.links)
-    assert numerics.pad_radius is not None
     for segment in range(len(robot.segments)):
         shape = segment_skin(robot, numerics.links, segment, numerics.pad_radius)
         skin = spec.add_skin(name=f"segment_{segment + 1}", rgba=PALE_SKIN)

@@ -15,31 +15,39 @@ import numpy as np
 from analytic.scene import pneunet
 from analytic.scene.chain import link_lengths, segment_overlap
 from analytic.scene.ground import uniform
+from analytic.scene.limbs import limbs_of
 from analytic.scene.surface import Surface
 from mjsim.files.assets import MODELS
 from mjsim.files.files import whole
 from mjsim.model.builder import scene_spec
 from mjsim.model.parts import PALE, PREFIX
-from mjsim.scene import Numerics, Scene
+from mjsim.model.standalone_limbs import ROUNDED_INERTIA, spec_in_space
+from mjsim.scene import Numerics, Resolved, Scene, resolved
 
 TEXTURES = "textures"
-_INERTIA = 0.9999  # of a plate about its normal, so that rounded digits still are of a body
 _DARKER = 0.86  # every other segment, so that they can be told apart
 
 
 def walking_scene(scene: Scene) -> Scene:
     """The same scene with what MuJoCo does alone: friction by load, actuated chambers.
 
-    A surface without coefficients gets those with which an end that carries half the weight resists
-    as it does by its constant bounds, a side by that of one whole segment.
+    A surface without coefficients gets those with which a tip resists by its part of the tip force,
+    and a side as that of a whole segment or leg does. For a strip an end carries half the weight;
+    for a robot of limbs each leg carries as much, and the limbs of an end share a tip force.
     """
     ground = uniform(scene.ground)
     if not ground.friction and not ground.tip_friction:
-        half = 0.5 * scene.robot.weight
-        area = scene.robot.width * scene.robot.length / len(scene.robot.segments)
+        legs = [limb.strip for limb in limbs_of(scene.robot)[1:]]
+        feet = len(legs) or 2 - scene.in_space
+        load = scene.robot.weight / feet
+        if scene.in_space:
+            area = max((leg.length * leg.width for leg in legs), default=0.0)
+        else:
+            area = scene.strip.width * scene.strip.length / len(scene.strip.segments)
         ground = Surface(ground.name, ground.tip_force, ground.shear_strength,
-                         ground.shear_strength * area / half, ground.tip_force / half)  # fmt: skip
-    actuated = "actuators" if scene.body == "planar" else scene.actuation
+                         ground.shear_strength * area / load,
+                         2.0 / feet * ground.tip_force / load)  # fmt: skip
+    actuated = "actuators" if (scene.body, scene.in_space) == ("planar", False) else scene.actuation
     return replace(scene, ground=ground, friction="coulomb", actuation=actuated,
                    chamber="constant-pressure")  # fmt: skip
 
@@ -47,11 +55,21 @@ def walking_scene(scene: Scene) -> Scene:
 def standalone_spec(scene: Scene, numerics: Numerics | None = None) -> mujoco.MjSpec:
     """The scene to open in MuJoCo's viewer and to drive by its controls.
 
-    Controls are the pressures of the segments for the planar body, of the joints for the cable. The
-    rod has none: its pressure is a couple on each edge, which only mjsim applies.
+    Controls are the pressures of the chambers for strips of the planar body and for robots of
+    limbs, of the joints for the cable. The rod has none: its pressure is a couple on each edge,
+    which only mjsim applies.
     """
     scene = walking_scene(scene)
-    numerics = (numerics or Numerics()).resolved(scene.body, scene.friction)
+    if scene.in_space:
+        spec = spec_in_space(scene, numerics)
+    else:
+        spec = _spec_of_strip(scene, resolved(scene, numerics))
+    model = spec.compile()
+    spec.add_key(name="flat", qpos=model.qpos0, ctrl=np.zeros(model.nu))
+    return spec
+
+
+def _spec_of_strip(scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
     spec = scene_spec(scene, numerics)
     if scene.body in ("planar", "cable"):
         _show_links(spec, scene, numerics)
@@ -67,8 +85,6 @@ def standalone_spec(scene: Scene, numerics: Numerics | None = None) -> mujoco.Mj
             spec.add_sensor(
                 name=f"{end}_{name}", type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=site
             )
-    model = spec.compile()
-    spec.add_key(name="flat", qpos=model.qpos0, ctrl=np.zeros(model.nu))
     return spec
 
 
@@ -91,9 +107,9 @@ def write(scene: Scene, path: Path, numerics: Numerics | None = None) -> None:
         part.write_text(text, encoding="utf-8")
 
 
-def _show_links(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
+def _show_links(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
     """A box a link, to look at."""
-    robot = scene.robot
+    robot = scene.strip
     lengths = link_lengths(robot, numerics.links)
     segment = segment_overlap(robot.borders, numerics.links).argmax(axis=1)
     height = robot.thickness + robot.chamber_height
@@ -106,13 +122,13 @@ def _show_links(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
         box.rgba, box.group = (*(shade * part for part in PALE), 1.0), 1
 
 
-def _actuate_balls(spec: mujoco.MjSpec, scene: Scene, numerics: Numerics) -> None:
+def _actuate_balls(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
     """A motor a ball joint, whose control is the pressure of its chamber."""
-    robot = scene.robot
+    robot = scene.strip
     bend = pneunet.curvature_per_pressure(robot) * pneunet.base_rigidity(robot)
     for body in spec.bodies:
         if body.explicitinertial:
-            body.inertia[2] *= _INERTIA
+            body.inertia[2] *= ROUNDED_INERTIA
     joints = [joint for joint in spec.joints if joint.name.startswith(f"{PREFIX}ball_")]
     for number, joint in enumerate(joints, start=1):
         motor = spec.add_actuator(name=f"{PREFIX}chamber_{number}", target=joint.name)

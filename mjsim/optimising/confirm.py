@@ -49,7 +49,7 @@ def confirm(objective: Objective, gait: Gait, surface: Surface) -> Confirmation:
     scene = replace(objective.scene, gait=gait, ground=surface)
     towards = replace(objective, backward=objective.backward)
     sign = -1.0 if objective.backward else 1.0
-    searched = sign * towards.sure(scene.robot, gait, [surface])[0]
+    searched = sign * towards.sure(scene.strip, gait, [surface])[0]
     try:
         elastica = displacement(scene, prediction(scene))
     except ValueError:
@@ -79,6 +79,6 @@ def _off_its_mark(objective: Objective, scene: Scene, surface: Surface) -> list[
     ]  # fmt: skip
     found: list[float] = []
     for part in _PARTS:
-        robot = replace(scene.robot, peak_pressure=part * scene.robot.peak_pressure)
+        robot = replace(scene.strip, peak_pressure=part * scene.strip.peak_pressure)
         found += objective.sure(robot, scene.gait, grounds)
     return [value if np.isfinite(value) else math.nan for value in found]

@@ -47,11 +47,11 @@ class Objective:
 
     def __call__(self, gait: Gait) -> float:
         """Its worth; minus infinity for one that is not sure to go that way at all."""
-        return self.worth(gait, min(self.sure(self.scene.robot, gait, self.surfaces)))
+        return self.worth(gait, min(self.sure(self.scene.strip, gait, self.surfaces)))
 
     def worth(self, gait: Gait, shift: float) -> float:
         """The same, of its displacement the right way over L."""
-        robot = self.scene.robot
+        robot = self.scene.strip
         if self.aim == "displacement":
             return shift
         if self.aim == "speed":

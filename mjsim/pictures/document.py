@@ -12,7 +12,6 @@ from plotly.offline import get_plotlyjs
 
 from mjsim.files.written import as_tables, as_toml
 from mjsim.pictures import limb_charts, page_charts
-from mjsim.results.limb_walk import TreeWalk
 from mjsim.results.trajectory import Trajectory
 
 _HERE = Path(__file__).parent
@@ -25,13 +24,13 @@ class Entry(NamedTuple):
     Attributes:
         name: of its file.
         walk: as loaded.
-        record: of mjsim.results.record, or of mjsim.results.limb_record.
+        record: of mjsim.results.record.
         origin: versions and commit it was made with.
         video: MP4; None if there is none.
     """
 
     name: str
-    walk: Trajectory | TreeWalk
+    walk: Trajectory
     record: dict[str, Any]
     origin: dict[str, Any]
     video: bytes | None
@@ -106,9 +105,9 @@ def _sentence(row: dict[str, Any]) -> str:
     return f"{gait}: {way}, {1e3 * row['displacement_m']:+.2f} mm = {shift:+.4f} L a cycle."
 
 
-def _charts(walk: Trajectory | TreeWalk) -> tuple[Any, Any]:
+def _charts(walk: Trajectory) -> tuple[Any, Any]:
     """Its shapes by a slider, and its course over time."""
-    if isinstance(walk, TreeWalk):
+    if walk.scene.in_space:
         return limb_charts.shapes(walk), limb_charts.course(walk)
     return page_charts.shapes(walk), page_charts.course(walk)
 
@@ -120,7 +119,7 @@ def _chart(figure: Any) -> str:
     ) + "</div>"  # fmt: skip
 
 
-def _toml(walk: Trajectory | TreeWalk) -> str:
+def _toml(walk: Trajectory) -> str:
     try:
         return as_toml(as_tables(walk.scene, walk.numerics))
     except ValueError as error:  # a ground of somebody's own

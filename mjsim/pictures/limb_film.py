@@ -1,77 +1,36 @@
-"""Videos of robots of limbs."""
+"""Pictures of a walk of a robot of limbs, with a view from above and what it did in words."""
 
-import multiprocessing
-import os
-import warnings
-from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
-from contextlib import ExitStack
-from pathlib import Path
 from typing import Any
 
-import imageio_ffmpeg
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
-from analytic.scene.limbs import outline, plan, rotation
-from mjsim.files.files import whole
+from analytic.scene.limbs import chambers_by_limb, plan, rotation
+from mjsim.model.limbs import limbed
 from mjsim.model.parts import DARK, PALE
+from mjsim.pictures.frames import HEIGHT, WIDTH, Frame
 from mjsim.pictures.overlay import BLUE, INK, font
-from mjsim.pictures.recording import FPS, HEIGHT, LEAD, TAIL, WIDTH, Frame
-from mjsim.results.limb_walk import TreeWalk
+from mjsim.results.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 
-_QUALITY = 31  # x264's constant rate factor: 12 s stay under 500 KB
 _BAND, _WHITE = 118, 0.75  # lines behind the words, and how white they are
-_LONGEST = 10.0  # s of a video; slower walks are shown faster
 _INSET, _FRAME = (198, 352), 3  # lines and columns of the view from above; lines around it
 _DOTS = 160  # of a track at most
 _RED, _BLUE = (0.78, 0.12, 0.10, 1.0), (0.10, 0.30, 0.75, 1.0)
 
 
-def film(walks: Sequence[TreeWalk], paths: Sequence[Path]) -> None:
-    """Write an H.264 video of each walk; each appears under its name only when it is whole.
-
-    Raises:
-        OSError: a video cannot be written.
-    """
-    if not walks:
-        return
-    context = multiprocessing.get_context("spawn")  # this one may have mujoco without OpenGL
-    with ProcessPoolExecutor(min(len(walks), os.cpu_count() or 1), mp_context=context) as pool:
-        for future in [pool.submit(_draw, *job) for job in zip(walks, paths, strict=True)]:
-            future.result()
-
-
-def _draw(walk: TreeWalk, path: Path) -> None:
-    import mediapy
-
-    mediapy.set_ffmpeg(imageio_ffmpeg.get_ffmpeg_exe())
-    faster = max(1.0, np.ceil(walk.time[-1] / _LONGEST))
-    times = np.arange(-LEAD, walk.time[-1] / faster + TAIL, 1 / FPS) * faster
-    with ExitStack() as stack, warnings.catch_warnings():
-        warnings.simplefilter("ignore", ResourceWarning)  # mediapy leaves ffmpeg's pipes
-        part = stack.enter_context(whole(path))
-        video = stack.enter_context(
-            mediapy.VideoWriter(part, (HEIGHT, WIDTH), fps=FPS, crf=_QUALITY)
-        )
-        camera = stack.enter_context(Camera(walk, faster))
-        for time in times:
-            video.add_image(camera.frame(float(time)))
-
-
-def stages(walk: TreeWalk) -> Image.Image:
+def stages(walk: Trajectory) -> Image.Image:
     """A picture of four stages of the gait, in the order of reading."""
     times = np.cumsum(walk.scene.gait.ramp_times)[:4]
-    with Camera(walk) as camera:
+    with LimbCamera(walk) as camera:
         frames = [camera.frame(float(time)).copy() for time in times]
     rows = [np.hstack(frames[i : i + 2]) for i in (0, 2)]
     return Image.fromarray(np.vstack(rows)).resize((WIDTH, HEIGHT))
 
 
-class Camera:
+class LimbCamera:
     """Draws one walk; close it, or use it in a `with`, as it holds an OpenGL context.
 
     Args:
@@ -79,15 +38,16 @@ class Camera:
         faster: that the video is than the walk, which it says.
     """
 
-    def __init__(self, walk: TreeWalk, faster: float = 1.0) -> None:
+    def __init__(self, walk: Trajectory, faster: float = 1.0) -> None:
         import mujoco
 
         from mjsim.model.limb_skins import CAMERA
-        from mjsim.pictures.limb_look import OVERHEAD, Look
+        from mjsim.pictures.limb_look import OVERHEAD
+        from mjsim.pictures.looks import look
 
         self._walk, self._faster = walk, faster
-        reach = float(np.abs(walk.coordinates[:, :2]).max()) + 3 * walk.length
-        self._look = Look(walk.scene, walk.numerics, reach)
+        reach = float(np.abs(walk.line[:, 0, :2]).max()) + 3 * walk.scene.robot.length
+        self._look = look(walk.scene, walk.numerics, reach)
         self._views = {
             CAMERA: mujoco.Renderer(self._look.model, HEIGHT, WIDTH),
             OVERHEAD: mujoco.Renderer(self._look.model, *_INSET),
@@ -97,7 +57,7 @@ class Camera:
         self._options.flags[mujoco.mjtVisFlag.mjVIS_TENDON] = False
         self._shown, self._frame = -1, np.empty(0, np.uint8)
 
-    def __enter__(self) -> "Camera":
+    def __enter__(self) -> "LimbCamera":
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -114,7 +74,7 @@ class Camera:
         step = int(np.clip(np.searchsorted(walk.time, time), walk.start, len(walk.time) - 1))
         if step != self._shown:
             peak = walk.scene.robot.peak_pressure
-            self._look.pose(walk.coordinates[step], walk.pressure[step] / peak)
+            self._look.pose(walk.position[step], walk.coordinates[step], walk.pressure[step] / peak)
             large, small = (self._view(name, step) for name in self._views)
             frame = _written(walk, large, step, self._faster)
             lines, columns = _INSET
@@ -133,7 +93,7 @@ class Camera:
         """Where the ends of the limbs have been, and where they began, as dots on the ground."""
         import mujoco
 
-        size = 0.005 * self._walk.length
+        size = 0.005 * self._walk.scene.robot.length
         steps, places = self._track
         count = int(np.searchsorted(steps, step, side="right"))
         been = places[1:count].reshape(-1, 2)
@@ -146,15 +106,15 @@ class Camera:
                 scene.ngeom += 1
 
 
-def _track(walk: TreeWalk) -> tuple[Array, Array]:
+def _track(walk: Trajectory) -> tuple[Array, Array]:
     """Steps of a walk, (S,), and the ends of its outer limbs in plan at them, (S, E, 2) [m]."""
-    robot = walk.scene.robot
+    robot = limbed(walk.scene)
     outer = [robot.place(name) for name in robot.outer]
     steps = np.unique(np.linspace(walk.start, len(walk.time) - 1, _DOTS).astype(int))
-    return steps, walk.places(steps)[:, outer, -1, :2]
+    return steps, walk.position[steps][:, outer, -1, :2]
 
 
-def _written(walk: TreeWalk, frame: Frame, step: int, faster: float) -> Frame:
+def _written(walk: Trajectory, frame: Frame, step: int, faster: float) -> Frame:
     """A copy with the state written on it."""
     band = frame.copy()
     band[:_BAND] = (_WHITE * 255 + (1 - _WHITE) * band[:_BAND]).astype(np.uint8)
@@ -166,9 +126,9 @@ def _written(walk: TreeWalk, frame: Frame, step: int, faster: float) -> Frame:
     time = max(0.0, float(walk.time[step]))
     pen.text((28, 78), f"t = {time:4.1f} s{speed}", font=small, fill=INK)
     _plan(pen, walk, step, (520, 62))
-    gone = walk.moved(walk.start, step)
-    ahead, aside = (0.0 if abs(part) < 5e-4 else part for part in (gone / walk.length).tolist())
-    turned = float(np.degrees(walk.coordinates[step, 3] - walk.coordinates[walk.start, 3]))
+    gone = walk.moved(walk.start, step) / walk.scene.robot.length
+    ahead, aside = (0.0 if abs(part) < 5e-4 else part for part in gone.tolist())
+    turned = float(np.degrees(walk.heading[step] - walk.heading[walk.start]))
     turned = 0.0 if abs(turned) < 5e-2 else turned
     right = picture.width - 28
     for line, (text, letters) in enumerate((
@@ -181,15 +141,16 @@ def _written(walk: TreeWalk, frame: Frame, step: int, faster: float) -> Frame:
     return np.array(picture)
 
 
-def _plan(pen: ImageDraw.ImageDraw, walk: TreeWalk, step: int, centre: tuple[int, int]) -> None:
+def _plan(pen: ImageDraw.ImageDraw, walk: Trajectory, step: int, centre: tuple[int, int]) -> None:
     """The robot from above, its trunk ahead, each limb in the colour that it has."""
-    robot = walk.scene.robot
+    robot = limbed(walk.scene)
     first = robot.limbs[0].angle
     begins = {name: ends[0] @ rotation(first) for name, ends in plan(robot).items()}
-    scale = 190.0 / outline(robot)[0]
+    scale = 190.0 / robot.length
     middle = np.mean(list(begins.values()), axis=0)
-    for limb, pressure in zip(robot.limbs, walk.pressure[step], strict=True):
-        fraction = min(abs(float(pressure)) / robot.peak_pressure, 1.0)
+    for limb, part in zip(robot.limbs, chambers_by_limb(robot), strict=True):
+        pressure = float(np.abs(walk.pressure[step, part]).mean())
+        fraction = min(pressure / robot.peak_pressure, 1.0)
         shade = tuple(round(255 * (p + fraction * (d - p)))
                       for p, d in zip(PALE, DARK, strict=True))  # fmt: skip
         start = begins[limb.name] - middle

@@ -6,9 +6,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from analytic.scene.limbs import limbs_of, rotation
 from analytic.scene.surface import Ground
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.simulation import Observation, Simulation
+from mjsim.simulation.observation import Observation
+from mjsim.simulation.simulation import Simulation
 
 Array = NDArray[np.float64]
 
@@ -35,7 +37,7 @@ class Session:
 
     def _begin(self) -> None:
         self.seen: Observation = self.simulation.observe()
-        self.start = self.seen.left
+        self.start = self.seen.place
         self.playing, self.clock, self._owed = True, 0.0, 0.0
         self.valves = self.gait_at(0.0)
 
@@ -46,8 +48,10 @@ class Session:
 
     @property
     def displacement(self) -> float:
-        """Of the left end since the start, over L."""
-        return (self.seen.left - self.start) / self.scene.robot.length
+        """Displacement of the strip's left end or the trunk's beginning, ahead over L."""
+        gone = self.seen.place - self.start
+        ahead = rotation(limbs_of(self.scene.robot)[0].angle)[:, 0]
+        return float(gone @ ahead) / self.scene.robot.length
 
     def gait_at(self, time: float) -> Array:
         """What the gait commands, over and over, (S,) [Pa]."""
@@ -99,6 +103,6 @@ class Session:
             ("gait", gait),
             ("time", f"{self.seen.time:.1f} s"),
             ("pressures", f"{pressures} kPa"),
-            ("left end", f"{self.displacement:+.4f} L"),
+            ("ahead", f"{self.displacement:+.4f} L"),
             ("status", str(self.seen.status)),
         )

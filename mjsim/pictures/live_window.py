@@ -18,7 +18,7 @@ from analytic.scene.surface import SURFACES, Ground
 from mjsim.model.parts import PREFIX
 from mjsim.pictures.live_session import Session
 from mjsim.pictures.look import Look
-from mjsim.results.netcdf import segment_names
+from mjsim.pictures.looks import look
 
 SPACE, BACKSPACE = 32, 259  # codes of GLFW
 _FRAME = 1 / 60  # s
@@ -67,12 +67,12 @@ class _Window:
         self._shown = self._look.data.ctrl.copy()
 
     def play(self, speed: float, seconds: float | None) -> Shown:
-        look, session = self._look, self._session
-        look.pose(session.simulation.nodes(), self._fractions())
+        shown_look, session = self._look, self._session
+        self._pose()
         frames, simulated = 0, 0.0
         others = set(threading.enumerate())
         with mujoco.viewer.launch_passive(
-            look.model, look.data, key_callback=self._keys.append, show_left_ui=False
+            shown_look.model, shown_look.data, key_callback=self._keys.append, show_left_ui=False
         ) as viewer:
             self._aim(viewer)
             opened = last = clock.perf_counter()
@@ -85,7 +85,7 @@ class _Window:
                 session.advance(passed)
                 simulated += passed
                 with viewer.lock():
-                    look.pose(session.simulation.nodes(), self._fractions())
+                    self._pose()
                     self._set_sliders()
                 viewer.set_texts(self._texts())
                 viewer.sync()
@@ -120,19 +120,21 @@ class _Window:
         self._look.data.ctrl[:] = *(self._session.valves / _KILO), self._chosen
         self._shown = self._look.data.ctrl.copy()
 
-    def _fractions(self) -> Any:
-        return self._session.seen.pressure / self._session.scene.robot.peak_pressure
+    def _pose(self) -> None:
+        simulation, peak = self._session.simulation, self._session.scene.robot.peak_pressure
+        fractions = self._session.seen.pressure / peak
+        self._look.pose(simulation.nodes(), simulation.data.qpos, fractions)
 
     def _looks_of(self, ground: Ground) -> Look:
         scene = replace(self._session.scene, ground=ground)
-        links = self._session.simulation.numerics.links
-        return Look(scene, links, _REACH * scene.robot.length, self._add_sliders)
+        numerics = self._session.simulation.numerics
+        return look(scene, numerics, _REACH * scene.robot.length, self._add_sliders)
 
     def _add_sliders(self, spec: mujoco.MjSpec) -> None:
         scene = self._session.scene
         most = scene.robot.peak_pressure / _KILO
         least = min(0.0, float(np.min(scene.gait.stages)) * most)
-        for name in segment_names(len(scene.robot.segments)):
+        for name in scene.robot.chambers:
             _slider(spec, f"{name} [kPa]", least, most)
         _slider(spec, "ground", 0.0, max(len(self._choices) - 1, 1e-3))
 
@@ -153,8 +155,10 @@ class _Window:
             viewer.opt.geomgroup[3] = 0  # contact pads
             viewer.opt.flags[mujoco.mjtVisFlag.mjVIS_TENDON] = 0
             camera = viewer.cam
-            camera.lookat[:] = 0.5 * length, 0.0, 0.1 * length
-            camera.azimuth, camera.elevation, camera.distance = 90.0, -18.0, 1.9 * length
+            middle = self._session.simulation.nodes()[..., :2].reshape(-1, 2).mean(axis=0)
+            camera.lookat[:] = *middle, 0.1 * length
+            up = -35.0 if self._session.scene.in_space else -18.0
+            camera.azimuth, camera.elevation, camera.distance = 90.0, up, 1.9 * length
 
     def _texts(self) -> list[tuple[Any, ...]]:
         big, corner = mujoco.mjtFontScale.mjFONTSCALE_150, mujoco.mjtGridPos

@@ -36,7 +36,7 @@ class Overlay:
     def __init__(self, walk: Trajectory, scale: float) -> None:
         self._walk, self._scale = walk, scale
         self._big, self._small = font(round(25 * scale)), font(round(17 * scale))
-        self._gone = walk.position[:, 0, 0] - walk.position[walk.start, 0, 0]
+        self._gone = walk.line[:, 0, 0] - walk.line[walk.start, 0, 0]
 
     def draw(self, frame: Frame, step: int) -> Frame:
         """A copy of the frame with the state after a step written on it."""

@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 from plotly.subplots import make_subplots
 
 from mjsim.model.parts import DARK, PALE
-from mjsim.results.limb_walk import TreeWalk
-from mjsim.results.netcdf import segment_names
 from mjsim.results.plots import edges, touches
 from mjsim.results.trajectory import Trajectory
 
@@ -29,7 +27,7 @@ def shapes(walk: Trajectory) -> go.Figure:
     x, z = 1e3 * np.array(walk.nodes())
     pieces = _pieces(walk)
     figure = scrubbed([_strip(walk, row, x, z, pieces) for row in rows], walk.time[rows])
-    reach = 1e3 * walk.scene.robot.length
+    reach = 1e3 * walk.scene.strip.length
     low, high = float(x[rows].min()) - 0.05 * reach, float(x[rows].max()) + 0.05 * reach
     figure.update_layout(
         shapes=[{"type": "line", "layer": "below", "x0": low, "x1": high, "y0": 0, "y1": 0,
@@ -86,7 +84,7 @@ def course(walk: Trajectory) -> go.Figure:
     time = walk.time[rows]
     _tracks(figure, walk, rows, time)
     _contacts(figure, walk, rows, time)
-    names = segment_names(len(walk.scene.robot.segments))
+    names = walk.scene.robot.chambers
     for segment, (name, values) in enumerate(zip(names, 1e-3 * walk.pressure[rows].T, strict=True)):
         figure.add_scatter(x=time, y=values, name=f"segment {name}", row=3, col=1,
                            line={"color": SHADES[segment % len(SHADES)]})  # fmt: skip
@@ -126,10 +124,10 @@ def _contacts(figure: go.Figure, walk: Trajectory, rows: Rows, time: Array) -> N
 
 
 def _strip(walk: Trajectory, row: int, x: Array, z: Array, pieces: list[slice]) -> list[Any]:
-    fractions = walk.pressure[row] / walk.scene.robot.peak_pressure
+    fractions = walk.pressure[row] / walk.scene.strip.peak_pressure
     lines = []
     for piece, name, fraction, pressure in zip(
-        pieces, segment_names(len(pieces)), fractions, walk.pressure[row], strict=True
+        pieces, walk.scene.robot.chambers, fractions, walk.pressure[row], strict=True
     ):
         lines.append(go.Scatter(
             x=np.round(x[row, piece], 3), y=np.round(z[row, piece], 3), mode="lines",
@@ -142,12 +140,12 @@ def _strip(walk: Trajectory, row: int, x: Array, z: Array, pieces: list[slice]) 
 def _pieces(walk: Trajectory) -> list[slice]:
     """Vertices of each segment, the border's in both."""
     middle = (np.arange(walk.numerics.links + 1) + 0.5) / (walk.numerics.links + 1)
-    inside = np.searchsorted(np.asarray(walk.scene.robot.borders)[1:-1], middle)
-    found = [np.flatnonzero(inside == i) for i in range(len(walk.scene.robot.segments))]
+    inside = np.searchsorted(np.asarray(walk.scene.strip.borders)[1:-1], middle)
+    found = [np.flatnonzero(inside == i) for i in range(len(walk.scene.strip.segments))]
     return [slice(int(part[0]), int(part[-1]) + 2) for part in found]
 
 
-def rows_of(walk: "Trajectory | TreeWalk") -> Rows:
+def rows_of(walk: Trajectory) -> Rows:
     """States that a line shows, of the cycles alone."""
     last = len(walk.time) - 1
     return np.unique(np.linspace(walk.start, last, min(_POINTS, last + 1)).astype(int))

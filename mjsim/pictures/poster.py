@@ -26,7 +26,7 @@ def poster(walks: Sequence[Trajectory]) -> Image.Image:
         head = np.full((_HEAD, mixed.shape[1], 3), 255, np.uint8)
         picture = Image.fromarray(np.concatenate([head, mixed]))
         pen = ImageDraw.Draw(picture)
-        gone = float(walk.position[-1, 0, 0] - walk.position[walk.start, 0, 0])
+        gone = float(walk.line[-1, 0, 0] - walk.line[walk.start, 0, 0])
         part = gone / walk.scene.robot.length
         way = _WORDS[direction(part, 1.0)]
         pen.text((24, 8), f"{walk.scene.ground.name}: {way}", font=font(26), fill=INK)

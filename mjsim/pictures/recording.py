@@ -16,26 +16,16 @@ from pathlib import Path
 
 import imageio_ffmpeg
 import numpy as np
-from numpy.typing import NDArray
 
 from mjsim.files.files import whole
+from mjsim.pictures.frames import FPS, HEIGHT, WIDTH, Frame, Times, frame_times, how_much_faster
 from mjsim.results.trajectory import Trajectory
 
-Times = NDArray[np.float64]
-Frame = NDArray[np.uint8]
-
-WIDTH, HEIGHT, FPS = 1280, 720, 30
 BAND = (148, 568)  # lines of a frame that a band shows, of 720, between the sky and the slab
-LEAD, TAIL = 0.5, 1.0  # s of stillness before and after the walk
-_QUALITY = 27  # x264's constant rate factor: a surface's 11.5 s stay under 500 KB
+_QUALITY, _IN_SPACE = 27, 31  # x264's constant rate factor: 12 s stay under 500 KB
 _BAND_QUALITY = 12  # of bands, which are encoded once more
 _BAND_SCALE = 1.1  # of letters in a band
 _JOINT_WIDTH, _JOINT_QUALITY = 852, 29
-
-
-def frame_times(last: float) -> Times:
-    """Times of the frames of a walk that ends at `last`, and a little more, (F,) [s]."""
-    return np.arange(-LEAD, last + TAIL, 1 / FPS)
 
 
 def film(walks: Sequence[Trajectory], paths: Sequence[Path], joint: Path | None = None) -> None:
@@ -46,7 +36,7 @@ def film(walks: Sequence[Trajectory], paths: Sequence[Path], joint: Path | None 
     Args:
         walks: the walks.
         paths: of their videos.
-        joint: of a video of all of them, above each other in step; none if None.
+        joint: of a video of all of them, strips, above each other in step; none if None.
 
     Raises:
         OSError: a video cannot be written.
@@ -54,10 +44,9 @@ def film(walks: Sequence[Trajectory], paths: Sequence[Path], joint: Path | None 
     if not walks:
         return
     last = max(float(walk.time[-1]) for walk in walks)
-    times = frame_times(last)
     with tempfile.TemporaryDirectory() as folder:
         bands = [Path(folder) / f"{i}.mp4" if joint else None for i in range(len(walks))]
-        jobs = list(zip(walks, paths, bands, [times] * len(walks), strict=True))
+        jobs = list(zip(walks, paths, bands, [last] * len(walks), strict=True))
         # never in this process, which may have imported mujoco without OpenGL
         context = multiprocessing.get_context("spawn")
         workers = min(len(walks), os.cpu_count() or 1)
@@ -70,9 +59,7 @@ def film(walks: Sequence[Trajectory], paths: Sequence[Path], joint: Path | None 
 
 def write_video(walk: Trajectory, path: Path) -> int:
     """Write a video of one walk in this process; returns the number of frames."""
-    times = frame_times(float(walk.time[-1]))
-    _draw(walk, path, None, times)
-    return len(times)
+    return _draw(walk, path, None, float(walk.time[-1]))
 
 
 def pictures(walk: Trajectory, times: Times) -> Iterator[tuple[Frame, int]]:
@@ -95,30 +82,44 @@ def band_of(frame: Frame) -> Frame:
     return frame[low:high]
 
 
-def _draw(walk: Trajectory, path: Path, band: Path | None, times: Times) -> None:
+def _draw(walk: Trajectory, path: Path, band: Path | None, last: float) -> int:
+    """Write the video of a walk, shown until `last` [s], and its band; the number of frames."""
     import mediapy
 
-    from mjsim.pictures.overlay import Overlay
-
     mediapy.set_ffmpeg(imageio_ffmpeg.get_ffmpeg_exe())
-    overlay = Overlay(walk, HEIGHT / 720)
-    small = Overlay(walk, _BAND_SCALE * HEIGHT / 720)
+    in_space, faster = walk.scene.in_space, 1.0
+    if in_space:
+        last = float(walk.time[-1])
+        faster = how_much_faster(last)
+    times = frame_times(last, faster)
     with ExitStack() as stack, warnings.catch_warnings():
         warnings.simplefilter("ignore", ResourceWarning)  # mediapy leaves ffmpeg's pipes
         part = stack.enter_context(whole(path))
+        quality = _IN_SPACE if in_space else _QUALITY
         video = stack.enter_context(
-            mediapy.VideoWriter(part, (HEIGHT, WIDTH), fps=FPS, crf=_QUALITY)
+            mediapy.VideoWriter(part, (HEIGHT, WIDTH), fps=FPS, crf=quality)
         )
-        strip = None
+        if in_space:
+            from mjsim.pictures.limb_film import LimbCamera
+
+            camera = stack.enter_context(LimbCamera(walk, faster))
+            for time in times:
+                video.add_image(camera.frame(float(time)))
+            return len(times)
+        from mjsim.pictures.overlay import Overlay
+
+        overlay, small = Overlay(walk, HEIGHT / 720), Overlay(walk, _BAND_SCALE * HEIGHT / 720)
+        narrow = None
         if band:
             shape = band_of(np.empty((HEIGHT, WIDTH, 3), np.uint8)).shape[:2]
-            strip = stack.enter_context(
+            narrow = stack.enter_context(
                 mediapy.VideoWriter(band, shape, fps=FPS, crf=_BAND_QUALITY)
             )
         for frame, step in pictures(walk, times):
             video.add_image(overlay.draw(frame, step))
-            if strip:
-                strip.add_image(small.draw(band_of(frame), step))
+            if narrow:
+                narrow.add_image(small.draw(band_of(frame), step))
+    return len(times)
 
 
 def _stack(bands: Sequence[Path], path: Path) -> None:

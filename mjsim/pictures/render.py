@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
-from mjsim.pictures.look import Look
+from mjsim.pictures.strip_look import StripLook
 from mjsim.results.trajectory import Trajectory
 
 Frame = NDArray[np.uint8]
@@ -31,8 +31,8 @@ class Camera:
 
     def __init__(self, walk: Trajectory, width: int, height: int, view: str = "side") -> None:
         self._walk, self._view = walk, view
-        reach = float(np.abs(walk.position[..., 0]).max()) + 3 * walk.scene.robot.length
-        self._look = Look(walk.scene, walk.numerics.links, reach)
+        reach = float(np.abs(walk.line[..., 0]).max()) + 3 * walk.scene.robot.length
+        self._look = StripLook(walk.scene, walk.numerics, reach)
         self._model, self._data = self._look.model, self._look.data
         self._camera_x = self._model.cam_pos[:, 0].copy()
         self._renderer = mujoco.Renderer(self._model, height, width)
@@ -60,14 +60,15 @@ class Camera:
         """The walk after a step, shape (height, width, 3)."""
         walk = self._walk
         self._model.cam_pos[:, 0] = self._camera_x + self._followed(step)
-        self._look.pose(walk.position[step], walk.pressure[step] / walk.scene.robot.peak_pressure)
+        fractions = walk.pressure[step] / walk.scene.robot.peak_pressure
+        self._look.pose(walk.position[step], walk.coordinates[step], fractions)
         self._renderer.update_scene(self._data, self._view, self._options)
-        self._point_at(float(walk.position[step, 0, 0]))
+        self._point_at(float(walk.line[step, 0, 0]))
         return self._mark_anchor(self._renderer.render(), step)
 
     def _followed(self, step: int) -> float:
         """How far the camera has gone with a robot that went far [m]."""
-        first, now = self._walk.position[[0, step]][:, [0, -1], 0].mean(axis=1)
+        first, now = self._walk.line[[0, step]][:, [0, -1], 0].mean(axis=1)
         gone = float(now - first)
         margin = _MARGIN * self._walk.scene.robot.length
         return float(np.sign(gone) * max(abs(gone) - margin, 0.0))
@@ -82,7 +83,7 @@ class Camera:
         end = anchored(self._walk, step)
         if end is None:
             return picture
-        x = float(self._walk.position[step, end, 0])
+        x = float(self._walk.line[step, end, 0])
         column, line = self._pixel(np.array([x, _FRONT * self._look.scale, 0.0]))
         image = Image.fromarray(picture)
         size = len(picture) / 720

@@ -2,37 +2,50 @@
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from analytic.friction.laws import Friction
 from analytic.locomotion import undecided
 from analytic.prediction import Elastica, Prediction
+from analytic.scene.limbs import limbs_of
 from analytic.scene.surface import Surface
 from analytic.shapes import Status
+from mjsim.model.limbs import longest_step
 from mjsim.results.measures import Measures
 from mjsim.results.prediction import displacement, prediction
+from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Scene
 
 APART = 1e-3  # of the length: what differs by more is told apart; chosen
 NEARLY = 0.05  # bounds this near each other are nearly a tie, pressures this near nearly as high
 _MATTERS = 0.05  # part of the distance that inertia may be without a word; chosen
+_TURNED = 0.2  # degrees: less needs no word; chosen
+_ROUNDED = 1.01  # a step that was printed to two digits is short enough
+_FEET = 3  # that stand without falling, if a robot of limbs has so many
 _LINKS, _STATES = 30, 25  # that tell where the branch ends
 
 
 def cautions(
-    scene: Scene, numbers: Measures | None, prediction: Prediction, error: float, bar: float
-) -> list[str]:
-    """All of them, of a scene whose prediction is known.
+    scene: Scene, numbers: Measures | None, prediction: Prediction, error: float | None,
+    bar: float | None,
+) -> list[str]:  # fmt: skip
+    """All of them, of a strip whose prediction is known.
 
     Args:
         scene, numbers, prediction: the walk and its reference.
-        error: of the displacement per cycle over L against the reference, NaN if there is none.
-        bar: how sure the reference is, over L.
+        error: of the displacement per cycle over L against the reference; None if there is none.
+        bar: how sure the reference is, over L; None if that is not known.
     """
     return [
+        *elsewhere(scene),
         *_later(scene, prediction),
-        *inertia(numbers.displacement if numbers else math.nan, error, bar),
+        *inertia(
+            numbers.displacement if numbers else math.nan,
+            math.nan if error is None else error,
+            bar or 0.0,
+        ),
         *_near_ties(scene, prediction),
         *_near_end(scene, prediction),
     ]
@@ -48,7 +61,7 @@ def tied(scene: Scene, prediction: Prediction, alike: float = 0.0) -> float:
     ground = scene.ground
     if scene.between or not isinstance(ground, Surface):
         return 0.0
-    over = scene.robot.length * prediction.cycles
+    over = scene.strip.length * prediction.cycles
     exact = undecided(prediction.shapes, ground, scene.friction) / over
     if alike:
         return undecided(prediction.shapes, ground, scene.friction, alike) / over - exact
@@ -64,7 +77,7 @@ def _near_ties(scene: Scene, prediction: Prediction) -> list[str]:
 
 def _later(scene: Scene, prediction: Prediction) -> list[str]:
     """Cycles after those walked, by theory."""
-    by_cycle = prediction.by_cycle / scene.robot.length
+    by_cycle = prediction.by_cycle / scene.strip.length
     if scene.cycles >= len(by_cycle) or not abs(by_cycle[-1] - by_cycle[0]) > APART:
         return []
     return [f"from cycle {len(by_cycle)} on {by_cycle[-1]:+.4f} L"]
@@ -85,7 +98,7 @@ def _near_end(scene: Scene, prediction: Prediction) -> list[str]:
     """Whether the stable branch ends at little more pressure."""
     if not np.isfinite(prediction.locomotion.per_cycle):
         return []
-    robot = scene.robot
+    robot = scene.strip
     more = replace(robot, peak_pressure=(1 + NEARLY) * robot.peak_pressure)
     path = more.peak_pressure * scene.gait.pressures(_STATES)
     links = max(_LINKS, 10 * len(robot.segments))
@@ -96,6 +109,34 @@ def _near_end(scene: Scene, prediction: Prediction) -> list[str]:
         if flag & flags:
             return [f"{what} within {NEARLY:.0%} more pressure"]
     return []
+
+
+def limb_cautions(walk: Trajectory, row: dict[str, Any]) -> list[str]:
+    """The same of a robot of limbs.
+
+    Args:
+        walk: it.
+        row: its record, see mjsim.results.record.
+    """
+    notes = []
+    if row["error_over_L"] is not None:
+        far = row["predicted_displacement_over_L"]
+        off = math.hypot(row["error_over_L"], row["aside_over_L"] - row["predicted_aside_over_L"])
+        turned = abs(row["error_deg"])
+        bar = row["prediction_uncertainty_over_L"] or 0.0
+        much = off > max(_MATTERS * abs(far), 2 * APART) + bar
+        much |= turned > max(_TURNED + row["prediction_uncertainty_deg"],
+                             _MATTERS * abs(row["predicted_turn_deg"]))  # fmt: skip
+        if much:
+            notes.append("inertia: a slower gait comes closer to the reference")
+    step = longest_step(walk.scene, walk.numerics)
+    if walk.numerics.timestep > step * _ROUNDED:
+        notes.append(f"limbs sink in too deep: take a timestep of at most {step:.2g} s")
+    feet = min(_FEET, len(limbs_of(walk.scene.robot)))
+    standing = float(np.mean(walk.contacts[walk.start :] < feet))
+    if standing > 0:
+        notes.append(f"on {row['fewest_limbs_on_ground']} limbs for {standing:.0%} of the time")
+    return notes
 
 
 def elsewhere(scene: Scene) -> list[str]:

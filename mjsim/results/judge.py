@@ -17,10 +17,12 @@ def judge(walk: Trajectory, stopped: bool = False, unsettled: bool = False) -> T
     Args:
         walk: as recorded.
         stopped: whether the stepping stopped early.
-        unsettled: whether it began before the strip had come to rest.
+        unsettled: whether it began before the robot had come to rest.
     """
+    if walk.scene.in_space:
+        return replace(walk, status=_in_space(walk, stopped, unsettled))
     length = walk.scene.robot.length
-    height = walk.position[..., 2]
+    height = walk.line[..., 2]
     ends, lowest = np.abs(height[:, [0, -1]]).max(axis=1), height.min(axis=1)
     fallen = np.flatnonzero(~((ends < FALLEN * length) & (lowest < THROWN * length)))
     if len(fallen) and not stopped:
@@ -30,9 +32,9 @@ def judge(walk: Trajectory, stopped: bool = False, unsettled: bool = False) -> T
 
 def _status(walk: Trajectory, stopped: bool, unsettled: bool) -> Status:
     length = walk.scene.robot.length
-    if not np.abs(walk.position[-1, :, 2]).max() < length:
+    if not np.abs(walk.line[-1, :, 2]).max() < length:
         return Status.DIVERGED
-    if not np.abs(walk.position[..., 1]).max() < _ASIDE * length:
+    if not np.abs(walk.line[..., 1]).max() < _ASIDE * length:
         return Status.TURNED
     if slid(walk) > _SLID * length:
         return Status.SLID  # whatever became of it on the way down
@@ -41,9 +43,17 @@ def _status(walk: Trajectory, stopped: bool, unsettled: bool) -> Status:
     return Status.UNSETTLED if unsettled else Status.OK
 
 
+def _in_space(walk: Trajectory, stopped: bool, unsettled: bool) -> Status:
+    """Status of a robot of limbs, which stops as its trunk tips over or leaves the ground."""
+    if not stopped:
+        return Status.UNSETTLED if unsettled else Status.OK
+    high = abs(float(walk.line[-1, 0, 2])) < walk.scene.robot.length
+    return Status.TOPPLED if high else Status.DIVERGED
+
+
 def slid(walk: Trajectory, begin: int = 0) -> float:
     """Distance that both ends went downhill together from a state on [m]."""
     if not walk.scene.slope:
         return 0.0
-    moves = -np.sign(walk.scene.slope) * np.diff(walk.position[begin:, [0, -1], 0], axis=0)
+    moves = -np.sign(walk.scene.slope) * np.diff(walk.line[begin:, [0, -1], 0], axis=0)
     return float(np.maximum(moves.min(axis=1), 0.0).sum())

@@ -1,6 +1,7 @@
 """Numbers of one walk: how far, which way, how high, how straight, and what is unexplained."""
 
 import math
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -18,18 +19,24 @@ class Measures(NamedTuple):
     """Numbers of a walk, lengths over L, the speed in SI units.
 
     Attributes:
-        displacement: of the left end per cycle: in the last one on uniform ground, else their mean.
-        speed: the same per time [m/s].
-        by_cycle: the same in each cycle; the first may differ where a gait starts inflated.
+        displacement: ahead, of a strip's left end or the trunk's beginning, per cycle: in the last
+            one on uniform ground, else their mean; see Trajectory.moved.
+        aside: the same to the left.
+        turn: of the robot to the left in the last cycle [rad].
+        speed: displacement per time [m/s].
+        by_cycle: displacement in each cycle; the first may differ where a gait starts inflated.
         direction: of it, "none" below analytic.locomotion.STANDSTILL.
-        amplitude: greatest height.
-        unexplained: displacement per cycle that the anchor rule does not account for; NaN where
-            the ground resists by speed.
-        heading: the angle it turned by to the left [rad].
-        sideways: how far any of it ever was beside its plane.
+        amplitude: greatest height of the strip, or of any limb.
+        unexplained: displacement per cycle of a strip that the anchor rule does not account for;
+            NaN where the ground resists by speed, and of a robot of limbs.
+        heading: direction of the robot at the end, to the left of where it first pointed [rad].
+        sideways: how far any of a strip ever was beside its plane; the trunk's beginning of limbs.
+        radius: of the circle that equal cycles go round, infinite where they do not turn.
     """
 
     displacement: float
+    aside: float
+    turn: float
     speed: float
     by_cycle: tuple[float, ...]
     direction: Direction
@@ -37,52 +44,54 @@ class Measures(NamedTuple):
     unexplained: float
     heading: float
     sideways: float
+    radius: float
 
 
 def measure(walk: Trajectory) -> Measures | None:
-    """Measures of a walk that ended well; None of one that did not, as it has none.
-
-    What the anchor rule does not explain is what inertia drags the anchored end along for want of
-    friction. It vanishes as the gait slows, and is a lower bound on the error of the displacement
-    at finite speed.
-    """
+    """Measures of a walk that ended well; None of one that did not, as it has none."""
     if walk.status is not Status.OK:
         return None
-    x, z = walk.nodes()
-    scene, begin = walk.scene, walk.start
-    length = scene.robot.length
-    ends = _ends_of_cycles(walk)
-    by_cycle = np.diff(x[ends, 0]) / length
+    scene, length = walk.scene, walk.scene.robot.length
+    ends = walk.ends_of_cycles()
+    moves = np.array([walk.moved(one, two) for one, two in pairwise(ends.tolist())]) / length
     uniform = isinstance(scene.ground, Surface)
     counted = 1 if uniform else scene.cycles  # how many cycles the displacement is the mean of
-    first, last = ends[-1 - counted], ends[-1]
-    travel = float(x[last, 0] - x[first, 0])
-    steps = slice(first + 1, last + 1)
-    change = np.diff(x[:, -1] - x[:, 0])[first:last]
-    ruled = -float(walk.left_slip_fraction[steps] @ change)
-    if math.isnan(ruled):
-        ruled = travel - float(walk.drift[steps].sum()) * walk.numerics.timestep
-    if depends_on_speed(scene.ground):
-        ruled = math.nan  # both ends slide, by their viscous resistance
-    shift = travel / (counted * length)
-    along, aside, _ = walk.position[-1, -1] - walk.position[-1, 0]
+    ahead, aside = moves[-counted:].mean(axis=0).tolist()
+    turn = float(walk.heading[ends[-1]] - walk.heading[ends[-2]])
+    half = math.sin(0.5 * turn)
+    beside = walk.line[:, :1, 1] if scene.in_space else walk.line[..., 1]
     return Measures(
-        displacement=shift,
-        speed=shift * length / scene.gait.period,
-        by_cycle=tuple(by_cycle.tolist()),
-        direction=direction(shift, 1.0),
-        amplitude=float(z[begin:].max()) / length,
-        unexplained=shift - ruled / (counted * length),
-        heading=math.atan2(aside, along),
-        sideways=float(np.abs(walk.position[..., 1]).max()) / length,
+        displacement=ahead,
+        aside=aside,
+        turn=turn,
+        speed=ahead * length / scene.gait.period,
+        by_cycle=tuple(moves[:, 0].tolist()),
+        direction=direction(ahead, 1.0),
+        amplitude=float(walk.position[walk.start :, ..., 2].max()) / length,
+        unexplained=ahead - _ruled(walk, ends[[-1 - counted, -1]]) / (counted * length),
+        heading=float(walk.heading[-1]),
+        sideways=float(np.abs(beside).max()) / length,
+        radius=math.hypot(ahead, aside) / (2 * abs(half)) if half else math.inf,
     )
 
 
-def _ends_of_cycles(walk: Trajectory) -> NDArray[np.int_]:
-    """Rows in which cycles begin and end, (C + 1,)."""
-    times = walk.scene.gait.period * np.arange(walk.scene.cycles + 1)
-    rows = walk.start + np.rint(times / walk.numerics.timestep).astype(int)
-    return np.minimum(rows, len(walk.time) - 1)
+def _ruled(walk: Trajectory, rows: NDArray[np.int_]) -> float:
+    """Displacement of a strip's left end between two states by the anchor rule [m], or NaN.
+
+    What the rule does not explain is what inertia drags the anchored end along for want of
+    friction. It vanishes as the gait slows, and is a lower bound on the error of the displacement
+    at finite speed.
+    """
+    if walk.scene.in_space or depends_on_speed(walk.scene.ground):
+        return math.nan  # all contacts may slide, by their viscous resistance
+    first, last = rows.tolist()
+    steps = slice(first + 1, last + 1)
+    x, _ = walk.nodes()
+    ruled = -float(walk.left_slip_fraction[steps] @ np.diff(x[:, -1] - x[:, 0])[first:last])
+    if math.isnan(ruled):
+        travel = float(x[last, 0] - x[first, 0])
+        ruled = travel - float(walk.drift[steps].sum()) * walk.numerics.timestep
+    return ruled
 
 
 def slid_over_length(walk: Trajectory) -> float | None:

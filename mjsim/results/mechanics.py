@@ -52,7 +52,7 @@ class Balance(NamedTuple):
 
 def bending(walk: "Trajectory") -> Bending:
     """Of every state, from the directions of the links."""
-    robot, links = walk.scene.robot, walk.numerics.links
+    robot, links = walk.scene.strip, walk.numerics.links
     element = robot.length / links
     turn = turns(walk)
     stiffness, rest = _springs(walk, turn)
@@ -75,7 +75,7 @@ def balance(walk: "Trajectory") -> Balance | None:
     if walk.forces is None:
         return None
     scene, dt = walk.scene, walk.numerics.timestep
-    weights = scene.robot.weight_per_length * link_lengths(scene.robot, walk.numerics.links)
+    weights = scene.strip.weight_per_length * link_lengths(scene.strip, walk.numerics.links)
     along, down = np.sin(scene.slope), np.cos(scene.slope)
     x, z = walk.nodes()
     tangent = np.arctan2(np.diff(z), np.diff(x))
@@ -83,10 +83,10 @@ def balance(walk: "Trajectory") -> Balance | None:
     carried = np.cumsum(weights) - 0.5 * weights
     pulled = np.cumsum(walk.forces.friction, axis=1)[:, :-1] - along * carried
     pushed = np.cumsum(walk.forces.normal, axis=1)[:, :-1] - down * carried
-    velocity = np.diff(walk.position, axis=0, prepend=walk.position[:1]) / dt
+    velocity = np.diff(walk.line, axis=0, prepend=walk.line[:1]) / dt
     one, two = velocity[:, :-1], velocity[:, 1:]
     squares = (one * one + one * two + two * two).sum(axis=2) / 3  # of a thin rod
-    middle = 0.5 * (walk.position[:, :-1] + walk.position[:, 1:])
+    middle = 0.5 * (walk.line[:, :-1] + walk.line[:, 1:])
     slipped = np.diff(x, axis=0)
     return Balance(
         tension=-(pulled * np.cos(tangent) + pushed * np.sin(tangent)),
@@ -113,7 +113,7 @@ def turns(walk: "Trajectory") -> Array:
 
 
 def _springs(walk: "Trajectory", turn: Array) -> tuple[Array, Array]:
-    robot, links, chamber = walk.scene.robot, walk.numerics.links, walk.scene.chamber
+    robot, links, chamber = walk.scene.strip, walk.numerics.links, walk.scene.chamber
     if chamber != "sealed":
         return joint_springs(robot, links, walk.pressure, chamber)
     pairs = [sealed_springs(robot, links, p, t) for p, t in zip(walk.pressure, turn, strict=True)]

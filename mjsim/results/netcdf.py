@@ -6,7 +6,7 @@ method="nearest")`, `data.pressure.sel(segment="left")`.
 
 import io
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.chain import link_lengths, node_positions
+from analytic.scene.limbs import limbs_of
 from mjsim.files.files import whole
 from mjsim.results.mechanics import balance, bending, slip
 
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
     from mjsim.results.trajectory import Trajectory
 
 CONVENTIONS = "CF-1.11"
-_THREE = ("left", "middle", "right")
 _REFERENCE = (
     "Majidi, Shepherd, Kramer, Whitesides and Wood (2013), "
     "Influence of surface traction on soft robot undulation"
@@ -41,35 +41,58 @@ class Variable(NamedTuple):
     meaning: str
 
 
-def segment_names(count: int) -> list[str]:
-    """Left, middle and right of three; else numbers, from the left."""
-    return list(_THREE) if count == 3 else [f"{number}" for number in range(1, count + 1)]
-
-
 def variables(walk: "Trajectory") -> Iterator[Variable]:
     """Coordinates, what was simulated, then what follows from it."""
-    yield from _coordinates(walk)
-    yield from _simulated(walk)
-    yield from _mechanics(walk)
+    yield Variable("time", ("time",), walk.time, "s", "since the first cycle began")
+    if walk.scene.in_space:
+        yield from _limbs(walk)
+    else:
+        yield from _strip(walk)
+    nodes = ("time", "limb", "vertex") if walk.scene.in_space else ("time", "arclength")
+    x, y, z = np.moveaxis(walk.position if walk.scene.in_space else walk.line, -1, 0)
+    yield Variable("x", nodes, x, "m", "position of the vertices along the ground")
+    yield Variable("y", nodes, y, "m", "position of the vertices to the left of the x-axis")
+    yield Variable("height", nodes, z, "m", "height of the vertices over flat rest")
+    yield Variable("coordinates", ("time", "dof"), walk.coordinates, "1",
+                   "generalised coordinates of MuJoCo, in m and rad")  # fmt: skip
+    for name in ("wall_time", "cpu_time"):
+        yield Variable(name, (), np.array(getattr(walk, name)), "s", "that the stepping took")
+    if not walk.scene.in_space:
+        yield from _mechanics(walk)
 
 
-def _coordinates(walk: "Trajectory") -> Iterator[Variable]:
-    robot, links = walk.scene.robot, walk.numerics.links
+def _named(words: Sequence[str]) -> NDArray[Any]:
+    return np.array(words, dtype=object)
+
+
+def _limbs(walk: "Trajectory") -> Iterator[Variable]:
+    """What a robot of limbs alone has."""
+    limbs, time = limbs_of(walk.scene.robot), ("time",)
+    along = np.array([node_positions(limb.strip, walk.numerics.links) for limb in limbs])
+    chambers = _named(walk.scene.robot.chambers)
+    yield Variable("limb", ("limb",), _named([limb.name for limb in limbs]), "1", "name of a limb")
+    yield Variable("chamber", ("chamber",), chambers, "1", "name of a chamber: of its limb")
+    yield Variable("vertex", ("vertex",), np.arange(along.shape[1]), "1", "from a limb's beginning")
+    yield Variable("arclength", ("limb", "vertex"), along, "m", "of the vertices, from there")
+    yield Variable("pressure", ("time", "chamber"), walk.pressure, "Pa", "gauge, in the chambers")
+    for column, name in enumerate(("yaw", "pitch", "roll"), start=3):
+        yield Variable(name, time, walk.coordinates[:, column], "rad", f"{name} of the trunk")
+    yield Variable("contacts", time, walk.contacts, "1", "how many limbs touch the ground")
+
+
+def _strip(walk: "Trajectory") -> Iterator[Variable]:
+    """What a strip alone has."""
+    robot, links = walk.scene.strip, walk.numerics.links
     nodes, lengths = node_positions(robot, links), link_lengths(robot, links)
-    names = np.array(segment_names(len(robot.segments)), dtype=object)
     for name, values, units, meaning in (
-        ("time", walk.time, "s", "since the first cycle began"),
-        ("segment", names, "1", "of the strip, from the left"),
+        ("segment", _named(robot.chambers), "1", "of the strip, from the left"),
         ("arclength", nodes, "m", "of the vertices from the left end"),
         ("hinge", nodes[1:-1], "m", "arclength of the hinges from the left end"),
         ("link", nodes[:-1] + 0.5 * lengths, "m", "arclength of the links' middles"),
     ):
         yield Variable(name, (name,), values, units, meaning)
-
-
-def _simulated(walk: "Trajectory") -> Iterator[Variable]:
-    x, z = walk.nodes()
-    time, nodes = ("time",), ("time", "arclength")
+    x, _ = walk.nodes()
+    time = ("time",)
     lying = "length over which the {} end lies on its side, 0 for a tip"
     yield Variable("pressure", ("time", "segment"), walk.pressure, "Pa", "gauge, in the chambers")
     yield Variable("x_left", time, x[:, 0], "m", "position of the left end")
@@ -79,13 +102,6 @@ def _simulated(walk: "Trajectory") -> Iterator[Variable]:
     yield Variable("left_slip_fraction", time, walk.left_slip_fraction, "1",
                    "left end's part of a change of separation, by the anchor rule")  # fmt: skip
     yield Variable("drift", time, walk.drift, "m s-1", "of what friction should have held")
-    yield Variable("x", nodes, x, "m", "position of the vertices along the ground")
-    yield Variable("y", nodes, walk.position[..., 1], "m", "out of the plane of the gait")
-    yield Variable("height", nodes, z, "m", "height of the vertices over flat rest")
-    yield Variable("coordinates", ("time", "dof"), walk.coordinates, "1",
-                   "generalised coordinates of MuJoCo, in m and rad")  # fmt: skip
-    for name in ("wall_time", "cpu_time"):
-        yield Variable(name, (), np.array(getattr(walk, name)), "s", "that the stepping took")
 
 
 def _mechanics(walk: "Trajectory") -> Iterator[Variable]:

@@ -46,11 +46,11 @@ class Plots:
             raise ValueError(f"times must be from {walk.time[0]:g} to {last:g} s, got {times!r}")
         x, z = 1e3 * np.array(walk.nodes())
         rows = [int(np.searchsorted(walk.time, time - 1e-9)) for time in chosen]
-        apart = 1.15 * max(float(z[rows].max()), 0.05e3 * walk.scene.robot.length)
-        borders = np.asarray(walk.scene.robot.borders)
+        apart = 1.15 * max(float(z[rows].max()), 0.05e3 * walk.scene.strip.length)
+        borders = np.asarray(walk.scene.strip.borders)
         nodes = np.linspace(0.0, 1.0, walk.numerics.links + 2)
         inside = np.clip(np.searchsorted(borders, 0.5 * (nodes[1:] + nodes[:-1])) - 1, 0, None)
-        fractions = np.clip(np.abs(walk.pressure) / walk.scene.robot.peak_pressure, 0.0, 1.0)
+        fractions = np.clip(np.abs(walk.pressure) / walk.scene.strip.peak_pressure, 0.0, 1.0)
         pale, dark = np.array(PALE), np.array(DARK)
         for number, (row, time) in enumerate(zip(rows, chosen, strict=True)):
             up = -number * apart
@@ -108,14 +108,14 @@ def touches(walk: "Trajectory") -> NDArray[np.bool_]:
     """Whether each node touches the ground after each step, (T, N + 2)."""
     if walk.forces is not None:
         return np.asarray(walk.forces.normal > 0)
-    return np.asarray(walk.position[..., 2] <= 1e-4 * walk.scene.robot.length)
+    return np.asarray(walk.line[..., 2] <= 1e-4 * walk.scene.strip.length)
 
 
 def edges(walk: "Trajectory") -> Array:
     """Arclengths half-way between the nodes, and of the ends, (N + 3,) [m]."""
     from analytic.scene.chain import node_positions
 
-    nodes = node_positions(walk.scene.robot, walk.numerics.links)
+    nodes = node_positions(walk.scene.strip, walk.numerics.links)
     return np.concatenate([nodes[:1], 0.5 * (nodes[1:] + nodes[:-1]), nodes[-1:]])
 
 

@@ -2,12 +2,19 @@
 
 import math
 from dataclasses import replace
+from typing import NamedTuple
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from analytic.prediction import REFERENCE, SOLVERS, Elastica, Prediction, predict
+from analytic.scene.limbs import LimbedRobot
 from analytic.scene.surface import Surface
-from mjsim.scene import Scene
+from analytic.solvers.limbs.path import Path
+from analytic.solvers.limbs.walk import walk as walk_of_limbs
+from mjsim.scene import Numerics, Resolved, Scene, resolved
+
+Array = NDArray[np.float64]
 
 STATES = 50  # of the reference in a ramp from no pressure to the peak
 WEAK = "weak friction"  # which bends nothing and only decides who slides
@@ -15,11 +22,100 @@ _RESOLVED = 2e-4  # of the length: what no halving shows; then 51 of 53 random s
 _LINKS, _LINKS_A_SEGMENT = 60, 24  # of the reference: contacts between the ends need finer links
 _PARTS, _PARTS_BETWEEN = 32, 8  # of increments in which contacts change, see analytic.prediction
 HALF = 0.5  # of links, states and parts: what the error bar compares with
+QUASI_STATIC = "quasi-static"  # the reference of robots of limbs
+LIMB_STATES = 20  # of it, in a change by the peak pressure
+
+
+class Reference(NamedTuple):
+    """The quasi-static reference, of the cycle that a walk of the scene is measured by.
+
+    Attributes:
+        name: of the model, REFERENCE or QUASI_STATIC.
+        displacement: ahead and to the left over L, (2,); NaN where there is none.
+        turn: to the left [rad].
+        by_cycle: displacement ahead in each cycle over L, (C,).
+        flags: names of what it met, and whether all its states converged.
+        walk: all of its states.
+    """
+
+    name: str
+    displacement: Array
+    turn: float
+    by_cycle: Array
+    flags: tuple[str, ...]
+    walk: Prediction | Path
+
+    @property
+    def height(self) -> float:
+        """Greatest height of any vertex [m]."""
+        if isinstance(self.walk, Prediction):
+            return float(self.walk.shapes.amplitude.max())
+        return max(float(rest.nodes[:, 2].max()) for rest in self.walk.rests)
+
+
+def reference(
+    scene: Scene, numerics: Numerics | None = None, finer: float = 1.0, bent: bool = True,
+    path: Array | None = None, times: Array | None = None,
+) -> Reference:  # fmt: skip
+    """What the quasi-static reference of its robot makes of a scene.
+
+    Args:
+        scene: robot, gait, ground, friction and chambers; not what MuJoCo alone needs.
+        numerics: of the walk beside it, whose links per limb a reference in space takes.
+        finer: multiplies links and states; HALF of them are what an error bar compares with.
+        bent: whether friction bends the robot, else it is WEAK.
+        path, times: pressures in the chambers to follow in place of the gait's, (B, S) [Pa], and
+            when, (B,) [s].
+
+    Raises:
+        ValueError: the reference does not know what the scene asks for.
+    """
+    if isinstance(scene.robot, LimbedRobot):
+        return _of_limbs(scene, scene.robot, resolved(scene, numerics), finer, bent, path, times)
+    walk = prediction(scene, REFERENCE, finer, bent=bent, path=path, times=times)
+    flags = tuple(flag.name.lower() for flag in walk.flags if flag.name)
+    by_cycle = walk.by_cycle / scene.strip.length
+    ahead = displacement(scene, walk)
+    return Reference(REFERENCE, np.array([ahead, 0.0 * ahead]), 0.0, by_cycle, flags, walk)
+
+
+def _of_limbs(
+    scene: Scene, robot: LimbedRobot, numerics: Resolved, finer: float, bent: bool,
+    path: Array | None, times: Array | None,
+) -> Reference:  # fmt: skip
+    links = numerics.links if finer == 1 else max(2, numerics.links - 2)
+    cycles = scene.cycles
+    if cycles == 1 and path is None and scene.rise_time and scene.gait.repeats:
+        cycles = 2  # of which the first begins without any friction
+    walk = walk_of_limbs(
+        robot, scene.gait, scene.ground, round(LIMB_STATES * finer), links, cycles, scene.friction,
+        bent, scene.chamber, path, times,
+    )  # fmt: skip
+    moves, turns = walk.by_cycle(cycles)
+    last = moves[-1] if isinstance(scene.ground, Surface) else moves.mean(axis=0)
+    flags = () if walk.converged else ("not_converged",)
+    length = robot.length
+    return Reference(QUASI_STATIC, last / length, float(turns[-1]), moves[:, 0] / length, flags,
+                     walk)  # fmt: skip
+
+
+def error_bars(scene: Scene, fine: Reference, coarse: Reference) -> tuple[float | None, float]:
+    """What half the links and states change: of the displacement over L, and the turn [rad].
+
+    Args:
+        scene: what is predicted.
+        fine: its reference.
+        coarse: the same by HALF of everything.
+    """
+    change = float(np.hypot(*(fine.displacement - coarse.displacement)))
+    resolves = 0.0 if scene.in_space else _RESOLVED
+    bar = change + resolves if math.isfinite(change) else None
+    return bar, abs(fine.turn - coarse.turn)
 
 
 def links(scene: Scene) -> int:
     """Links of the reference."""
-    return max(_LINKS, _LINKS_A_SEGMENT * len(scene.robot.segments) * scene.gait.dips())
+    return max(_LINKS, _LINKS_A_SEGMENT * len(scene.strip.segments) * scene.gait.dips())
 
 
 def parts(scene: Scene) -> int:
@@ -63,7 +159,7 @@ def prediction(
     if path is None and isinstance(scene.ground, Surface):
         cycles = 2 if scene.rise_time and scene.gait.repeats else 1
     return predict(
-        scene.robot, scene.gait, scene.ground, model, round((states or STATES) * finer),
+        scene.strip, scene.gait, scene.ground, model, round((states or STATES) * finer),
         round(parts(scene) * finer), friction, path, cycles, times,
     )  # fmt: skip
 
@@ -73,16 +169,4 @@ def displacement(scene: Scene, found: Prediction) -> float:
     distance = found.locomotion.per_cycle
     if isinstance(scene.ground, Surface):
         distance = found.by_cycle[min(scene.cycles, found.cycles) - 1]
-    return float(distance / scene.robot.length)
-
-
-def error_bar(scene: Scene, found: float, coarse: Prediction) -> float | None:
-    """What half the links and states change in a displacement, over L; None without one.
-
-    Args:
-        scene: what is predicted.
-        found: its displacement over L.
-        coarse: the prediction by HALF of everything.
-    """
-    gap = abs(displacement(scene, coarse) - found)
-    return gap + _RESOLVED if math.isfinite(gap) else None
+    return float(distance / scene.strip.length)

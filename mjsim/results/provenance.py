@@ -10,11 +10,12 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from analytic import Gait, Patches, Robot, Surface
-from analytic.scene.limbs import Limb, TreeRobot
-from mjsim.scene import Numerics, Scene, Valves
-from mjsim.scene.limbs import TreeNumerics, TreeScene
+from analytic.scene.limbs import Limb, LimbedRobot
+from mjsim.scene import Numerics, Resolved, Scene, Valves, resolved
 
 Kind = TypeVar("Kind")
+
+_RENAMED = {"elements": "links"}  # of the numerics, in older files
 
 DISTRIBUTION = "undulator"
 _PACKAGES = (DISTRIBUTION, "mujoco", "dm_control", "numpy", "scipy")
@@ -41,7 +42,7 @@ def machine() -> str:
     return f"{platform.machine()} {platform.system()} {os.cpu_count()} cores"
 
 
-def provenance(scene: Scene | TreeScene, numerics: Numerics | TreeNumerics) -> dict[str, Any]:
+def provenance(scene: Scene, numerics: Numerics) -> dict[str, Any]:
     """Plain data that says how to make a result again."""
     described = {field.name: _plain(getattr(scene, field.name)) for field in fields(scene)}
     return {**origin(), "scene": described, "numerics": asdict(numerics)}
@@ -54,34 +55,35 @@ def _plain(value: Any) -> Any:
     return value if isinstance(value, str | int | float) else value.name
 
 
-def configuration(
-    described: dict[str, Any],
-) -> tuple[Scene, Numerics] | tuple[TreeScene, TreeNumerics]:
+def configuration(described: dict[str, Any]) -> tuple[Scene, Resolved]:
     """The scene and numerics that `provenance` described.
 
     Raises:
         KeyError, TypeError, ValueError: `described` is no such description, or of a ground that
             this version does not know.
     """
-    scene = dict(described["scene"])
-    of_limbs = "limbs" in scene["robot"]
-    if isinstance(scene["ground"], dict) and "borders" in scene["ground"]:
-        patches = scene["ground"]
+    values, numbers = dict(described["scene"]), dict(described["numerics"])
+    for old, new in _RENAMED.items():
+        if old in numbers:
+            numbers[new] = numbers.pop(old)
+    if isinstance(values["ground"], dict) and "borders" in values["ground"]:
+        patches = values["ground"]
         surfaces = tuple(_made(Surface, surface, "surface") for surface in patches["surfaces"])
-        scene["ground"] = Patches(patches["name"], tuple(patches["borders"]), surfaces)
+        values["ground"] = Patches(patches["name"], tuple(patches["borders"]), surfaces)
     else:
-        scene["ground"] = _made(Surface, scene["ground"], "ground")
-    scene["gait"] = _made(Gait, scene["gait"], "gait")
-    if of_limbs:
-        limbs = [
+        values["ground"] = _made(Surface, values["ground"], "ground")
+    values["gait"] = _made(Gait, values["gait"], "gait")
+    if "limbs" in values["robot"]:
+        limbs = tuple(
             _made(Limb, {**limb, "strip": _made(Robot, limb["strip"], "strip")}, "limb")
-            for limb in scene["robot"]["limbs"]
-        ]
-        scene["robot"] = _made(TreeRobot, {**scene["robot"], "limbs": limbs}, "robot")
-        return TreeScene(**scene), _made(TreeNumerics, described["numerics"], "numerics")
-    scene["robot"] = _made(Robot, scene["robot"], "robot")
-    scene["valves"] = _made(Valves, scene["valves"], "valves")
-    return Scene(**scene), Numerics(**described["numerics"])
+            for limb in values["robot"]["limbs"]
+        )
+        values["robot"] = LimbedRobot(limbs, values["robot"]["peak_pressure"])
+    else:
+        values["robot"] = _made(Robot, values["robot"], "robot")
+    values["valves"] = _made(Valves, values.get("valves", {}), "valves")
+    scene = Scene(**values)
+    return scene, resolved(scene, _made(Numerics, numbers, "numerics"))
 
 
 def _made(kind: type[Kind], table: Any, name: str) -> Kind:

@@ -7,30 +7,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.locomotion import direction
-from analytic.prediction import REFERENCE, Prediction
-from mjsim.results.cautions import APART, cautions, elsewhere, tied
-from mjsim.results.measures import Measures, measure, slid_over_length
-from mjsim.results.prediction import HALF, STATES, displacement, error_bar, prediction
+from analytic.prediction import Prediction
+from analytic.scene.limbs import limbs_of
+from mjsim.files.text_table import Column, text_table
+from mjsim.results import prediction
+from mjsim.results.cautions import APART, cautions, limb_cautions, tied
+from mjsim.results.measures import measure, slid_over_length
+from mjsim.results.prediction import HALF, STATES, Reference, error_bars
 from mjsim.results.trajectory import Trajectory
-from mjsim.scene import Scene
 
 _OPEN = 1e-4  # of the length: less is a rounding
 
 
 def record(walk: Trajectory) -> dict[str, Any]:
     """The run as plain data; quantities that do not exist are None, never a number."""
-    scene, numerics = walk.scene, walk.numerics
-    found = reference(walk)
-    by_cycle = (found.by_cycle / scene.robot.length).tolist()
-    predicted = displacement(scene, found)
-    known = math.isfinite(predicted)
-    bar = error_bar(scene, predicted, reference(walk, HALF)) if known else None
-    numbers = measure(walk)
+    scene, numerics, length = walk.scene, walk.numerics, walk.scene.robot.length
+    theory, numbers = reference(walk), measure(walk)
+    ahead, aside = theory.displacement.tolist()
+    known = math.isfinite(ahead)
+    bar, turn_bar = error_bars(scene, theory, reference(walk, HALF)) if known else (None, 0.0)
+    error = numbers.displacement - ahead if numbers and known else None
     simulated = float(len(walk.time) * numerics.timestep)
-    shift = numbers.displacement if numbers else None
-    meters = None if shift is None else shift * scene.robot.length
-    return {
+    shift = numbers and numbers.displacement
+    turn = numbers and math.degrees(numbers.turn)
+    row: dict[str, Any] = {
         "surface": scene.ground.name,
+        "robot": ", ".join(limb.name for limb in limbs_of(scene.robot)),
         "gait": scene.gait.name,
         "body": scene.body,
         "friction": scene.friction,
@@ -38,46 +40,73 @@ def record(walk: Trajectory) -> dict[str, Any]:
         "links": numerics.links,
         "timestep_s": numerics.timestep,
         "peak_pressure_Pa": scene.robot.peak_pressure,
+        "length_m": length,
         "displacement_over_L": shift,
         "displacement_by_cycle_over_L": list(numbers.by_cycle) if numbers else None,
-        "displacement_m": meters,
-        "speed_m_per_s": None if meters is None else meters / scene.gait.period,
+        "displacement_m": None if shift is None else shift * length,
+        "speed_m_per_s": numbers and numbers.speed,
         "direction": None if shift is None else direction(shift, 1.0, bar or 0.0),
-        "predicted_by": REFERENCE,
-        "predicted_displacement_over_L": predicted if known else None,
-        "predicted_by_cycle_over_L": by_cycle if known else None,
+        "aside_over_L": numbers and numbers.aside,
+        "turn_deg": turn,
+        "radius_over_L": _number(numbers and numbers.radius),
+        "predicted_by": theory.name,
+        "predicted_displacement_over_L": ahead if known else None,
+        "predicted_by_cycle_over_L": theory.by_cycle.tolist() if known else None,
         "prediction_uncertainty_over_L": bar,
-        "predicted_direction": direction(predicted, 1.0, bar or 0.0) if known else None,
-        "prediction_undecided_over_L": tied(scene, found) if known else None,
-        "prediction_flags": [flag.name for flag in found.flags],
-        "prediction_notes": _notes(scene, numbers, found, predicted, bar or 0.0) if known else [],
-        "error_over_L": None if shift is None or not known else shift - predicted,
+        "predicted_direction": direction(ahead, 1.0, bar or 0.0) if known else None,
+        "predicted_aside_over_L": aside if known else None,
+        "predicted_turn_deg": math.degrees(theory.turn) if known else None,
+        "prediction_uncertainty_deg": math.degrees(turn_bar) if known else None,
+        "prediction_undecided_over_L": _undecided(walk, theory) if known else None,
+        "prediction_flags": [flag.upper() for flag in theory.flags],
+        "prediction_notes": [],
+        "error_over_L": error,
+        "error_deg": None if turn is None or not known else turn - math.degrees(theory.turn),
         "unexplained_over_L": _number(numbers and numbers.unexplained),
         "heading_deg": numbers and math.degrees(numbers.heading),
         "sideways_over_L": numbers and numbers.sideways,
         "amplitude_over_L": numbers and numbers.amplitude,
         "slid_over_L": slid_over_length(walk) if walk.status == "slid" else None,
+        "fewest_limbs_on_ground": _fewest(walk),
         "sim_time_s": simulated,
         "wall_time_s": walk.wall_time,
         "realtime_factor": simulated / walk.wall_time,
         "status": str(walk.status),
     }
+    if isinstance(theory.walk, Prediction):
+        notes = cautions(scene, numbers, theory.walk, error, bar) if known else []
+    else:
+        notes = limb_cautions(walk, row)
+    return {**row, "prediction_notes": notes}
 
 
-def reference(walk: Trajectory, finer: float = 1) -> Prediction:
+def _fewest(walk: Trajectory) -> int | None:
+    return int(walk.contacts[walk.start :].min()) if walk.scene.in_space else None
+
+
+def _undecided(walk: Trajectory, theory: Reference) -> float | None:
+    """Displacement over L that hangs on bounds that are alike, of a strip."""
+    return tied(walk.scene, theory.walk) if isinstance(theory.walk, Prediction) else None
+
+
+def reference(walk: Trajectory, finer: float = 1) -> Reference:
     """What the quasi-static reference makes of the same scene.
 
-    Chambers that lag behind their valves take the strip along another path than the gait's: then it
-    is theirs that the reference follows.
+    Chambers that lag behind their valves take the robot along another path than the gait's: then
+    it is theirs that the reference follows.
 
     Args:
         walk: whose scene it is.
         finer: multiplies links and states.
     """
-    if walk.scene.valves.ideal or walk.time[-1] <= 0:
-        return prediction(walk.scene, finer=finer)
-    rows = _along(walk, round(STATES * finer))
-    return prediction(walk.scene, finer=finer, path=walk.pressure[rows], times=walk.time[rows])
+    scene, numerics = walk.scene, walk.numerics
+    if scene.valves.ideal or walk.time[-1] <= 0:
+        return prediction.reference(scene, numerics, finer)
+    states = prediction.LIMB_STATES if scene.in_space else STATES
+    rows = _along(walk, round(states * finer))
+    return prediction.reference(
+        scene, numerics, finer, path=walk.pressure[rows], times=walk.time[rows]
+    )
 
 
 def _along(walk: Trajectory, states: int) -> NDArray[np.int_]:
@@ -90,13 +119,6 @@ def _along(walk: Trajectory, states: int) -> NDArray[np.int_]:
     return np.unique([walk.start, *rows, len(walk.time) - 1])
 
 
-def _notes(
-    scene: Scene, numbers: Measures | None, found: Prediction, predicted: float, bar: float
-) -> list[str]:
-    error = numbers.displacement - predicted if numbers else math.nan
-    return elsewhere(scene) + cautions(scene, numbers, found, error, bar)
-
-
 def _number(value: float | None) -> float | None:
     """None for a number that does not exist."""
     return value if value is not None and math.isfinite(value) else None
@@ -104,21 +126,23 @@ def _number(value: float | None) -> float | None:
 
 def table(records: list[dict[str, Any]]) -> str:
     """One line a run: direction and displacement beside the prediction, and what it cost."""
-    head = (
-        f"{'surface':<14}{'direction':<11}{'Δ/L':>9}{REFERENCE:>9}{'±':>8}{'error':>9}{'unexpl.':>9}"
-        f"{'height/L':>10}{'sim s':>8}{'wall s':>8}{'× real':>8}  status"
-    )
-    return "\n".join([head, *(_line(row) for row in records)])
-
-
-def _line(row: dict[str, Any]) -> str:
-    return (
-        f"{row['surface']:<14}{row['direction'] or '-':<11}"
-        f"{_signed(row['displacement_over_L'])}{_signed(row['predicted_displacement_over_L'])}"
-        f"{_bar(row['prediction_uncertainty_over_L'])}{_signed(row['error_over_L'])}"
-        f"{_signed(row['unexplained_over_L'])}"
-        f"{_plain(row['amplitude_over_L'])}{row['sim_time_s']:>8.1f}{row['wall_time_s']:>8.2f}"
-        f"{row['realtime_factor']:>8.0f}  {row['status']}{_remarks(row)}"
+    by, in_space = records[0]["predicted_by"], records[0]["robot"] != "strip"
+    middle = (
+        Column("turn °", "turn_deg", "+.2f"), Column(by, "predicted_turn_deg", "+.2f"),
+        Column("±", "prediction_uncertainty_deg", ".2f"),
+    ) if in_space else (Column("unexpl.", "unexplained_over_L", "+.4f"),)  # fmt: skip
+    columns = (
+        Column("surface", "surface"), Column("direction", "direction"),
+        Column("Δ/L", "displacement_over_L", "+.4f"),
+        Column(by, "predicted_displacement_over_L", "+.4f"),
+        Column("±", "prediction_uncertainty_over_L", ".4f"),
+        Column("error", "error_over_L", "+.4f"), *middle,
+        Column("height/L", "amplitude_over_L", ".3f"), Column("sim s", "sim_time_s", ".1f"),
+        Column("wall s", "wall_time_s", ".2f"), Column("× real", "realtime_factor", ".0f"),
+        Column("status", "result"),
+    )  # fmt: skip
+    return text_table(
+        columns, [{**row, "result": row["status"] + _remarks(row)} for row in records]
     )
 
 
@@ -140,15 +164,3 @@ def _remarks(row: dict[str, Any]) -> str:
 
 def _differ(by_cycle: list[float]) -> bool:
     return abs(by_cycle[0] - by_cycle[-1]) > APART
-
-
-def _signed(value: float | None) -> str:
-    return f"{'-':>9}" if value is None else f"{value:>+9.4f}"
-
-
-def _bar(value: float | None) -> str:
-    return f"{'-':>8}" if value is None else f"{value:>8.4f}"
-
-
-def _plain(value: float | None) -> str:
-    return f"{'-':>10}" if value is None else f"{value:>10.3f}"

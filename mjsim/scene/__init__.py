@@ -1,7 +1,16 @@
 """What is simulated (Scene) and how (Numerics); needs no MuJoCo."""
 
-from mjsim.scene.numerics import CONES, INTEGRATORS, Numerics
-from mjsim.scene.scene import ACTUATIONS, Scene
+from mjsim.scene.numerics import CONES, INTEGRATORS, Numerics, Resolved
+from mjsim.scene.scene import ACTUATIONS, Scene, resolved
 from mjsim.scene.valves import Valves
 
-__all__ = ["ACTUATIONS", "CONES", "INTEGRATORS", "Numerics", "Scene", "Valves"]
+__all__ = [
+    "ACTUATIONS",
+    "CONES",
+    "INTEGRATORS",
+    "Numerics",
+    "Resolved",
+    "Scene",
+    "Valves",
+    "resolved",
+]

@@ -1,17 +1,22 @@
 """How a body is discretised and integrated."""
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
 
 from analytic.checks import one_of, positive, whole
 
 MIN_LINKS, MAX_LINKS = 6, 384
+FEWEST_IN_SPACE = 2  # of a limb
 LONGEST_STEP = 0.1  # s
 
 Integrator = Literal["discrete", "Euler", "implicitfast", "implicit", "RK4"]
 Cone = Literal["elliptic", "pyramidal"]
 INTEGRATORS: tuple[str, ...] = get_args(Integrator)
 CONES: tuple[str, ...] = get_args(Cone)
+
+OF_SPACE = ("contact_softness", "tie_time")
+OF_THE_PLANE = ("integrator", "side_angle", "steep_contact_time", "steep_angle", "cone",
+                 "impratio", "contact_depth", "edge_time", "tie_bound")  # fmt: skip
 
 # contact times that the classic integrators need: at least so many steps, and so long; measured
 _FIRM_STEPS, _STEEP_STEPS = 2.0, 4.0
@@ -28,10 +33,11 @@ class Numerics:
         ValueError: a value is out of its range; the message names it and the valid ones.
     """
 
-    links: int = 24
-    """length of a link is the strip's over this; multiples of 6 are the most accurate"""
-    timestep: float = 0.005
-    """time step [s]; chosen"""
+    links: int | None = None
+    """length of a link is the limb's over this: 24 of a strip, where multiples of 6 are the most
+    accurate; 6 of each limb of a robot in space, even"""
+    timestep: float | None = None
+    """time step [s]; 0.005 of a strip, 0.01 of a robot in space; chosen"""
     integrator: Integrator = "discrete"
     """MuJoCo's integrator; all but discrete need softer contacts and smaller steps"""
     damping_time: float = 0.005
@@ -39,7 +45,8 @@ class Numerics:
     side_angle: float = 1e-3
     """an end less steep than this lies on its side [rad]; chosen"""
     contact_time: float | None = None
-    """time constant of contacts, critically damped [timestep]; 0.5 with discrete, else 2 or more"""
+    """time constant of contacts, critically damped [timestep]; 0.5 with discrete, else 2 or more; 2
+    of a robot in space"""
     steep_contact_time: float | None = None
     """that of an end steeper than steep_angle [timestep]; 2 with discrete, 4 for the cable"""
     steep_angle: float = 0.3
@@ -58,10 +65,14 @@ class Numerics:
     tie_bound: float = 1.5
     """bound of the friction that holds the mean position of two ends that resist alike [D0/L^2];
     chosen, about the strongest bound of the named surfaces"""
+    contact_softness: float = 0.008
+    """of a robot in space: part of an acceleration that contacts yield to, of slow gaits; chosen:
+    with less, limbs that turn fast are thrown; faster gaits get more"""
+    tie_time: float = 0.1
+    """of a robot in space: in which motion that no bound holds dies down, by viscosity at all
+    contacts alike, which is weak where some are bound [s]; chosen"""
 
     def __post_init__(self) -> None:
-        whole("links", self.links, MIN_LINKS, MAX_LINKS)
-        object.__setattr__(self, "links", int(self.links))
         one_of("integrator", self.integrator, INTEGRATORS)
         one_of("cone", self.cone, CONES)
         for item in fields(self):
@@ -69,24 +80,56 @@ class Numerics:
             if item.name not in ("links", "integrator", "cone") and value is not None:
                 positive(item.name, value)
                 object.__setattr__(self, item.name, float(value))
-        if self.timestep > LONGEST_STEP:
+        if self.contact_softness >= 1:
+            raise ValueError(f"contact_softness must be below 1, got {self.contact_softness!r}")
+        if self.timestep is not None and self.timestep > LONGEST_STEP:
             raise ValueError(f"timestep must be at most {LONGEST_STEP} s, got {self.timestep!r}")
 
-    def resolved(self, body: str, friction: str) -> "Numerics":
-        """The same with a number for whatever is chosen for the body, the law, the integrator."""
-        classic = self.integrator != "discrete"
+    def resolved(self, body: str, friction: str, in_space: bool = False) -> "Resolved":
+        """The same with a number for whatever is chosen for body, law, integrator and robot.
+
+        Raises:
+            ValueError: the links are not such as the robot can have.
+        """
+        _check_links(self.links, in_space)
         # links of the cable have a width to shake by: its steep ends need a softer ground
-        steep = 4.0 if body == "cable" else 2.0
         chosen: dict[str, float] = {
-            "contact_time": 0.5,
-            "steep_contact_time": steep,
-            "pad_radius": 1e-5 if friction == "coulomb" else 1e-3,
-            "edge_time": _FIRM_STEPS if classic else 0.5,
+            "links": 6 if in_space else 24,
+            "timestep": 0.01 if in_space else 0.005,
+            "contact_time": 2.0 if in_space else 0.5,
+            "steep_contact_time": 4.0 if body == "cable" else 2.0,
+            "pad_radius": 1e-5 if friction == "coulomb" and not in_space else 1e-3,
+            "edge_time": 0.5,
         }
-        if classic:
-            chosen["contact_time"] = max(_FIRM_STEPS, _FIRM / self.timestep)
-            chosen["steep_contact_time"] = max(_STEEP_STEPS, _STEEP / self.timestep)
-        missing: dict[str, Any] = {
-            name: value for name, value in chosen.items() if getattr(self, name) is None
-        }
-        return replace(self, **missing)
+        if self.integrator != "discrete":
+            step = chosen["timestep"] if self.timestep is None else self.timestep
+            chosen["contact_time"] = max(_FIRM_STEPS, _FIRM / step)
+            chosen["steep_contact_time"] = max(_STEEP_STEPS, _STEEP / step)
+            chosen["edge_time"] = _FIRM_STEPS
+        given: dict[str, Any] = {item.name: getattr(self, item.name) for item in fields(self)}
+        for name in OF_THE_PLANE if in_space else OF_SPACE:
+            if given[name] not in (getattr(Numerics, name), chosen.get(name)):
+                where = "in space" if in_space else "in the plane"
+                raise ValueError(f"{name} does nothing for a robot {where}, got {given[name]!r}")
+        values: dict[str, Any] = {k: chosen[k] if v is None else v for k, v in given.items()}
+        return Resolved(**values)
+
+
+def _check_links(links: int | None, in_space: bool) -> None:
+    if links is None:
+        return
+    whole("links", links, FEWEST_IN_SPACE if in_space else MIN_LINKS, MAX_LINKS)
+    if in_space and links % 2:
+        raise ValueError(f"links of each limb of a robot in space must be even, got {links}")
+
+
+@dataclass(frozen=True)
+class Resolved(Numerics):
+    """Numerics with a number for everything, as a simulation has them."""
+
+    links: int = 24
+    timestep: float = 0.005
+    contact_time: float = 0.5
+    steep_contact_time: float = 2.0
+    pad_radius: float = 1e-3
+    edge_time: float = 0.5

@@ -11,10 +11,13 @@ from analytic.friction.laws import LAWS, Friction
 from analytic.scene import pneunet
 from analytic.scene.chain import CHAMBER_LAWS
 from analytic.scene.gait import GAITS, Gait
-from analytic.scene.ground import check_adhesion, depends_on_speed, surfaces_of
+from analytic.scene.ground import check_adhesion, check_for_limbs, depends_on_speed, surfaces_of
+from analytic.scene.limbs import AnyRobot, LimbedRobot, chambers_by_limb, limbs_of
+from analytic.scene.quadruped_gaits import for_robot
 from analytic.scene.robot import GRAVITY, Robot
 from analytic.scene.surface import SURFACES, Ground
 from mjsim.scene import registry
+from mjsim.scene.numerics import Numerics, Resolved
 from mjsim.scene.valves import Valves
 
 Chamber = Literal["linearized", "sealed", "constant-pressure"]
@@ -29,23 +32,27 @@ ACTUATIONS: tuple[str, ...] = ("rest-angles", "actuators")
 class Scene:
     """A robot that walks a gait on a ground.
 
+    A gait of three segments stands for the quadruped's too, see analytic.scene.quadruped_gaits.
+
     Raises:
         ValueError: a value is out of its range; the message names it and the valid ones.
     """
 
-    robot: Robot = field(default_factory=Robot)
+    robot: AnyRobot = field(default_factory=Robot)
     gait: Gait = GAITS["wave"]
     ground: Ground = SURFACES["felt"]
     cycles: int = 1
     """number of cycles"""
     body: str = "planar"
-    """model of the strip: planar, a chain of hinged links; cable, links with ball joints in space;
-    rod, point masses in space that are held in a plane: for bending out of it take the cable"""
+    """model of the robot: planar, links joined by hinges, in the plane for a strip and in space for
+    a robot of limbs; cable, links with ball joints in space; rod, point masses in space that are
+    held in a plane: for bending out of it take the cable"""
     friction: str = "constant"
     """friction law: constant, V_t at a tip and tau by area on a side; coulomb, by load"""
     contacts: Contacts = "auto"
     """where the constant bounds act: at the two ends; at all places that touch the ground; auto: at
-    all if the gait ever inflates a segment less than one on either side of it"""
+    all of a robot of limbs, and of a strip whose gait ever inflates a segment less than one on
+    either side of it"""
     slope: float = 0.0
     """the ground rises towards +x by this angle [rad]"""
     chamber: Chamber = "linearized"
@@ -71,21 +78,23 @@ class Scene:
         object.__setattr__(self, "cycles", int(self.cycles))
         positive("gravity", self.gravity, "m/s^2")
         positive("settle_time", self.settle_time, "s")
-        self.valves.check(len(self.robot.segments))
+        chambers = self.robot.chambers
+        object.__setattr__(self, "gait", for_robot(self.gait, self.robot))
+        self.valves.check(len(chambers))
         if self.cycles > 1 and not self.gait.repeats:
             raise ValueError(
                 f"cycles must be 1 for gait {self.gait.name!r}, which does not repeat, got "
                 f"{self.cycles}"
             )
         slope(self.slope)
-        if self.gait.segments != len(self.robot.segments):
+        if self.gait.segments != len(chambers):
             raise ValueError(
-                f"gait {self.gait.name} is for {self.gait.segments} segments, "
-                f"the robot has {len(self.robot.segments)}"
+                f"gait {self.gait.name} is for {self.gait.segments} chambers, the robot has "
+                f"{len(chambers)}: {', '.join(chambers)}"
             )
-        lengths = np.diff(self.robot.borders)
-        most = max(float(lengths @ np.abs(stage)) for stage in self.gait.stages)
-        check_turn(self.robot, self.robot.peak_pressure, most, self.gait.name)
+        self._check_turns()
+        if self.in_space:
+            self._check_limbs()
         if self.friction == "coulomb" and depends_on_speed(self.ground):
             raise ValueError(
                 f"surface {self.ground.name!r} resists by speed: friction must be constant, not "
@@ -100,9 +109,52 @@ class Scene:
                 "(coulomb)"
             )
 
+    def _check_turns(self) -> None:
+        """Raise ValueError for a limb that would close into a circle."""
+        stages = np.abs(np.array(self.gait.stages))
+        for limb, part in zip(limbs_of(self.robot), chambers_by_limb(self.robot), strict=True):
+            most = float((stages[:, part] @ np.diff(limb.strip.borders)).max())
+            what = f"limb {limb.name!r}" if self.in_space else "this strip"
+            check_turn(limb.strip, self.robot.peak_pressure, most, self.gait.name, what)
+
+    def _check_limbs(self) -> None:
+        """Raise ValueError for what a robot of limbs cannot do, with the reason."""
+        for name, only, why in (
+            ("body", Scene.body, "cable and rod are of one strip"),
+            ("actuation", "rest-angles", "actuators are of one strip"),
+            ("slope", 0.0, "their reference knows level ground alone"),
+        ):
+            if getattr(self, name) != only:
+                raise ValueError(
+                    f"{name} of a robot of limbs must be {only}, got {getattr(self, name)!r}: {why}"
+                )
+        if self.contacts == "ends":
+            raise ValueError("contacts of a robot of limbs must be all, got 'ends': it has many")
+        if self.chamber == "sealed":
+            raise ValueError("chamber of a robot of limbs cannot be sealed, which is of strips")
+        check_for_limbs(self.ground)
+
+    @property
+    def in_space(self) -> bool:
+        """Whether the robot moves in space, and not in one upright plane."""
+        return isinstance(self.robot, LimbedRobot)
+
+    @property
+    def strip(self) -> Robot:
+        """The one limb of a robot that is a strip.
+
+        Raises:
+            ValueError: it has several limbs.
+        """
+        if isinstance(self.robot, LimbedRobot):
+            raise ValueError(f"only a strip can do this, not {len(self.robot.limbs)} limbs")
+        return self.robot
+
     @property
     def between(self) -> bool:
-        """Whether friction acts between the ends too."""
+        """Whether friction acts between the ends of a strip, or at all contacts of limbs."""
+        if self.in_space:
+            return True
         return self.contacts == "all" or (self.contacts == "auto" and self.gait.dips())
 
     @property
@@ -121,6 +173,15 @@ class Scene:
     def duration(self) -> float:
         """Simulated time, what comes before the first cycle included [s]."""
         return self.rise_time + self.settle_time + self.cycles * self.gait.period
+
+
+def resolved(scene: Scene, numerics: Numerics | None = None) -> Resolved:
+    """Numerics for a scene, with a number for whatever is not given.
+
+    Raises:
+        ValueError: they do not go with the robot.
+    """
+    return (numerics or Numerics()).resolved(scene.body, scene.friction, scene.in_space)
 
 
 def check_turn(

@@ -24,7 +24,7 @@ from mjsim.model.pneumatics import controls
 from mjsim.results.judge import judge
 from mjsim.results.status import Status
 from mjsim.results.trajectory import Trajectory
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Resolved, Scene, resolved
 from mjsim.simulation.kinematics import positions
 from mjsim.simulation.schedule import before_start, check_steps, walking, walking_steps
 from mjsim.simulation.simulation import simulate
@@ -111,20 +111,20 @@ def rollout(
             )
     if not scenes:
         return []
-    numerics = (numerics or Numerics()).resolved(scenes[0].body, scenes[0].friction)
-    commands = [_commands(scene, numerics) for scene in scenes]
+    own = resolved(scenes[0], numerics)
+    commands = [_commands(scene, own) for scene in scenes]
     if len({command.shape for command in commands}) > 1:
         raise ValueError("scenes of a rollout must be of one duration and number of segments")
-    models = [compile_model(scene, numerics) for scene in scenes]
+    models = [compile_model(scene, own) for scene in scenes]
     states = np.array([_first_state(model) for model in models])
     rest = np.zeros(commands[0].shape[1])
     pressures = [
-        Chambers(scene.valves, len(rest), numerics.timestep).follow(command)
+        Chambers(scene.valves, len(rest), own.timestep).follow(command)
         for scene, command in zip(scenes, commands, strict=True)
     ]
     sequence = np.array(
         [
-            controls(scene, numerics, command, rest, pressure)
+            controls(scene, own, command, rest, pressure)
             for scene, command, pressure in zip(scenes, commands, pressures, strict=True)
         ]
     )
@@ -137,15 +137,15 @@ def rollout(
     for scene, model, pressure, state in zip(scenes, models, pressures, recorded, strict=True):
         coordinates = state[:, 1 : 1 + model.nq]  # after the time
         unknown = np.full(len(coordinates), np.nan)
-        first = walking_steps(scene, numerics) - len(coordinates) + 1
+        first = walking_steps(scene, own) - len(coordinates) + 1
         walk = Trajectory(
             scene=scene,
-            numerics=numerics,
+            numerics=own,
             status=Status.OK,
-            time=numerics.timestep * np.arange(first, first + len(coordinates), dtype=float),
+            time=own.timestep * np.arange(first, first + len(coordinates), dtype=float),
             pressure=pressure,
             coordinates=coordinates,
-            position=positions(model, numerics, coordinates),
+            position=positions(model, scene, own, coordinates),
             contact_left=unknown,
             contact_right=unknown,
             left_slip_fraction=unknown,
@@ -157,7 +157,7 @@ def rollout(
     return walks
 
 
-def _commands(scene: Scene, numerics: Numerics) -> Array:
+def _commands(scene: Scene, numerics: Resolved) -> Array:
     """Commands of the valves at each step, what comes before the first cycle included (T, S)."""
     check_steps(scene, numerics)
     return np.concatenate([before_start(scene, numerics), walking(scene, numerics, scene.gait)])

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from analytic.friction.contact_length import flat_length
 from analytic.friction.laws import slip_fraction
 from analytic.scene.chain import node_positions
-from mjsim.friction.contact_length import pads_by_node
+from mjsim.model.pads import pads_by_node
 from mjsim.model.parts import PREFIX, TENDONS, contact_softness, tie_force
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
 Rows = NDArray[np.int_]
@@ -43,9 +43,9 @@ class Grounds(NamedTuple):
     level: NDArray[np.bool_]
 
 
-def grounds(scenes: Sequence[Scene], numerics: Numerics) -> Grounds:
+def grounds(scenes: Sequence[Scene], numerics: Resolved) -> Grounds:
     """Of scenes on uniform ground."""
-    robots, surfaces = [s.robot for s in scenes], [s.ground.at(0.0) for s in scenes]
+    robots, surfaces = [s.strip for s in scenes], [s.ground.at(0.0) for s in scenes]
     return Grounds(
         width=np.array([r.width for r in robots]),
         half=np.array([0.5 * r.length for r in robots]),
@@ -72,10 +72,8 @@ class Ends:
     """
 
     def __init__(
-        self, scenes: Sequence[Scene], numerics: Numerics, batch: Batch, model: mujoco.MjModel
+        self, scenes: Sequence[Scene], numerics: Resolved, batch: Batch, model: mujoco.MjModel
     ) -> None:
-        assert numerics.pad_radius is not None
-        assert numerics.steep_contact_time is not None
         pads = pads_by_node(model)[:, 0]
         self._first, self._last = int(pads[0]), int(pads[-1])
         assert np.array_equal(pads, np.arange(self._first, self._last + 1))

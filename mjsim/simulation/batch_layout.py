@@ -5,7 +5,6 @@ look at, and the numbers go into the rows of `mujoco.batch.Batch.expand`.
 """
 
 from collections.abc import Hashable, Sequence
-from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -14,12 +13,11 @@ from numpy.typing import NDArray
 
 from analytic.scene.ground import depends_on_speed
 from analytic.scene.surface import Surface
+from mjsim.files.assets import BARE
 from mjsim.model.builder import compiled, on_ground
 from mjsim.model.parts import PREFIX
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Resolved, Scene
 from mjsim.simulation.schedule import before_start
-
-_GROUND = Path(__file__).parents[1] / "model" / "bare.xml"
 
 # what MuJoCo computes of robots of one layout that differ; a test compares all other fields
 FIELDS = (
@@ -34,6 +32,8 @@ FIELDS = (
 def refusal(scene: Scene) -> str | None:
     """Why a scene cannot be stepped beside others, or None if it can."""
     ground = scene.ground
+    if scene.in_space:
+        return "the robot must be a strip"
     if (scene.body, scene.friction, scene.actuation) != ("planar", "constant", "rest-angles"):
         return "body, friction and actuation must be planar, constant and rest-angles"
     if scene.between:
@@ -45,18 +45,18 @@ def refusal(scene: Scene) -> str | None:
     return None
 
 
-def layout(scene: Scene, numerics: Numerics) -> Hashable:
+def layout(scene: Scene, numerics: Resolved) -> Hashable:
     """What scenes that are stepped side by side have in common."""
-    return len(scene.robot.segments), len(before_start(scene, numerics))
+    return len(scene.strip.segments), len(before_start(scene, numerics))
 
 
-def bare_model(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
+def bare_model(scene: Scene, numerics: Resolved) -> mujoco.MjModel:
     """The model with nothing to look at, and a sensor of the ground's force for each pad.
 
     Raises:
         ValueError: MuJoCo refuses the model.
     """
-    spec = on_ground(mujoco.MjSpec.from_file(str(_GROUND)), scene, numerics)
+    spec = on_ground(mujoco.MjSpec.from_file(str(BARE)), scene, numerics)
     force = 1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE)
     for node in range(numerics.links + 2):
         spec.add_sensor(
@@ -66,7 +66,7 @@ def bare_model(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
     return compiled(spec, scene, numerics)
 
 
-def models(scenes: Sequence[Scene], numerics: Numerics) -> list[mujoco.MjModel]:
+def models(scenes: Sequence[Scene], numerics: Resolved) -> list[mujoco.MjModel]:
     """A model each; scenes that differ in gait, pressure and ground only share theirs.
 
     Raises:
@@ -75,7 +75,7 @@ def models(scenes: Sequence[Scene], numerics: Numerics) -> list[mujoco.MjModel]:
     known: dict[Hashable, mujoco.MjModel] = {}
     found = []
     for scene in scenes:
-        robot = {k: v for k, v in vars(scene.robot).items() if k != "peak_pressure"}
+        robot = {k: v for k, v in vars(scene.strip).items() if k != "peak_pressure"}
         key = (*robot.items(), scene.gravity, scene.slope)
         if key not in known:
             known[key] = bare_model(scene, numerics)

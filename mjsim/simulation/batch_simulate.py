@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.chain import link_lengths
-from mjsim.model.builder import TOUCH
+from mjsim.model.parts import TOUCH
 from mjsim.results.judge import judge
 from mjsim.results.status import Status
 from mjsim.results.trajectory import Trajectory
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Resolved, Scene, resolved
 from mjsim.simulation.batch import Refused
 from mjsim.simulation.batch_layout import layout, refusal
 from mjsim.simulation.batch_strips import Block, Strips
@@ -44,7 +44,7 @@ def simulate_batch(
     found: dict[int, Trajectory | Refused] = {}
     alike: dict[Hashable, list[int]] = {}
     for i, scene in enumerate(scenes):
-        own = (numerics or Numerics()).resolved(scene.body, scene.friction)
+        own = resolved(scene, numerics)
         try:
             check_steps(scene, own)
             if refusal(scene):
@@ -64,7 +64,7 @@ def simulate_batch(
 def _abreast(
     scenes: Sequence[Scene], numerics: Numerics | None, threads: int
 ) -> list[Trajectory | Refused]:
-    own = (numerics or Numerics()).resolved(scenes[0].body, scenes[0].friction)
+    own = resolved(scenes[0], numerics)
     try:
         strips = Strips(scenes, own, threads)
     except ValueError as error:
@@ -113,7 +113,7 @@ def _trajectory(
         time=numerics.timestep * np.arange(first, first + len(coordinates), dtype=float),
         pressure=np.concatenate([block.pressure[at, steps] for block, at, steps in parts]),
         coordinates=coordinates,
-        position=planar_nodes(scene, numerics, coordinates),
+        position=planar_nodes(scene, numerics, coordinates)[:, None],
         contact_left=contact[:, 0],
         contact_right=contact[:, 1],
         left_slip_fraction=np.concatenate([b.left_slip[at, steps] for b, at, steps in parts]),
@@ -124,15 +124,15 @@ def _trajectory(
     return judge(walk, stopped=bool(strips.stopped[row]))
 
 
-def planar_nodes(scene: Scene, numerics: Numerics, coordinates: Array) -> Array:
+def planar_nodes(scene: Scene, numerics: Resolved, coordinates: Array) -> Array:
     """Vertices of the planar body's neutral line, z over flat rest, (T, N + 2, 3) [m].
 
     The kinematics of a chain in a plane, in closed form.
     """
-    lengths = link_lengths(scene.robot, numerics.links)
+    lengths = link_lengths(scene.strip, numerics.links)
     angles = np.cumsum(coordinates[:, 2:], axis=1)
     position = np.zeros((len(coordinates), len(lengths) + 1, 3))
-    begin = coordinates[:, 0], coordinates[:, 1] - TOUCH * scene.robot.length
+    begin = coordinates[:, 0], coordinates[:, 1] - TOUCH * scene.strip.length
     for axis, start, part in zip((0, 2), begin, (np.cos, np.sin), strict=True):
         position[:, 0, axis] = start
         position[:, 1:, axis] = start[:, None] + np.cumsum(lengths * part(angles), axis=1)

@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 
 from analytic.friction.contact_length import may_lie_flat
 from analytic.scene.chain import joint_springs
-from mjsim.friction.contact_length import pads_by_node
+from mjsim.friction.footing import feet_may_be
 from mjsim.model.chambers import Chambers
+from mjsim.model.pads import pads_by_node
 from mjsim.results.status import AT_REST
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Resolved, Scene
 from mjsim.simulation.batch_ends import Ends, Rows
 from mjsim.simulation.batch_layout import layout, models, refusal, write
-from mjsim.simulation.kinematics import ends_may_be
 from mjsim.simulation.schedule import before_start, check_steps
 
 Array = NDArray[np.float64]
@@ -59,7 +59,7 @@ class Strips:
         ValueError: a scene cannot be stepped so, or they are not of one layout.
     """
 
-    def __init__(self, scenes: Sequence[Scene], numerics: Numerics, threads: int = 1) -> None:
+    def __init__(self, scenes: Sequence[Scene], numerics: Resolved, threads: int = 1) -> None:
         self.scenes, self.numerics = list(scenes), numerics
         for scene in scenes:
             why = refusal(scene)
@@ -79,8 +79,8 @@ class Strips:
         pads = pads_by_node(self.model)[:, 0]
         self._feet = pads[[0, -1]]
         self._ends = Ends(scenes, numerics, batch, self.model)
-        self._limits = np.array([ends_may_be(scene, numerics) for scene in scenes])
-        self.pressure = np.zeros((len(scenes), len(scenes[0].robot.segments)))
+        self._limits = np.array([feet_may_be(scene, numerics) for scene in scenes])
+        self.pressure = np.zeros((len(scenes), len(scenes[0].strip.segments)))
         self.stopped = np.zeros(len(scenes), dtype=bool)
         self._chambers: list[Chambers] = [self._at_rest(scene) for scene in scenes]
         self._lay(every)
@@ -89,7 +89,7 @@ class Strips:
         raise TypeError("strips that are stepped side by side cannot be copied, single ones can")
 
     def _at_rest(self, scene: Scene) -> Chambers:
-        return Chambers(scene.valves, len(scene.robot.segments), self.numerics.timestep)
+        return Chambers(scene.valves, len(scene.strip.segments), self.numerics.timestep)
 
     def _lay(self, rows: Rows) -> None:
         """Lay strips on the ground, without pressure."""
@@ -117,7 +117,7 @@ class Strips:
                 self.scenes[row] = scene
             write(self._batch, rows.tolist(), models(scenes, self.numerics))
             self._ends.replace(rows, scenes)
-            self._limits[rows] = [ends_may_be(scene, self.numerics) for scene in scenes]
+            self._limits[rows] = [feet_may_be(scene, self.numerics) for scene in scenes]
         self._lay(rows)
         valves = np.array([before_start(self.scenes[row], self.numerics) for row in rows])
         late = max(1, round(0.1 * self.scenes[0].settle_time / self.numerics.timestep))
@@ -125,7 +125,7 @@ class Strips:
         ends = self._length[rows].copy()
         last = self.play(valves[:, -late:], rows)
         speed = np.abs(self._length[rows] - ends).max(axis=1) / (late * self.numerics.timestep)
-        lengths = np.array([self.scenes[row].robot.length for row in rows])
+        lengths = np.array([self.scenes[row].strip.length for row in rows])
         self.settled = speed < AT_REST * lengths
         return [first, last]
 
@@ -139,7 +139,7 @@ class Strips:
         if not valves.shape[1]:
             return done
         springs = self._springs(rows, pressure)
-        peak = np.array([self.scenes[row].robot.peak_pressure for row in rows])
+        peak = np.array([self.scenes[row].strip.peak_pressure for row in rows])
         flat = may_lie_flat(pressure[:, :, [0, -1]], peak[:, None, None])
         dt, ends, hinges = self.numerics.timestep, self._ends, slice(_FIRST_HINGE, None)
         active = np.flatnonzero(~self.stopped[rows])
@@ -175,7 +175,7 @@ class Strips:
     def _springs(self, rows: Rows, pressure: Array) -> list[tuple[Array, Array]]:
         """Stiffness and rest angle of the hinges at each step, (R, N) each."""
         each = [
-            joint_springs(self.scenes[row].robot, self.numerics.links, p, self.scenes[row].chamber)
+            joint_springs(self.scenes[row].strip, self.numerics.links, p, self.scenes[row].chamber)
             for row, p in zip(rows.tolist(), pressure, strict=True)
         ]
         stiffness, rest = (np.array(part).swapaxes(0, 1) for part in zip(*each, strict=True))

@@ -17,12 +17,13 @@ import numpy as np
 from mjsim.results.measures import measure
 from mjsim.results.status import Status
 from mjsim.results.trajectory import Trajectory
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Resolved, Scene
 from mjsim.scene.auto import check_tolerance, rungs
 from mjsim.scene.numerics import MAX_LINKS
 from mjsim.simulation.simulation import simulate
 
 _STEPS_A_RAMP = 40  # chosen
+_IN_SPACE = ((4, 0.02), (6, 0.01), (8, 0.005), (12, 0.0025), (16, 0.001))  # links of a limb, s
 _FINE = 0.005  # s: at longer steps a strip may fall by the numerics alone
 _CLOSE = 0.25  # of the tolerance that two walks may be apart by, at steps
 _FINEST = 0.002  # s; longer than this
@@ -42,7 +43,7 @@ class Checked(NamedTuple):
     walk: Trajectory
     error: float
     agreed: bool
-    tried: list[Numerics]
+    tried: list[Resolved]
 
 
 def walk_checked(
@@ -78,7 +79,11 @@ def walk_checked(
 def ladder(scene: Scene) -> Iterator[Numerics]:
     """Numerics for a scene, each finer than the one before; the last if none agree before."""
     longest = min(scene.gait.ramp_times) / _STEPS_A_RAMP
-    borders = np.asarray(scene.robot.borders)
+    if scene.in_space:
+        for links, timestep in _IN_SPACE:
+            yield Numerics(links=links, timestep=min(timestep, longest))
+        return
+    borders = np.asarray(scene.strip.borders)
     segments = math.ceil(borders[-1] / np.diff(borders).min() - 1e-9)  # as short as the shortest
     last: tuple[int, float] | None = None
     for rung in rungs("all" if scene.between else "ends"):

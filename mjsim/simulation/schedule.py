@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.gait import Gait
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
 
@@ -12,7 +12,7 @@ FEWEST_STEPS = 4  # of a ramp; with fewer the gait is not seen; chosen
 MOST_STEPS = 5_000_000  # of a walk, 2 GB of states
 
 
-def before_start(scene: Scene, numerics: Numerics) -> Array:
+def before_start(scene: Scene, numerics: Resolved) -> Array:
     """Commands of the valves before the first cycle: rest, or a rise to the first stage (T, S)."""
     dt, first = numerics.timestep, np.array(scene.gait.stages[0]) * scene.robot.peak_pressure
     settle = max(1, round(scene.settle_time / dt))
@@ -21,18 +21,18 @@ def before_start(scene: Scene, numerics: Numerics) -> Array:
     return np.asarray(part[:, None] * first)
 
 
-def walking(scene: Scene, numerics: Numerics, gait: Gait) -> Array:
+def walking(scene: Scene, numerics: Resolved, gait: Gait) -> Array:
     """Commands of the valves in the scene's cycles, by a gait (T, S)."""
     time = np.arange(1.0, walking_steps(scene, numerics) + 1.0) * numerics.timestep
     return scene.robot.peak_pressure * gait.fractions(time)
 
 
-def walking_steps(scene: Scene, numerics: Numerics) -> int:
+def walking_steps(scene: Scene, numerics: Resolved) -> int:
     """Time steps of the scene's cycles."""
     return round(scene.cycles * scene.gait.period / numerics.timestep)
 
 
-def check_steps(scene: Scene, numerics: Numerics) -> None:
+def check_steps(scene: Scene, numerics: Resolved) -> None:
     """Raise ValueError where a ramp has too few time steps to be seen, or a walk too many."""
     if scene.duration > MOST_STEPS * numerics.timestep:
         raise ValueError(

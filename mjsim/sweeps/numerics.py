@@ -19,10 +19,11 @@ def picked(plan: Plan) -> tuple[Numerics, Numerics]:
     before = None
     for numerics in ladder(scene):
         walk = simulate(scene, numerics)
+        step = walk.numerics.timestep
         now = measure(walk)
         if before is not None and now is not None:
             change = abs(now.displacement - before[1])
-            if change <= closeness(numerics.timestep) * allowed(now.displacement, plan.tolerance):
+            if change <= closeness(step) * allowed(now.displacement, plan.tolerance):
                 return before[0], numerics
         before = None if now is None else (numerics, now.displacement)
     raise ValueError(

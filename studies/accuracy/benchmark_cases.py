@@ -53,7 +53,7 @@ def friction_of(case: str) -> Friction:
 def exact(case: str, ground: str) -> float:
     """Displacement per cycle over L of the elastica, twice as fine as usual."""
     scene = scene_of(case, ground)
-    walk = predict(scene.robot, scene.gait, scene.ground, Elastica(120, scene.chamber),
+    walk = predict(scene.strip, scene.gait, scene.ground, Elastica(120, scene.chamber),
                    states_per_ramp=100, friction=friction_of(case))  # fmt: skip
     return walk.locomotion.per_cycle / scene.robot.length
 

@@ -11,7 +11,7 @@ from analytic.scene import pneunet
 from analytic.solvers.elastica.cantilever import solve_cantilever
 from mjsim.model.parts import set_options
 from mjsim.model.rod import rest_stiffness
-from mjsim.scene import INTEGRATORS, Scene, registry
+from mjsim.scene import INTEGRATORS, Scene, registry, resolved
 from studies.accuracy.heavy_cantilever import DAMPING, DURATION, settled, strip
 from studies.accuracy.rows import Row
 from studies.accuracy.setting import Setting
@@ -96,7 +96,7 @@ def _tip(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[float, float, floa
 def _clamped(setting: Setting) -> mujoco.MjModel:
     """A body of mjsim with its first link, or its first edge, held; friction taken away."""
     scene = Scene(robot=strip(), body=setting.method)
-    numerics = setting.numerics(damping_time=DAMPING)
+    numerics = resolved(scene, setting.numerics(damping_time=DAMPING))
     spec = registry.find(setting.method).spec(scene, numerics)
     set_options(spec, scene, numerics)
     spec.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_REFSAFE)

@@ -38,8 +38,8 @@ def _solver(case: str, ground: str, setting: Setting) -> tuple[float, Timing, st
     else:  # no friction bends them
         friction = replace(friction, tension=0.0)
     walk, timing = repeated(
-        lambda: predict(scene.robot, scene.gait, scene.ground, solver,
+        lambda: predict(scene.strip, scene.gait, scene.ground, solver,
                         friction=friction),
         Scene().gait.period,  # however slow, a cycle of states costs the same
     )  # fmt: skip
-    return walk.locomotion.per_cycle / scene.robot.length, timing, "ok"
+    return walk.locomotion.per_cycle / scene.strip.length, timing, "ok"

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from analytic.checks import not_negative, positive
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.robot import Robot
-from mjsim.simulation.simulation import Observation
+from mjsim.simulation.observation import Observation
 
 Array = NDArray[np.float64]
 

@@ -42,7 +42,7 @@ def make() -> xr.Dataset:
         walk = simulate(Scene(robot, gait, surface))
         steps = np.clip(np.searchsorted(walk.time, moments * _RAMP_TIME), 0, len(walk.time) - 1)
         nodes = np.stack(walk.nodes())[:, steps]
-        nodes[0] -= walk.position[walk.start, 0, 0]
+        nodes[0] -= walk.line[walk.start, 0, 0]
         simulated.append(nodes)
     return xr.Dataset(
         {

@@ -130,8 +130,8 @@ def _usual(parameter: str) -> float:
     if parameter == "ramp_time":
         return float(scene.gait.ramp_times[0])
     if parameter == "friction_number":
-        rigidity = pneunet.base_rigidity(scene.robot)
-        return friction_number(scene.ground.at(0.0), scene.robot, rigidity)
+        rigidity = pneunet.base_rigidity(scene.strip)
+        return friction_number(scene.ground.at(0.0), scene.strip, rigidity)
     return float(getattr(numerics, parameter))
 
 

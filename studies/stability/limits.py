@@ -12,7 +12,7 @@ from scipy.linalg import eigh, null_space
 from analytic import SURFACES
 from mjsim.model.builder import compile_model
 from mjsim.model.rod import rest_stiffness
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Scene, resolved
 from studies.accuracy.setting import Setting
 
 Array = NDArray[np.float64]
@@ -94,8 +94,9 @@ def measured_limit(integrator: str, links: int, damping_time: float, body: str =
     return low
 
 
-def _at_rest(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
+def _at_rest(scene: Scene, given: Numerics) -> mujoco.MjModel:
     """The model with the stiffness of a strip without pressure."""
+    numerics = resolved(scene, given)
     model = compile_model(scene, numerics)
     if scene.body == "rod":
         rest_stiffness(model, scene, numerics.links)

@@ -101,7 +101,7 @@ class Standing:
 def _first_flag(walk: Prediction) -> str:
     status = walk.shapes.status
     failed = np.flatnonzero(status)
-    return Status(int(status[failed[0]])).name.lower() if len(failed) else "ok"  # type: ignore[union-attr]
+    return Status(int(status[failed[0]])).name.lower() if len(failed) else "ok"
 
 
 def _part(walk: Prediction, flag: Status) -> float:

@@ -68,7 +68,7 @@ def tried(
 def stiffened(stiffness: float) -> Scene:
     """The benchmark scene on GROUND with a strip so many times as stiff, of the same mass."""
     scene = Scene()
-    base = scene.robot
+    base = scene.strip
     robot = replace(
         base,
         modulus=stiffness * base.modulus,

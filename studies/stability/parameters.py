@@ -66,7 +66,7 @@ class Varied:
         walk = simulate(scene, numerics)
         numbers = measure(walk)
         if self.parameter == "friction_number":  # friction so strong bends the strip
-            reference = quasi_static(walk).locomotion.per_cycle / scene.robot.length
+            reference = float(quasi_static(walk).displacement[0])
         else:
             reference = benchmark_cases.exact(_CASE[law], self.ground)
         error = numbers.displacement / reference - 1 if numbers else math.nan
@@ -98,7 +98,7 @@ def scene_of(law: str, ground: str) -> Scene:
 def as_strong(scene: Scene, number: float) -> Surface:
     """The scene's surface with bounds of a friction number Phi = V L^2 / D0."""
     surface = scene.ground.at(0.0)
-    rigidity = pneunet.base_rigidity(scene.robot)
-    factor = number / friction_number(surface, scene.robot, rigidity)
+    rigidity = pneunet.base_rigidity(scene.strip)
+    factor = number / friction_number(surface, scene.strip, rigidity)
     return replace(surface, tip_force=factor * surface.tip_force,
                    shear_strength=factor * surface.shear_strength)  # fmt: skip

@@ -3,12 +3,13 @@
 from dataclasses import replace
 from functools import cache
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from analytic import GAITS, SURFACES, Elastica, Friction, Gait, Robot, Surface, predict
 from mjsim.commands import run
 from mjsim.files import cli
-from mjsim.results import limb_record as record_of_limbs
 from mjsim.results import prediction
 from mjsim.results.measures import Measures, measure
 from mjsim.results.status import Status
@@ -63,16 +64,25 @@ def predicted(
     return walk.locomotion.per_cycle / robot.length
 
 
+def went(walk: Trajectory) -> NDArray[np.float64]:
+    """How far a walk went in its last cycle, ahead and to the left of its trunk [m]."""
+    one, two = walk.ends_of_cycles()[-2:].tolist()
+    return walk.moved(one, two)
+
+
+def turned(walk: Trajectory) -> float:
+    """How far it turned to the left in that cycle [rad]."""
+    one, two = walk.ends_of_cycles()[-2:].tolist()
+    return float(walk.heading[two] - walk.heading[one])
+
+
 def coarsen(
     monkeypatch: pytest.MonkeyPatch, links: int = 18, states: int = 10, parts: int = 4
 ) -> None:
     """Make the references of records coarse: few links and states."""
-    for module, values in (
-        (prediction, {"_LINKS": links, "STATES": states, "_PARTS": parts}),
-        (record_of_limbs, {"_STATES": 8}),
-    ):
-        for name, value in values.items():
-            monkeypatch.setattr(module, name, value)
+    values = {"_LINKS": links, "STATES": states, "_PARTS": parts, "LIMB_STATES": 8}
+    for name, value in values.items():
+        monkeypatch.setattr(prediction, name, value)
 
 
 def refusal(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:

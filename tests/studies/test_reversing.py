@@ -103,7 +103,7 @@ def test_in_mujoco_it_chooses_as_in_theory_and_comes_as_far():
     walk = Simulation(Scene(ground=ground, cycles=count), numerics).run(policy)
     track = Cycles(Robot(), ground).reversing(count)
     rests = np.searchsorted(walk.time, 10.0 * np.arange(count + 1) - 1e-9)
-    apart = np.abs(walk.position[np.minimum(rests, len(walk.time) - 1), 0, 0] - track.left) / L
+    apart = np.abs(walk.line[np.minimum(rests, len(walk.time) - 1), 0, 0] - track.left) / L
     assert apart[:10].max() < 0.015  # friction bends the strip in MuJoCo and not in the theory
     assert apart.max() < 0.03
     assert policy.chosen[:10] == track.chosen[:10].tolist() == [0] * 10

@@ -16,10 +16,9 @@ from numpy.typing import NDArray
 from analytic.friction.contact_length import flat_length, may_lie_flat
 from analytic.friction.contact_length import ripple as strip_ripple
 from analytic.friction.laws import LAWS
-from analytic.scene.ground import surfaces_of
-from analytic.scene.limbs import TreeRobot
+from analytic.scene.limbs import LimbedRobot, chambers_by_limb
 from analytic.scene.robot import Robot
-from analytic.scene.surface import Ground, Surface
+from analytic.scene.surface import Surface
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.statics import Rest
 
@@ -68,16 +67,18 @@ class Contacts:
         self._carrier = [-1 if limb.on is None else robot.place(limb.on) for limb in robot.limbs]
         self._free = [_free_ends(robot, i) for i in range(len(robot.limbs))]
         self._at = [tree.arclength[self._slice(i)].tolist() for i in range(len(robot.limbs))]
+        self._chambers = chambers_by_limb(robot)
         self._least = _TOUCHES * robot.weight
         self._near = [_NEAR * limb.strip.length / tree.elements for limb in robot.limbs]
 
     def find(self, rest: Rest, pressures: Array) -> list[Contact]:
-        """The contacts of a state at pressures of its limbs, (L,) [Pa]."""
+        """The contacts of a state at pressures of its chambers, (S,) [Pa]."""
         robot, half = self._tree.robot, len(rest.force) // 2
         # both edges together; a limb that leans lies on one of its edges
         forces = (rest.force[:half] + rest.force[half:]).tolist()
         heights = np.minimum(rest.nodes[:half, 2], rest.nodes[half:, 2]).tolist()
-        may = may_lie_flat(pressures, robot.peak_pressure).tolist()
+        flat = may_lie_flat(pressures, robot.peak_pressure).tolist()
+        may = [{"begin": flat[part.start], "end": flat[part.stop - 1]} for part in self._chambers]
         here = [self._slice(i) for i in range(len(robot.limbs))]
         state = _State([forces[own] for own in here], [heights[own] for own in here], may)
         found: list[Contact] = []
@@ -202,7 +203,7 @@ class Contacts:
         if total <= self._least:
             return None, 0.0
         tip = at[0 if end == "begin" else -1]
-        if not state.may[i]:
+        if not state.may[i][end]:
             if end not in self._free[i]:
                 return None, 0.0
             # bent by pressure it stands on its tip alone; only a trunk may have two
@@ -221,14 +222,14 @@ class Contacts:
 
 
 class _State(NamedTuple):
-    """Forces and heights of each limb's vertices, and whether it may lie flat."""
+    """Forces and heights of each limb's vertices, and whether each of its ends may lie flat."""
 
     force: list[list[float]]
     height: list[list[float]]
-    may: list[bool]
+    may: list[dict[str, bool]]
 
 
-def _free_ends(robot: TreeRobot, limb: int) -> tuple[str, ...]:
+def _free_ends(robot: LimbedRobot, limb: int) -> tuple[str, ...]:
     """Ends of a limb that nothing is fast to."""
     own = robot.limbs[limb]
     taken = {other.at for other in robot.limbs if other.on == own.name}
@@ -240,14 +241,3 @@ def ripple(strip: Robot, elements: int) -> float:
     """Height to which a limb that lies flat ripples between its nodes [m]."""
     # wider links are four thirds of an element
     return 4 * strip_ripple(strip, np.array([0.0, strip.length / elements]))
-
-
-def check_ground(ground: Ground) -> None:
-    """Raise ValueError for ground that limbs are not told of: sticky, or stronger at rest."""
-    for surface in surfaces_of(ground):
-        if surface.adhesion or surface.static_ratio > 1:
-            what = "adhesion" if surface.adhesion else "static_ratio"
-            raise ValueError(
-                f"{what} of surface {surface.name!r} is for strips, not for robots of limbs; got "
-                f"{getattr(surface, what)!r}"
-            )

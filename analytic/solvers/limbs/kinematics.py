@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.chain import link_lengths
-from analytic.scene.limbs import TreeRobot
+from analytic.scene.limbs import LimbedRobot
 
 Array = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ class Tree:
         starts: arclengths at which the links of each limb begin [m].
     """
 
-    def __init__(self, robot: TreeRobot, elements: int) -> None:
+    def __init__(self, robot: LimbedRobot, elements: int) -> None:
         if elements < 2 or elements % 2:
             raise ValueError(f"elements must be even and at least 2, got {elements}")
         self.robot, self.elements = robot, elements

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.scene.limbs import LimbedRobot, rotation
 from analytic.solvers.limbs.contacts import Contact
 from analytic.solvers.limbs.statics import Rest
 
@@ -16,7 +17,9 @@ class Path:
     """Where a tree went.
 
     Attributes:
-        pressures: of the limbs, (B, L) [Pa].
+        robot: whose limbs they are.
+        pressures: of the chambers, (B, S) [Pa].
+        times: of the states, (B,) [s]; their numbers where no times were given.
         rests: its shapes.
         contacts: of each state.
         place: of the trunk's beginning, (B, 2) [m].
@@ -24,7 +27,9 @@ class Path:
         converged: whether all shapes are equilibria.
     """
 
+    robot: LimbedRobot
     pressures: Array
+    times: Array
     rests: list[Rest]
     contacts: list[list[Contact]]
     place: Array
@@ -33,10 +38,27 @@ class Path:
 
     @property
     def displacement(self) -> Array:
-        """Of the trunk's beginning in all, (2,) [m]."""
+        """Displacement of the trunk's beginning in all, along x and y, (2,) [m]."""
         return np.asarray(self.place[-1] - self.place[0])
 
     @property
     def turn(self) -> float:
-        """Of the trunk in all, to the left [rad]."""
+        """Turn of the trunk in all, to the left [rad]."""
         return float(self.heading[-1] - self.heading[0])
+
+    def by_cycle(self, cycles: int) -> tuple[Array, Array]:
+        """Displacement of the trunk's beginning and its turn in each of C cycles.
+
+        Args:
+            cycles: of equal duration, that the path is of.
+
+        Returns:
+            (C, 2) [m], ahead and to the left of the trunk's direction when the cycle begins; and
+            (C,) to the left [rad].
+        """
+        ends = np.linspace(self.times[0], self.times[-1], cycles + 1)
+        places = np.stack([np.interp(ends, self.times, part) for part in self.place.T], axis=1)
+        headings = np.interp(ends, self.times, self.heading)
+        first = self.robot.limbs[0].angle
+        moves = zip(np.diff(places, axis=0), headings, strict=False)
+        return np.array([move @ rotation(first + at) for move, at in moves]), np.diff(headings)

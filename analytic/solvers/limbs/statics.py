@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, cho_factor, cho_solve, eigh
 
 from analytic.scene.chain import joint_springs
-from analytic.scene.limbs import rotation
+from analytic.scene.limbs import chambers_by_limb, rotation
 from analytic.solvers.limbs.grip import Grip, held
 from analytic.solvers.limbs.kinematics import HEIGHT, IN_PLAN, WHOLE, Pose, Tree
 
@@ -52,14 +52,15 @@ class Statics:
 
     Args:
         tree: its links.
+        chamber: law of the chambers, see analytic.scene.chain.
 
     Attributes:
         length: of the robot along its trunk [m].
         iterations: Newton steps so far.
     """
 
-    def __init__(self, tree: Tree) -> None:
-        self.tree = tree
+    def __init__(self, tree: Tree, chamber: str = "linearized") -> None:
+        self.tree, self._chamber = tree, chamber
         nodes = tree.pose(np.zeros(len(tree.parent))).nodes
         self.length = float(np.ptp(nodes[:, :2] @ rotation(tree.robot.limbs[0].angle)[:, 0]))
         self._weight = float(tree.weight.sum())
@@ -74,10 +75,11 @@ class Statics:
         return Rest(q, self.tree.pose(q).nodes, self.tree.weight.copy(), True)
 
     def springs(self, pressures: Array) -> tuple[Array, Array]:
-        """Stiffness and rest angle of all hinges at pressures of the limbs, (L,) [Pa]."""
+        """Stiffness and rest angle of all hinges at pressures of the chambers, (S,) [Pa]."""
+        robot = self.tree.robot
         parts = [
-            joint_springs(limb.strip, self.tree.elements, np.array([[pressure]]))
-            for limb, pressure in zip(self.tree.robot.limbs, pressures, strict=True)
+            joint_springs(limb.strip, self.tree.elements, pressures[None, chambers], self._chamber)
+            for limb, chambers in zip(robot.limbs, chambers_by_limb(robot), strict=True)
         ]
         stiffness, rest = (np.concatenate([part[i][0] for part in parts]) for i in (0, 1))
         return stiffness, rest
@@ -86,7 +88,7 @@ class Statics:
         """The equilibrium near a guess.
 
         Args:
-            pressures: of the limbs, (L,) [Pa].
+            pressures: of the chambers, (S,) [Pa].
             guess: of a neighbouring state.
             grip: friction on the way there; none if None.
         """

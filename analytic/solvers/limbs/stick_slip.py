@@ -14,9 +14,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.scene.ground import surfaces_of
+from analytic.scene.ground import check_for_limbs, surfaces_of
 from analytic.scene.surface import Ground
-from analytic.solvers.limbs.contacts import Contact, Contacts, check_ground
+from analytic.solvers.limbs.contacts import Contact, Contacts
 from analytic.solvers.limbs.grip import Grip
 from analytic.solvers.limbs.path import Path
 from analytic.solvers.limbs.statics import Rest, Statics
@@ -27,6 +27,7 @@ _VISCOSITY = 1e-3  # of all contacts alike: weight over length; decides what bou
 _FAINT = 1e-3  # of a film's resistance, that it is at most, however slow the gait; chosen
 _HALVINGS = 3  # of increments in which contacts change
 _INSTANT = 1e-12  # s; a shortest increment
+_RISE = 8  # states on the way to a first one that is inflated; chosen
 _TRIES = 4  # to find the contacts of a state that rest on its own forces
 
 
@@ -44,13 +45,13 @@ def drag_along(
 
     Args:
         statics: of the tree.
-        pressures: of its limbs, (B, L) [Pa].
+        pressures: of its chambers, (B, S) [Pa].
         ground, law, times: see analytic.solvers.limbs.walk.follow.
 
     Raises:
         ValueError: see analytic.solvers.limbs.walk.follow.
     """
-    check_ground(ground)
+    check_for_limbs(ground)
     viscous = any(surface.viscosity for surface in surfaces_of(ground))
     if viscous and times is None:
         raise ValueError(f"times of the shapes must be given on viscous ground {ground.name!r}")
@@ -68,25 +69,29 @@ class _Drag:
         self._rests: list[Rest] = []
         self._contacts: list[list[Contact]] = []
         self._rows: list[Array] = []
+        self._times: list[float] = []
 
     def along(self, pressures: Array, times: Array) -> Path:
-        first = self._statics.equilibrium(pressures[0], self._statics.flat())
-        self._keep(pressures[0], first, self._finder.find(first, pressures[0]))
-        for (one, two), span in zip(pairwise(pressures), np.diff(times).tolist(), strict=True):
-            self._go(one, two, max(span, _INSTANT), 0)
+        first = self._statics.flat()
+        for part in np.linspace(0.0, 1.0, _RISE + 1)[1:] if pressures[0].any() else (0.0,):
+            first = self._statics.equilibrium(part * pressures[0], first)
+        self._keep(pressures[0], float(times[0]), first, self._finder.find(first, pressures[0]))
+        for (one, two), (begin, end) in zip(pairwise(pressures), pairwise(times), strict=True):
+            self._go(one, two, float(begin), max(float(end - begin), _INSTANT), 0)
         q = np.array([rest.q for rest in self._rests])
         converged = all(rest.converged for rest in self._rests)
-        return Path(np.array(self._rows), self._rests, self._contacts, q[:, :2] - q[0, :2],
-                    q[:, 3] - q[0, 3], converged)  # fmt: skip
+        return Path(self._statics.tree.robot, np.array(self._rows), np.array(self._times),
+                    self._rests, self._contacts, q[:, :2] - q[0, :2], q[:, 3] - q[0, 3],
+                    converged)  # fmt: skip
 
-    def _go(self, one: Array, two: Array, span: float, depth: int) -> None:
+    def _go(self, one: Array, two: Array, begin: float, span: float, depth: int) -> None:
         rest, contacts = self._step(two, span)
         if _kinds(contacts) != _kinds(self._contacts[-1]) and depth < _HALVINGS:
             middle = 0.5 * (one + two)
-            self._go(one, middle, 0.5 * span, depth + 1)
-            self._go(middle, two, 0.5 * span, depth + 1)
+            self._go(one, middle, begin, 0.5 * span, depth + 1)
+            self._go(middle, two, begin + 0.5 * span, 0.5 * span, depth + 1)
         else:
-            self._keep(two, rest, contacts)
+            self._keep(two, begin + span, rest, contacts)
 
     def _step(self, row: Array, span: float) -> tuple[Rest, list[Contact]]:
         """The next state, on contacts that rest on its own forces."""
@@ -101,8 +106,9 @@ class _Drag:
                 break
         return rest, own
 
-    def _keep(self, row: Array, rest: Rest, contacts: list[Contact]) -> None:
+    def _keep(self, row: Array, time: float, rest: Rest, contacts: list[Contact]) -> None:
         self._rows.append(row)
+        self._times.append(time)
         self._rests.append(rest)
         self._contacts.append(contacts)
 

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from analytic.friction.dissipation_in_plane import least_dissipation_in_plane
 from analytic.scene.gait import Gait
-from analytic.scene.ground import surfaces_of
-from analytic.scene.limbs import TreeRobot, rotation
+from analytic.scene.ground import check_for_limbs, surfaces_of
+from analytic.scene.limbs import LimbedRobot, rotation
 from analytic.scene.surface import Ground
-from analytic.solvers.limbs.contacts import Contact, Contacts, check_ground
+from analytic.solvers.limbs.contacts import Contact, Contacts
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.path import Path
 from analytic.solvers.limbs.statics import Rest, Statics
@@ -23,21 +23,23 @@ from analytic.solvers.limbs.stick_slip import drag_along
 Array = NDArray[np.float64]
 
 
-def shapes(robot: TreeRobot, pressures: Array, elements: int) -> tuple[Tree, list[Rest]]:
+def shapes(
+    robot: LimbedRobot, pressures: Array, elements: int, chamber: str = "linearized"
+) -> tuple[Tree, list[Rest]]:
     """Equilibria along a path of pressures that begins near none.
 
     Args:
         robot: its limbs.
-        pressures: of them, (B, L) [Pa].
+        pressures: of its chambers, (B, S) [Pa].
         elements: hinges of each limb, even.
+        chamber: law of the chambers, see analytic.scene.chain.
     """
-    tree = Tree(robot, elements)
-    statics = Statics(tree)
-    rest, found = statics.flat(), []
+    statics = Statics(Tree(robot, elements), chamber)
+    rest, rests = statics.flat(), []
     for row in pressures:
         rest = statics.equilibrium(row, rest)
-        found.append(rest)
-    return tree, found
+        rests.append(rest)
+    return statics.tree, rests
 
 
 def follow(
@@ -51,7 +53,7 @@ def follow(
     """The path along shapes on a ground.
 
     Args:
-        tree, rests, pressures: what `shapes` gave, for pressures (B, L) [Pa].
+        tree, rests, pressures: what `shapes` gave for pressures of the chambers, (B, S) [Pa].
         ground: what resists, by the place along x.
         law: of friction, a name of analytic.friction.laws.LAWS.
         times: of the shapes, (B,) [s], which viscous ground asks for.
@@ -60,7 +62,7 @@ def follow(
         ValueError: the ground resists by speed in a way that is not viscous, or sticks, or is
             viscous and no times are given.
     """
-    check_ground(ground)
+    check_for_limbs(ground)
     viscous = any(surface.viscosity for surface in surfaces_of(ground))
     if viscous and times is None:
         raise ValueError(f"times of the shapes must be given on viscous ground {ground.name!r}")
@@ -84,7 +86,8 @@ def follow(
         place[i + 1] = place[i] + turned @ shift
         heading[i + 1] = heading[i] + turn
     converged = all(rest.converged for rest in rests)
-    return Path(pressures, rests, contacts, place, heading, converged)
+    when = np.arange(float(len(rests))) if times is None else times
+    return Path(tree.robot, pressures, when, rests, contacts, place, heading, converged)
 
 
 def _resistances(
@@ -101,14 +104,15 @@ def _resistances(
 
 
 def walk(
-    robot: TreeRobot, gait: Gait, ground: Ground, states: int = 40, elements: int = 6,
-    cycles: int = 1, law: str = "constant", bent: bool = True,
+    robot: LimbedRobot, gait: Gait, ground: Ground, states: int = 40, elements: int = 6,
+    cycles: int = 1, law: str = "constant", bent: bool = True, chamber: str = "linearized",
+    path: Array | None = None, times: Array | None = None,
 ) -> Path:  # fmt: skip
-    """Walk a gait quasi-statically.
+    """Walk a gait quasi-statically, or along a path of pressures.
 
     Args:
         robot: its limbs.
-        gait: fractions of the robot's peak pressure, one a limb, in their order.
+        gait: fractions of the robot's peak pressure, one a chamber, in their order.
         ground: under it.
         states: of a change by the peak pressure.
         elements: hinges of each limb, even.
@@ -116,17 +120,22 @@ def walk(
         law: of friction, a name of analytic.friction.laws.LAWS.
         bent: whether friction bends the robot; else it only decides who slides, as in the limit of
             weak friction.
+        chamber: law of the chambers, see analytic.scene.chain.
+        path, times: pressures in the chambers in place of the gait's, (B, S) [Pa], and when, (B,)
+            [s].
 
     Raises:
-        ValueError: the gait is not for so many limbs.
+        ValueError: the gait is not for so many chambers.
     """
-    if gait.segments != len(robot.limbs):
+    if gait.segments != len(robot.chambers):
         raise ValueError(
-            f"gait {gait.name!r} is for {gait.segments} limbs, the robot has {len(robot.limbs)}"
+            f"gait {gait.name!r} is for {gait.segments} chambers, the robot has "
+            f"{len(robot.chambers)}: {', '.join(robot.chambers)}"
         )
-    fractions, times = gait.path(states, cycles)
-    pressures = robot.peak_pressure * fractions
+    if path is None:
+        fractions, times = gait.path(states, cycles)
+        path = robot.peak_pressure * fractions
     if bent:
-        return drag_along(Statics(Tree(robot, elements)), pressures, ground, law, times)
-    tree, rests = shapes(robot, pressures, elements)
-    return follow(tree, rests, pressures, ground, law, times)
+        return drag_along(Statics(Tree(robot, elements), chamber), path, ground, law, times)
+    tree, rests = shapes(robot, path, elements, chamber)
+    return follow(tree, rests, path, ground, law, times)

@@ -7,8 +7,9 @@ import pytest
 from walks import coarsen
 
 from analytic import GAITS, SURFACES, Robot
-from mjsim.commands.compare import Row, compare, main, models
+from mjsim.commands.compare import COLUMNS, compare, main, models
 from mjsim.files import cli
+from mjsim.scene import Scene
 
 
 @pytest.fixture
@@ -29,19 +30,20 @@ def test_mujoco_goes_the_way_the_elastica_predicts(surface, gait, reverse, part)
     """Wherever the predicted distance exceeds its own uncertainty and a stand-still."""
     robot = replace(Robot(), peak_pressure=part * Robot().peak_pressure)
     stages = GAITS[gait].reversed() if reverse else GAITS[gait]
-    theory, planar = compare(robot, stages, SURFACES[surface], ["elastica", "planar"])
-    assert theory.status == planar.status == "ok"
-    assert planar.difference_over_L == pytest.approx(0, abs=0.005)
-    if abs(theory.displacement_over_L) > STANDSTILL + theory.uncertainty_over_L:
-        assert planar.displacement_over_L * theory.displacement_over_L > 0
+    scene = Scene(robot, stages, SURFACES[surface])
+    theory, planar = compare(scene, ["elastica", "planar"])
+    assert theory["status"] == planar["status"] == "ok"
+    assert planar["difference_over_L"] == pytest.approx(0, abs=0.005)
+    if abs(theory["displacement_over_L"]) > STANDSTILL + theory["uncertainty_over_L"]:
+        assert planar["displacement_over_L"] * theory["displacement_over_L"] > 0
 
 
 def test_a_row_a_model_with_its_difference_from_the_reference(capsys):
     assert main(["--surface", "felt", "--gait", "wave", "--json"]) == 0
     said = json.loads(capsys.readouterr().out)
     assert said["reference"] == "elastica"
-    assert [row["model"] for row in said["rows"]] == list(models())
-    assert set(said["rows"][0]) == set(Row._fields)
+    assert [row["model"] for row in said["rows"]] == list(models(Robot()))
+    assert set(said["rows"][0]) == {column.key for column in COLUMNS}
     by_model = {row["model"]: row for row in said["rows"]}
     assert by_model["elastica"]["difference_over_L"] == 0
     assert by_model["elastica"]["uncertainty_over_L"] < 1e-3

@@ -74,7 +74,7 @@ def test_a_gait_that_starts_inflated_goes_as_far_in_its_first_cycle_as_later():
     walk = simulate(scene)
     assert walk.status is Status.OK
     ends = [int(np.searchsorted(walk.time, t)) for t in (0.0, 12.0, 24.0)]
-    x = np.append(walk.position[ends, 0, 0], walk.position[-1, 0, 0])
+    x = np.append(walk.line[ends, 0, 0], walk.line[-1, 0, 0])
     cycles = np.diff(x) / scene.robot.length
     # later ones begin with the tension that the one before left in the strip
     assert cycles[1] == pytest.approx(cycles[2], abs=1e-6)

@@ -138,7 +138,7 @@ def test_a_gait_as_actions_goes_as_far_as_its_simulation():
     assert late
     assert not fallen
     walk = simulate(Scene(), numerics)
-    x = walk.position[:, [0, -1], 0].mean(axis=1)
+    x = walk.line[:, [0, -1], 0].mean(axis=1)
     assert total == pytest.approx((x[-1] - x[walk.start]) / 0.13, abs=1e-7)
 
 

@@ -13,8 +13,9 @@ from analytic import SURFACES, Robot
 from analytic.friction.contact_length import PASSIVE
 from analytic.scene.chain import node_positions
 from analytic.scene.surface import from_ratios
-from mjsim.friction.contact_length import ContactForces, pads_by_node
+from mjsim.friction.contact_length import ContactForces
 from mjsim.model.builder import compile_model
+from mjsim.model.pads import pads_by_node
 from mjsim.scene import Numerics, Scene, registry
 
 SCENE = Scene()

@@ -15,15 +15,16 @@ from analytic.scene.pneunet import base_rigidity
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import SURFACES, Surface
 from mjsim.commands import run
-from mjsim.commands import run_limbs as command
-from mjsim.commands.run_limbs import file_name
-from mjsim.files.limb_tables import build_robot, build_tree
-from mjsim.files.tables import merged, read_tables
-from mjsim.model.standalone_limbs import standalone_spec
-from mjsim.scene.limbs import TreeNumerics, TreeScene
+from mjsim.commands.run import file_name
+from mjsim.files.limb_tables import build_robot
+from mjsim.files.tables import build, merged, read_tables
+from mjsim.model.standalone import standalone_spec, write
+from mjsim.results import record
+from mjsim.scene import Numerics, Scene, resolved
+from mjsim.scene.numerics import OF_THE_PLANE
 
 FILE = Path(__file__).resolve().parents[3] / "examples" / "quadruped.toml"
-FAST = ["--timestep", "0.04", "--gait.ramp-time", "1", "--limbs.elements", "2", "--no-video"]
+FAST = ["--timestep", "0.04", "--gait.ramp-time", "1", "--links", "2", "--no-video"]
 
 
 def test_the_quadruped_written_out_limb_by_limb_is_the_named_one():
@@ -39,10 +40,10 @@ def test_the_quadruped_written_out_limb_by_limb_is_the_named_one():
 
 def test_a_scene_file_gives_gait_ground_and_numerics():
     tables = merged(read_tables(FILE), {"ground": {"surface": "gelatin"},
-                                        "numerics": {"elements": 4}})  # fmt: skip
-    scene, numerics = build_tree(tables)
+                                        "numerics": {"links": 4}})  # fmt: skip
+    scene, numerics = build(tables)
     assert scene.ground == SURFACES["gelatin"]
-    assert numerics.elements == 4
+    assert numerics.links == 4
     assert scene.gait.segments == 5
 
 
@@ -64,16 +65,21 @@ def test_json_has_both_numbers_and_the_file_opens(tmp_path, capsys):
     [
         (["--robot", "hexapod"], "robot must be one of strip, quadruped; got 'hexapod'"),
         (["--robot", "quadruped", "--limbs.left", "2"], "left must be a part in [0, 1]"),
-        (["--robot", "quadruped", "--links", "12"], "key of a robot of limbs"),
+        (
+            ["--robot", "quadruped", "--numerics.tie-bound", "2"],
+            "tie_bound does nothing for a robot in space",
+        ),
+        (["--robot", "quadruped", "--body", "rod"], "cable and rod are of one strip"),
+        (["--robot", "quadruped", "--slope", "3"], "their reference knows level ground alone"),
         (["--robot", "quadruped", "--robot.length", "1"], "length is the quadruped's own"),
         (["--robot", "quadruped", "--robot.rigidity", "3e-4"], "rigidity is the quadruped's own"),
         (
             ["--robot", "quadruped", "--robot.rigidity-per-pressure", "1e-9"],
             "rigidity_per_pressure is the quadruped's own",
         ),
-        (["--robot", "quadruped", "--limbs.elements", "3"], "elements must be even"),
+        (["--robot", "quadruped", "--links", "3"], "must be even, got 3"),
         (["--robot", "quadruped", "--gait", "gallop"], "must be one of wave"),
-        (["--robot", "quadruped", "--tolerance", "0.1"], "tolerance is for strips"),
+        (["--robot", "quadruped", "--tolerance", "0.1"], "tolerance is for body auto"),
         (["--limbs.left", "0.5"], "key 'left' is unknown"),
     ],
 )
@@ -91,7 +97,6 @@ def test_bad_input_is_one_line_and_exit_code_2(words, message, tmp_path, capsys)
     ("line", "message"),
     [
         ("peak_pressure = 3e3", "limb 1: peak_pressure is the whole robot's, in [robot]"),
-        ("segments = [1, 2]", "limb 1: segments is not of limbs"),
     ],
 )
 def test_keys_that_a_limb_has_no_say_in_are_refused(line, message, tmp_path, capsys):
@@ -130,7 +135,7 @@ def test_a_walk_under_a_coefficient_of_ones_own_is_kept_whatever_fails_after_it(
     def broken(walk):
         raise ValueError(f"no reference of a walk that is {walk.status}")
 
-    monkeypatch.setattr(command, "record", broken)
+    monkeypatch.setattr(record, "record", broken)
     words = ["--robot", "quadruped", "--surface.friction", "0.6", "--friction", "coulomb", *FAST]
     with pytest.raises(SystemExit) as stop:
         run.main([*words, "--out", str(tmp_path)])
@@ -139,26 +144,18 @@ def test_a_walk_under_a_coefficient_of_ones_own_is_kept_whatever_fails_after_it(
     (path,) = tmp_path.iterdir()
     data = xr.open_dataset(path)
     assert float(data.time[-1]) == pytest.approx(5.0)
-    assert abs(float(data.x[-1])) > 1e-3
+    assert abs(float(data.x[-1, 0, 0])) > 1e-3
 
 
 def test_grounds_of_one_name_and_other_numbers_have_files_of_their_own():
-    scenes = [TreeScene(ground=Surface("mine", shear_strength=tau)) for tau in (10.0, 20.0)]
-    assert len({file_name(scene, TreeNumerics()) for scene in scenes}) == 2
-    assert file_name(TreeScene(ground=SURFACES["gelatin"]), TreeNumerics()) == "limbs-gelatin"
-
-
-def test_other_commands_say_that_limbs_are_not_theirs(tmp_path, capsys):
-    from mjsim.commands import view
-
-    with pytest.raises(SystemExit) as stop:
-        view.main(["--scene", str(FILE)])
-    assert stop.value.code == 2
-    assert "walks by undulator run and undulator export alone" in capsys.readouterr().err
+    scenes = [Scene(quadruped(), ground=Surface("mine", shear_strength=t)) for t in (10.0, 20.0)]
+    assert len({file_name(scene, resolved(scene)) for scene in scenes}) == 2
+    usual = Scene(quadruped(), ground=SURFACES["gelatin"])
+    assert file_name(usual, resolved(usual)) == "limbs-gelatin"
 
 
 def walk_alone(surface):
-    model = standalone_spec(TreeScene(ground=SURFACES[surface])).compile()
+    model = standalone_spec(Scene(quadruped(), ground=SURFACES[surface])).compile()
     data = mujoco.MjData(model)
     gait = replace(undulation("wave"), ramp_time=2.0)
     time = np.arange(-0.5, gait.period, model.opt.timestep)
@@ -173,18 +170,17 @@ def test_mjcf_with_a_slider_a_limb_walks_backward_on_gelatin_by_itself():
 
 
 def test_it_stands_on_its_legs_in_the_viewer_file_and_mujoco_reads_it(tmp_path):
-    from mjsim.model.standalone_limbs import write
-
-    write(TreeScene(), tmp_path / "felt.xml")
+    write(Scene(quadruped()), tmp_path / "felt.xml")
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "felt.xml"))
     assert [model.actuator(i).name for i in range(model.nu)] == list(quadruped().names)
     assert model.nskin == 5
 
 
-def test_every_number_of_the_numerics_can_be_written_in_a_file(tmp_path):
-    values = [
-        f"{item.name} = {getattr(TreeNumerics(), item.name)}" for item in fields(TreeNumerics)
-    ]
+def test_every_number_of_the_numerics_in_space_can_be_written_in_a_file(tmp_path):
+    numerics = resolved(Scene(quadruped()))
+    names = [item.name for item in fields(Numerics) if item.name not in OF_THE_PLANE]
+    values = [f"{name} = {getattr(numerics, name)}" for name in names]
     path = tmp_path / "scene.toml"
     path.write_text("\n".join(['[robot]\nname = "quadruped"', "[numerics]", *values]))
-    assert build_tree(read_tables(path))[1] == TreeNumerics()
+    scene, written = build(read_tables(path))
+    assert resolved(scene, written) == numerics

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from walks import turned, went
 
 from analytic.scene.ground import Patches
 from analytic.scene.limbs import quadruped
@@ -12,14 +13,13 @@ from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import SURFACES, Surface
 from mjsim import load
 from mjsim.commands import replay, report
-from mjsim.files.limb_tables import build_tree
+from mjsim.files.tables import build
 from mjsim.files.written import as_tables, as_toml
 from mjsim.pictures import gl
-from mjsim.results import limb_record
-from mjsim.scene.limbs import TreeNumerics, TreeScene
-from mjsim.simulation.limbs import simulate
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.simulation import simulate
 
-NUMERICS = TreeNumerics(elements=2, timestep=0.04)
+NUMERICS = Numerics(links=2, timestep=0.04)
 GROUNDS = [
     SURFACES["gelatin"],
     Surface("mine", tip_force=0.02, shear_strength=12.0, viscosity=0.3),
@@ -28,7 +28,9 @@ GROUNDS = [
 
 
 def scene(ground=SURFACES["gelatin"]):
-    return TreeScene(gait=replace(undulation("wave", left=0.7), ramp_time=1.0), ground=ground)
+    return Scene(
+        quadruped(), gait=replace(undulation("wave", left=0.7), ramp_time=1.0), ground=ground
+    )
 
 
 @pytest.mark.parametrize("ground", GROUNDS, ids=lambda ground: ground.name)
@@ -39,14 +41,14 @@ def test_a_walk_is_read_as_it_was_saved(ground, tmp_path):
     assert (again.scene, again.numerics, again.status) == (walk.scene, walk.numerics, walk.status)
     for name in ("time", "pressure", "coordinates", "contacts"):
         assert np.array_equal(getattr(again, name), getattr(walk, name))
-    assert np.array_equal(again.displacement, walk.displacement)
+    assert np.array_equal(went(again), went(walk))
 
 
 @pytest.mark.parametrize("ground", GROUNDS[:2], ids=lambda ground: ground.name)
 def test_a_scene_is_built_from_the_tables_that_it_is_written_as(ground):
-    turned = tuple(replace(limb, angle=limb.angle + 0.3) for limb in quadruped().limbs)
-    one = replace(scene(ground), robot=replace(quadruped(), limbs=turned))
-    again, numerics = build_tree(tomllib.loads(as_toml(as_tables(one, NUMERICS))))
+    ahead = tuple(replace(limb, angle=limb.angle + 0.3) for limb in quadruped().limbs)
+    one = replace(scene(ground), robot=replace(quadruped(), limbs=ahead))
+    again, numerics = build(tomllib.loads(as_toml(as_tables(one, NUMERICS))))
     assert numerics == NUMERICS
     assert (again.gait, again.ground) == (one.gait, one.ground)
     for limb, written in zip(one.robot.limbs, again.robot.limbs, strict=True):
@@ -54,23 +56,22 @@ def test_a_scene_is_built_from_the_tables_that_it_is_written_as(ground):
         assert written.angle == pytest.approx(limb.angle, rel=1e-15)
 
 
-def test_the_page_of_a_robot_of_limbs_has_its_turn_its_limbs_and_its_scene(tmp_path, monkeypatch):
-    monkeypatch.setattr(limb_record, "reference", lambda walk: None)  # which takes long
+@pytest.mark.usefixtures("coarse")
+def test_the_page_of_a_robot_of_limbs_has_its_turn_its_limbs_and_its_scene(tmp_path):
     walk = simulate(scene(), NUMERICS)
     walk.save(tmp_path / "walk.nc")
     out = tmp_path / "page.html"
     assert report.main([str(tmp_path / "walk.nc"), "--no-video", "--out", str(out)]) == 0
     text = out.read_text("utf-8")
     assert "walks backward" in text
-    assert f"{np.degrees(walk.turn):+.2f}" in text
+    assert f"{np.degrees(turned(walk)):+.2f}" in text
     assert "[[robot.limbs]]" in text
     assert "rear-left: 0 kPa" in text
 
 
 def test_a_middle_line_is_as_long_as_its_limb_in_every_state():
     walk = simulate(scene(), NUMERICS)
-    places = walk.places(np.arange(0, len(walk.time), 10))
-    lengths = np.linalg.norm(np.diff(places, axis=2), axis=-1).sum(axis=-1)
+    lengths = np.linalg.norm(np.diff(walk.position, axis=2), axis=-1).sum(axis=-1)
     strips = [limb.strip.length for limb in walk.scene.robot.limbs]
     assert lengths == pytest.approx(np.broadcast_to(strips, lengths.shape), rel=1e-9)
 

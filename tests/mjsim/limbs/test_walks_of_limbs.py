@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from walks import turned, went
 
 from analytic.scene.ground import Patches
 from analytic.scene.limbs import LENGTH, quadruped
@@ -16,15 +17,15 @@ from analytic.solvers.limbs.walk import walk as quasi_static
 from mjsim.friction.in_plane import Grips
 from mjsim.model.limbs import longest_step
 from mjsim.results.status import Status
-from mjsim.scene.limbs import TreeNumerics, TreeScene
-from mjsim.simulation.limbs import TreeSimulation, simulate
+from mjsim.scene import Numerics, Scene, resolved
+from mjsim.simulation.simulation import Simulation, simulate
 
-NUMERICS = TreeNumerics(timestep=0.04, elements=4)
+NUMERICS = Numerics(timestep=0.04, links=4)
 
 
 def scene(surface="felt", ramp=8.0, **sides):
     gait = replace(undulation("wave", **sides), ramp_time=ramp)
-    return TreeScene(gait=gait, ground=SURFACES[surface])
+    return Scene(quadruped(), gait=gait, ground=SURFACES[surface])
 
 
 @pytest.fixture(scope="module")
@@ -35,54 +36,54 @@ def walks():
 @pytest.mark.parametrize("name", ["felt", "gelatin"])
 def test_it_goes_as_far_as_the_quasi_static_reference(walks, name):
     found = quasi_static(quadruped(), undulation("wave"), SURFACES[name], 8, 4)
-    off = np.hypot(*(walks[name].displacement - found.displacement))
+    off = np.hypot(*(went(walks[name]) - found.displacement))
     assert off < max(0.05 * abs(found.displacement[0]), 0.002 * LENGTH)
 
 
 def test_pairs_that_press_alike_keep_it_straight(walks):
     for walk in walks.values():
         assert walk.status is Status.OK
-        assert abs(walk.displacement[1]) < 1e-3 * LENGTH
-        assert abs(walk.turn) < np.radians(0.05)
+        assert abs(went(walk)[1]) < 1e-3 * LENGTH
+        assert abs(turned(walk)) < np.radians(0.05)
 
 
 def test_left_and_right_swapped_it_goes_the_mirrored_way():
     one, two = (simulate(scene("gelatin", 4.0, **side), NUMERICS)
                 for side in ({"left": 0.7}, {"right": 0.7}))  # fmt: skip
-    assert abs(one.turn) > np.radians(0.5)
-    assert two.turn == pytest.approx(-one.turn, abs=np.radians(0.05))
-    assert two.displacement == pytest.approx(one.displacement * [1, -1], abs=1e-3 * LENGTH)
+    assert abs(turned(one)) > np.radians(0.5)
+    assert turned(two) == pytest.approx(-turned(one), abs=np.radians(0.05))
+    assert went(two) == pytest.approx(went(one) * [1, -1], abs=1e-3 * LENGTH)
 
 
 @pytest.mark.slow
 def test_less_pressure_on_the_left_turns_it_as_in_theory():
     walk = simulate(scene("gelatin", left=0.7), NUMERICS)
     found = quasi_static(quadruped(), undulation("wave", left=0.7), SURFACES["gelatin"], 12, 4)
-    assert np.degrees(walk.turn) == pytest.approx(np.degrees(found.turn), abs=0.2)
+    assert np.degrees(turned(walk)) == pytest.approx(np.degrees(found.turn), abs=0.2)
 
 
 def test_at_rest_it_has_the_shape_of_the_statics():
-    own = TreeScene(ground=SURFACES["felt"].scaled(0.01))  # which bends nothing
+    own = Scene(quadruped(), ground=SURFACES["felt"].scaled(0.01))  # which bends nothing
     numerics = replace(NUMERICS, timestep=0.005)  # it sinks in by the square of that
-    simulation = TreeSimulation(own, numerics)
+    simulation = Simulation(own, numerics)
     pressures = own.robot.peak_pressure * np.array([0.3, 0.8, 0.5, 0.0, 0.0])
     for part in np.linspace(0, 1, 600):
         simulation.step(part * pressures)
     for _ in range(200):
         simulation.step(pressures)
-    tree = Tree(own.robot, NUMERICS.elements)
+    tree = Tree(own.robot, NUMERICS.links)
     statics, rest = Statics(tree), Statics(tree).flat()
     for part in np.linspace(0, 1, 9):
         rest = statics.equilibrium(part * pressures, rest)
-    height, _, pitch, roll = simulation.walk().coordinates[-1, 2:6]
+    height, _, pitch, roll = simulation.trajectory().coordinates[-1, 2:6]
     assert height == pytest.approx(rest.q[2], rel=0.02)
     assert pitch == pytest.approx(rest.q[4], rel=0.02)
     assert roll == pytest.approx(rest.q[5], rel=0.02)
 
 
 def test_half_the_step_and_half_the_links_change_it_little(walks):
-    fine = simulate(scene("felt"), TreeNumerics(timestep=0.02, elements=8))
-    assert fine.displacement[0] == pytest.approx(walks["felt"].displacement[0], rel=0.03)
+    fine = simulate(scene("felt"), Numerics(timestep=0.02, links=8))
+    assert went(fine)[0] == pytest.approx(went(walks["felt"])[0], rel=0.03)
 
 
 def test_every_place_resists_by_its_bound_at_most(monkeypatch):
@@ -97,15 +98,15 @@ def test_every_place_resists_by_its_bound_at_most(monkeypatch):
         before(self, pressures)
 
     monkeypatch.setattr(Grips, "before_step", watch)
-    simulate(scene("polyethylene", 2.0), TreeNumerics(timestep=0.02, elements=4))
+    simulate(scene("polyethylene", 2.0), Numerics(timestep=0.02, links=4))
     assert max(excess) < 1e-9
 
 
 def test_steps_of_a_controller_are_those_of_the_gait():
     own = scene(ramp=1.0)
-    numerics = TreeNumerics(timestep=0.02, elements=4)
+    numerics = Numerics(timestep=0.02, links=4)
     peak = own.robot.peak_pressure
-    simulation = TreeSimulation(own, numerics)
+    simulation = Simulation(own, numerics)
     by_gait = simulation.run()
 
     time = numerics.timestep * np.arange(1.0, round(own.gait.period / numerics.timestep) + 1)
@@ -119,34 +120,34 @@ def test_steps_of_a_controller_are_those_of_the_gait():
 
 
 def test_a_step_too_long_is_reported_and_no_number_made_of_it():
-    walk = simulate(scene("felt", left=0.7), TreeNumerics(timestep=0.08))
+    walk = simulate(scene("felt", left=0.7), Numerics(timestep=0.08))
     assert walk.status in (Status.TOPPLED, Status.DIVERGED)
 
 
 def test_what_cannot_be_is_refused_in_one_line():
     with pytest.raises(ValueError, match="must be even, got 5"):
-        TreeNumerics(elements=5)
+        resolved(scene(), Numerics(links=5))
     with pytest.raises(ValueError, match=r"timestep must be at most 0\.1 s"):
-        TreeNumerics(timestep=0.2)
+        Numerics(timestep=0.2)
     with pytest.raises(ValueError, match=r"shortest ramp of 0\.1 s has 4 steps"):
-        TreeSimulation(scene(ramp=0.1), TreeNumerics(timestep=0.05))
+        Simulation(scene(ramp=0.1), Numerics(timestep=0.05))
     with pytest.raises(ValueError, match="adhesion of surface"):
-        TreeScene(ground=replace(SURFACES["felt"], name="tape", adhesion=0.1))
-    with pytest.raises(ValueError, match="must be 5 finite numbers"):
-        TreeSimulation(scene(), NUMERICS).step([0.0, 1.0])
+        Scene(quadruped(), ground=replace(SURFACES["felt"], name="tape", adhesion=0.1))
+    with pytest.raises(ValueError, match="must be 5 finite pressures"):
+        Simulation(scene(), NUMERICS).step([0.0, 1.0])
 
 
 @pytest.mark.slow
 def test_where_a_contact_lets_go_it_snaps_but_is_not_thrown():
     # legs that unbend on a ground that only tips feel, under friction by load
     gait = replace(undulation("full-wave", left=0.5), ramp_time=8.0)
-    own = TreeScene(gait=gait, ground=SURFACES["gelatin"], friction="coulomb")
+    own = Scene(quadruped(), gait=gait, ground=SURFACES["gelatin"], friction="coulomb")
     found = quasi_static(quadruped(), gait, own.ground, 12, 4, law="coulomb")
     for timestep in (0.02, 0.04):
-        walk = simulate(own, TreeNumerics(timestep=timestep, elements=4))
-        off = np.hypot(*(walk.displacement - found.displacement))
+        walk = simulate(own, Numerics(timestep=timestep, links=4))
+        off = np.hypot(*(went(walk) - found.displacement))
         assert off < 0.1 * np.hypot(*found.displacement)
-        assert np.degrees(walk.turn) == pytest.approx(np.degrees(found.turn), abs=0.5)
+        assert np.degrees(turned(walk)) == pytest.approx(np.degrees(found.turn), abs=0.5)
 
 
 @pytest.mark.slow
@@ -155,20 +156,21 @@ def test_a_gait_of_two_seconds_a_ramp_goes_as_far_as_a_slow_one():
     slow = quasi_static(quadruped(), undulation("wave"), SURFACES["felt"], 20, 6).displacement[0]
     # the reference is sure to 1 %
     for timestep, within in ((0.02, 0.05), (0.01, 0.03), (0.005, 0.02)):
-        walk = simulate(scene("felt", ramp=2.0), TreeNumerics(timestep=timestep))
+        walk = simulate(scene("felt", ramp=2.0), Numerics(timestep=timestep))
         assert walk.contacts[walk.start :].min() >= 4
-        assert walk.displacement[0] == pytest.approx(slow, rel=within)
+        assert went(walk)[0] == pytest.approx(slow, rel=within)
 
 
 @pytest.mark.parametrize("elements", [4, 6])
 def test_it_sinks_in_by_a_quarter_of_its_ripples_at_the_longest_step(elements):
     own = scene("felt")
-    longest = longest_step(own, TreeNumerics(elements=elements))
-    simulation = TreeSimulation(own, TreeNumerics(elements=elements, timestep=longest))
+    longest = longest_step(own, resolved(own, Numerics(links=elements)))
+    simulation = Simulation(own, Numerics(links=elements, timestep=longest))
     for _ in range(100):
         simulation.step(np.zeros(5))
-    pads = simulation.model.geom_size[:, 0] == NUMERICS.pad_radius
-    deepest = NUMERICS.pad_radius - simulation.data.geom_xpos[pads, 2].min()
+    radius = simulation.numerics.pad_radius
+    pads = simulation.model.geom_size[:, 0] == radius
+    deepest = radius - simulation.data.geom_xpos[pads, 2].min()
     least = min(ripple(limb.strip, elements) for limb in own.robot.limbs)
     assert 0.15 * least < deepest < 0.4 * least
 
@@ -182,8 +184,8 @@ SEAM = Patches("seam", (0.03,), (SURFACES["felt"], SURFACES["polyethylene"]))
 @pytest.mark.parametrize("ground", [WET, STICKY, SEAM], ids=lambda ground: ground.name)
 def test_on_wet_ground_and_over_a_seam_it_goes_and_turns_as_in_theory(ground):
     own = replace(scene("felt", left=0.8), ground=ground)
-    walk = simulate(own, TreeNumerics(timestep=0.03))
+    walk = simulate(own, Numerics(timestep=0.03))
     found = quasi_static(own.robot, own.gait, ground, 16, 6)
-    off = np.hypot(*(walk.displacement - found.displacement))
+    off = np.hypot(*(went(walk) - found.displacement))
     assert off < max(0.05 * np.hypot(*found.displacement), 0.004 * LENGTH)
-    assert np.degrees(walk.turn) == pytest.approx(np.degrees(found.turn), abs=0.5)
+    assert np.degrees(turned(walk)) == pytest.approx(np.degrees(found.turn), abs=0.5)

@@ -118,7 +118,7 @@ def test_without_weight_and_ground_every_body_takes_the_natural_curvature(body):
     for load in joints.loads(pressure, pressure[0], pressure):
         joints.apply(load)
         mujoco.mj_step(model, data)
-    position = simulation.positions(model, numerics, data.qpos[None].copy())[0]
+    position = simulation.positions(model, scene, numerics, data.qpos[None].copy())[0, 0]
     slope = np.arctan2(*np.diff(position[:, [2, 0]], axis=0).T)
     _, rest = joint_springs(Robot(), 12, pressure[:1])
     assert np.diff(slope) == pytest.approx(rest[0], rel=0.02 if body == "rod" else 1e-6)
@@ -136,7 +136,7 @@ def test_couples_on_a_rod_are_in_balance():
     joints, pressure = registry.find("rod").bind(model, data, scene, numerics), [4e4, 1e4, 3e4]
     joints.apply(joints.loads(*3 * (np.array([pressure]),))[0])
     force = data.qfrc_applied.reshape(-1, 3)
-    place = simulation.positions(model, numerics, data.qpos[None].copy())[0]
+    place = simulation.positions(model, scene, numerics, data.qpos[None].copy())[0, 0]
     turning = place[:, 2] * force[:, 0] - place[:, 0] * force[:, 2]
     assert np.abs(force).max() > 0.1
     assert np.abs(force.sum(axis=0)).max() < 1e-12
@@ -150,7 +150,7 @@ def test_a_rod_stays_in_its_plane_on_robots_that_nobody_chose(gamma):
     for gait in (GAITS["pulse"], GAITS["full-wave"]):
         walk = simulation.simulate(Scene(robot, gait, from_ratios("any", 1.0, 1.0), body="rod"))
         assert walk.status is Status.OK
-        assert np.abs(walk.position[..., 1]).max() < 1e-3 * robot.length
+        assert np.abs(walk.line[..., 1]).max() < 1e-3 * robot.length
 
 
 @pytest.mark.slow

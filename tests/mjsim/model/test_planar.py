@@ -6,8 +6,8 @@ import pytest
 
 from analytic import Robot
 from analytic.scene.surface import from_ratios
-from mjsim.model.builder import TOUCH, compile_model, scene_spec
-from mjsim.model.parts import FAR
+from mjsim.model.builder import compile_model, scene_spec
+from mjsim.model.parts import FAR, TOUCH
 from mjsim.model.skin import add_skins
 from mjsim.scene import Numerics, Scene
 
@@ -22,13 +22,13 @@ def model():
 
 
 def test_a_chain_of_n_links_has_n_hinges_and_three_degrees_more(model):
-    assert model.nv == Numerics().links + 3
+    assert model.nv == NUMERICS.links + 3
 
 
 def test_pads_sit_on_the_neutral_line_and_push_straight_up(model):
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    pads = [model.geom(f"robot_pad_{i}") for i in range(Numerics().links + 2)]
+    pads = [model.geom(f"robot_pad_{i}") for i in range(NUMERICS.links + 2)]
     for pad in pads:
         assert pad.condim[0] == 1
         assert pad.priority[0] == 1  # so that the ground's own softness has no say
@@ -41,7 +41,7 @@ def test_pads_sit_on_the_neutral_line_and_push_straight_up(model):
 def test_nothing_but_pads_touches_the_ground(model):
     colliding = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
     names = {model.geom(i).name for i in np.flatnonzero(colliding)}
-    pads = {f"robot_pad_{i}" for i in range(Numerics().links + 2)}
+    pads = {f"robot_pad_{i}" for i in range(NUMERICS.links + 2)}
     assert names == pads | {"surface_floor"}
 
 

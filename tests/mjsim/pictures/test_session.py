@@ -22,7 +22,7 @@ def test_a_played_cycle_goes_as_far_as_a_recorded_one():
     played = session()
     played.advance(played.scene.gait.period)
     recorded = walk("gelatin", links=12, timestep=0.02)
-    x = recorded.position[:, 0, 0]
+    x = recorded.line[:, 0, 0]
     gone = (x[-1] - x[recorded.start]) / recorded.scene.robot.length
     assert played.displacement == pytest.approx(gone, abs=1e-4)
     assert played.seen.status is Status.OK

@@ -7,8 +7,9 @@ import pytest
 import xarray as xr
 from walks import walk
 
+from analytic.scene.robot import Robot
 from mjsim.commands import run
-from mjsim.results.netcdf import CONVENTIONS, segment_names
+from mjsim.results.netcdf import CONVENTIONS
 from mjsim.results.trajectory import load
 
 _UNIT = re.compile(r"(1|((m|s|Pa|N|J)(-?\d)?)( (m|s|Pa|N|J)(-?\d)?)*)")  # of UDUNITS
@@ -79,4 +80,4 @@ def test_the_command_records_forces(tmp_path):
 
 
 def test_segments_of_other_robots_are_numbered():
-    assert segment_names(5) == ["1", "2", "3", "4", "5"]
+    assert Robot(segments=(1.0,) * 5).chambers == ("1", "2", "3", "4", "5")

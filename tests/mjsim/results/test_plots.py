@@ -27,7 +27,7 @@ def test_without_axes_some_are_made():
 def test_the_track_ends_where_the_walk_does():
     result = walk("gelatin")
     left = result.plot.track(Figure().subplots()).lines[0].get_ydata()
-    x = result.position[:, 0, 0]
+    x = result.line[:, 0, 0]
     assert left[-1] == pytest.approx(1e3 * (x[-1] - x[result.start]))
 
 

@@ -122,7 +122,7 @@ def test_records_that_start_inflated_or_do_not_close_agree_with_theory(tmp_path,
         ("time [s],p1 [kPa]\n0,1\n1,nan", "'nan'"),
         ("time [s],p1 [kPa]\n0,1\n1,2,3", "line 3"),
         ("time [s],p1 [kPa]\n0,0\n1,0\n2,0", "noise"),
-        ("time [s],p1 [kPa]\n0,0\n1,1\n2,0", "1 segments"),
+        ("time [s],p1 [kPa]\n0,0\n1,1\n2,0", "1 chambers"),
     ],
 )
 def test_a_bad_record_gets_one_line(tmp_path, capsys, text, named):

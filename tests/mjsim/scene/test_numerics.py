@@ -2,10 +2,10 @@
 
 import pytest
 
-from mjsim.scene import Numerics
+from mjsim.scene import Numerics, Scene, resolved
 
 
 @pytest.mark.parametrize("links", [5, 0, -1, 385, 24.0, "24"])
 def test_a_chain_has_6_to_384_links(links):
     with pytest.raises(ValueError, match="links must be a whole number from 6 to 384"):
-        Numerics(links=links)
+        resolved(Scene(), Numerics(links=links))

@@ -45,7 +45,7 @@ def test_side_by_side_every_scene_walks_as_it_does_alone(slope):
     for scene, walk in zip(scenes, together, strict=True):
         alone = simulate(scene, COARSE)
         assert walk.status == alone.status
-        assert walk.position == pytest.approx(alone.position, abs=1e-9 * scene.robot.length)
+        assert walk.line == pytest.approx(alone.line, abs=1e-9 * scene.robot.length)
         assert walk.contact_left == pytest.approx(alone.contact_left, abs=1e-9)
         assert walk.contact_right == pytest.approx(alone.contact_right, abs=1e-9)
         assert np.array_equal(walk.pressure, alone.pressure)

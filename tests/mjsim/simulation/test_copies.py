@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 
 from analytic.friction.laws import ConstantBounds, register
+from analytic.scene.limbs import quadruped
 from analytic.scene.surface import SURFACES
 from mjsim.model.planar import Planar
 from mjsim.scene import Numerics, Scene, registry
-from mjsim.scene.limbs import TreeNumerics, TreeScene
-from mjsim.simulation.limbs import TreeSimulation
 from mjsim.simulation.schedule import walking
 from mjsim.simulation.simulation import Simulation
 
@@ -42,8 +41,8 @@ def of_strip(**scene):
 
 
 def of_limbs(**scene):
-    simulation = TreeSimulation(TreeScene(settle_time=0.2, **scene),
-                                TreeNumerics(timestep=0.04, elements=2))  # fmt: skip
+    simulation = Simulation(Scene(quadruped(), settle_time=0.2, **scene),
+                            Numerics(timestep=0.04, links=2))  # fmt: skip
     times = 0.04 * np.arange(1, 200)
     scene = simulation.scene
     return simulation, scene.robot.peak_pressure * scene.gait.fractions(times)
@@ -85,7 +84,7 @@ def test_a_copy_of_a_strip_walks_on(scene, way):
 @pytest.mark.parametrize("friction", ["constant", "coulomb"])
 def test_a_copy_of_limbs_walks_on(friction, way):
     usual, copied = check(lambda: of_limbs(friction=friction), way)
-    assert np.array_equal(usual.walk().coordinates, copied.walk().coordinates)
+    assert np.array_equal(usual.trajectory().coordinates, copied.trajectory().coordinates)
 
 
 @pytest.mark.slow

@@ -47,7 +47,7 @@ def test_a_strip_that_is_thrown_into_the_air_is_no_walk_though_both_ends_stay_lo
     result = simulation.simulate(scene, Numerics(timestep=timestep))
     assert result.status is Status.TOPPLED
     assert measure(result) is None
-    lowest = result.position[..., 2].min(axis=1) / robot.length
+    lowest = result.line[..., 2].min(axis=1) / robot.length
     assert lowest.max() > 0.01
 
 

@@ -38,7 +38,7 @@ def test_where_it_goes_and_stalls_is_the_theory_s_within_2_percent_of_the_length
     scene = Scene(gait=SLOW, ground=GROUNDS[name], cycles=8)
     walk = simulate(scene)
     ends = np.searchsorted(walk.time, scene.gait.period * np.arange(1, 9) - 1e-9)
-    x = walk.position[np.minimum(ends, len(walk.time) - 1), 0, 0] / scene.robot.length
+    x = walk.line[np.minimum(ends, len(walk.time) - 1), 0, 0] / scene.robot.length
     theory = predict(scene.robot, SLOW, scene.ground, cycles=8)
     rests = np.flatnonzero((theory.pressures == 0).all(axis=1))[1:]
     assert x == pytest.approx(theory.locomotion.left[rests] / scene.robot.length, abs=0.02)
@@ -49,7 +49,7 @@ def test_under_coulomb_friction_pads_have_the_coefficient_of_their_place():
     scene = Scene(gait=SLOW, ground=Patches("strip", (0.12,), (FELT, GELATIN)), friction="coulomb")
     walk, felt = simulate(scene), simulate(replace(scene, ground=FELT))
     assert walk.status == felt.status == "ok"
-    assert abs(walk.position[-1, 0, 0] - felt.position[-1, 0, 0]) > 0.01 * scene.robot.length
+    assert abs(walk.line[-1, 0, 0] - felt.line[-1, 0, 0]) > 0.01 * scene.robot.length
 
 
 def test_patches_are_read_from_a_file_and_come_back_from_a_saved_walk(tmp_path):

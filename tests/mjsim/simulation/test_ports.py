@@ -189,7 +189,7 @@ def test_a_controller_is_asked_at_each_step_and_the_gait_as_one_walks_alike():
     assert len(seen) == 2000
     assert seen[0].time == pytest.approx(0.0, abs=1e-9)
     assert closed.coordinates == pytest.approx(planned.coordinates, abs=1e-9)
-    assert seen[-1].left == pytest.approx(planned.position[-2, 0, 0], abs=1e-6)
+    assert seen[-1].left == pytest.approx(planned.line[-2, 0, 0], abs=1e-6)
 
 
 def test_steps_by_hand_are_those_of_a_run():

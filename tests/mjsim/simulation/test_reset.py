@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from analytic.scene.limbs import quadruped
+from analytic.scene.robot import Robot
 from mjsim.model.builder import compile_model
 from mjsim.model.planar import Planar
 from mjsim.scene import Numerics, Scene, registry
-from mjsim.scene.limbs import TreeNumerics, TreeScene
-from mjsim.simulation.limbs import TreeSimulation
 from mjsim.simulation.simulation import Simulation
 
 
@@ -42,12 +42,9 @@ def test_a_body_that_scales_the_model_walks_alike_each_time(forgets):
     assert model.stat.extent == 2.0 * compiled.stat.extent
 
 
-@pytest.mark.parametrize("kind", [Simulation, TreeSimulation])
-def test_a_reset_restores_all_of_the_model_in_place(kind):
-    if kind is TreeSimulation:
-        simulation = TreeSimulation(TreeScene(settle_time=0.1), TreeNumerics(elements=2))
-    else:
-        simulation = Simulation(Scene(settle_time=0.1), Numerics(links=6))
+@pytest.mark.parametrize(("robot", "links"), [(Robot(), 6), (quadruped(), 2)])
+def test_a_reset_restores_all_of_the_model_in_place(robot, links):
+    simulation = Simulation(Scene(robot, settle_time=0.1), Numerics(links=links))
     model, data = simulation.model, simulation.data
     simulation.reset()
     usual, state = numbers_of(model), data.qpos.copy()

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from analytic.locomotion import WEAK
 from analytic.prediction import Elastica
 from analytic.scene.gait import GAITS
-from analytic.scene.limbs import MASS, Limb, TreeRobot, as_strip, quadruped
+from analytic.scene.limbs import MASS, Limb, LimbedRobot, as_strip, quadruped
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
 from analytic.solvers.limbs.kinematics import WHOLE, Tree
@@ -118,13 +118,12 @@ def test_left_and_right_swapped_the_rest_is_mirrored():
 @pytest.mark.parametrize(
     ("build", "words"),
     [
-        (lambda: Limb("leg", Robot()), "must be one segment"),
         (lambda: Limb("leg", Robot(segments=(1.0,)), at="middle"), "at must be one of begin, end"),
         (lambda: Limb("leg", Robot(segments=(1.0,)), angle=float("nan")), "angle must be a finite"),
-        (lambda: TreeRobot(()), "one limb at least"),
-        (lambda: TreeRobot((Limb("a", Robot(segments=(1.0,)), "b"),)), "is the trunk"),
-        (lambda: TreeRobot((*QUADRUPED.limbs, QUADRUPED.limbs[1])), "is there twice"),
-        (lambda: TreeRobot((QUADRUPED.limbs[0], replace(QUADRUPED.limbs[1], on="tail"))),
+        (lambda: LimbedRobot(()), "one limb at least"),
+        (lambda: LimbedRobot((Limb("a", Robot(segments=(1.0,)), "b"),)), "is the trunk"),
+        (lambda: LimbedRobot((*QUADRUPED.limbs, QUADRUPED.limbs[1])), "is there twice"),
+        (lambda: LimbedRobot((QUADRUPED.limbs[0], replace(QUADRUPED.limbs[1], on="tail"))),
          "on must be one of torso"),
         (lambda: Tree(QUADRUPED, 3), "elements must be even"),
     ],

@@ -102,7 +102,7 @@ def test_one_side_pressed_less_turns_it_and_the_other_side_the_other_way():
 
 
 def test_gaits_for_other_robots_and_parts_out_of_range_are_refused():
-    with pytest.raises(ValueError, match="is for 3 limbs, the robot has 5"):
+    with pytest.raises(ValueError, match="is for 3 chambers, the robot has 5"):
         walk(QUADRUPED, GAITS["wave"], SURFACES["felt"])
     with pytest.raises(ValueError, match="left must be a part in"):
         undulation("wave", left=1.5)

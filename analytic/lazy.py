@@ -1,0 +1,26 @@
+"""Public names of a package, each imported when it is first used."""
+
+from collections.abc import Callable, Mapping
+from importlib import import_module
+from types import ModuleType
+from typing import Any
+
+
+def lazily(
+    package: ModuleType | str, homes: Mapping[str, tuple[str, ...]]
+) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
+    """What a package assigns to `__getattr__`, `__dir__` and `__all__`.
+
+    Args:
+        package: its name.
+        homes: public names by the module that defines them.
+    """
+    home_of = {name: module for module, names in homes.items() for name in names}
+    public = sorted(home_of)
+
+    def attribute(name: str) -> Any:
+        if name not in home_of:
+            raise AttributeError(f"module {package!r} has no attribute {name!r}")
+        return getattr(import_module(home_of[name]), name)
+
+    return attribute, lambda: public, public

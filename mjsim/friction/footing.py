@@ -1,0 +1,116 @@
+"""What friction does around each step of a simulation, the same for every robot."""
+
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.friction.contact_length import may_lie_flat
+from mjsim.friction.in_plane import Grips
+from mjsim.friction.laws import traction
+from mjsim.model.body import Joints
+from mjsim.model.pads import pads_by_node
+from mjsim.results.status import FALLEN
+from mjsim.scene import Resolved, Scene
+
+Array = NDArray[np.float64]
+
+
+class Footing(Protocol):
+    """A friction law at work on a compiled scene.
+
+    Attributes:
+        columns: names of what `after_step` gives.
+    """
+
+    columns: tuple[str, ...]
+
+    def prepare(self, pressures: Array) -> Sequence[Any]:
+        """What `before_step` takes at each step, at pressures in the chambers, (T, S) [Pa]."""
+        ...
+
+    def before_step(self, prepared: Any) -> None:
+        """Read the contacts, and set what resists in the next step."""
+        ...
+
+    def after_step(self) -> tuple[float, ...]:
+        """Take off what the step moved by its order alone; a number for each of `columns`."""
+        ...
+
+    def stands(self) -> bool:
+        """Whether the robot is as it can be on a walk."""
+        ...
+
+    def places(self) -> Array:
+        """Places whose speed tells whether the robot is at rest [m]."""
+        ...
+
+
+class StripFooting:
+    """A law of mjsim.friction.laws under a strip; see Footing.
+
+    Args:
+        scene, numerics: what is simulated.
+        model, data: as compiled.
+        joints: of the body.
+    """
+
+    columns: tuple[str, ...] = ("contact_left", "contact_right", "left_slip_fraction", "drift")
+
+    def __init__(
+        self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData,
+        joints: Joints,
+    ) -> None:  # fmt: skip
+        self._law = traction(scene, numerics, model, data)
+        self._slopes, self._shift, self._dt = joints.slopes, joints.shift, numerics.timestep
+        self._before, self._after = self._law.before_step, self._law.after_step
+        self._peak = scene.robot.peak_pressure
+        self._sticky = scene.ground.at(0.0).adhesion > 0  # which may hold an inflated end flat
+        self._lengths = data.ten_length
+        pads = pads_by_node(model)
+        self._feet = int(pads[0, 0]), int(pads[-1, 0])
+        self._height = data.geom_xpos[:, 2]
+        self._low, self._high = feet_may_be(scene, numerics)
+
+    def prepare(self, pressures: Array) -> Sequence[Any]:
+        """Whether each end may lie on its side at each step, by its pressure."""
+        flat = self._sticky | may_lie_flat(pressures[:, [0, -1]], self._peak)
+        return list(flat.tolist())
+
+    def before_step(self, prepared: Any) -> None:
+        """See Footing.before_step."""
+        self._before(self._slopes(), *prepared)
+
+    def after_step(self) -> tuple[float, ...]:
+        """See Footing.after_step."""
+        excess = self._after(self._dt)
+        if excess:
+            self._shift(excess)
+        law = self._law
+        return law.contact_left, law.contact_right, law.left_slip, law.drift
+
+    def stands(self) -> bool:
+        """Whether both ends are still feet."""
+        low, high, (first, last), height = self._low, self._high, self._feet, self._height
+        return low < height.item(first) < high and low < height.item(last) < high
+
+    def places(self) -> Array:
+        """Lengths of the tendons to the ends [m]."""
+        return np.array(self._lengths)
+
+
+def feet_may_be(scene: Scene, numerics: Resolved) -> tuple[float, float]:
+    """Heights between which the pad of a strip's end is while it is still a foot [m]."""
+    reach = FALLEN * scene.robot.length
+    return numerics.pad_radius - reach, numerics.pad_radius + reach
+
+
+def footing(
+    scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData, joints: Any
+) -> Footing:
+    """The law of a scene at work."""
+    if scene.in_space:
+        return Grips(scene, numerics, model, data)
+    return StripFooting(scene, numerics, model, data, joints)
