@@ -152,7 +152,7 @@ def _of_file(path: Path, offsets: Iterator[int]) -> list[Series]:
 
 
 def _is_field(name: str) -> bool:
-    """Whether a column is a field of the scene, as robot.peak_pressure."""
+    """True for a column of a field of the scene, as robot.peak_pressure."""
     return "." in name and "@" not in name
 
 

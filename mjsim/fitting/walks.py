@@ -1,11 +1,11 @@
-"""What a model says of what was measured: walks in MuJoCo, or quasi-static ones."""
+"""Predictions of measurements: walks in MuJoCo, or quasi-static ones."""
 
 import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from analytic.scene import pneunet
 from analytic.scene.chain import node_positions
 from mjsim.files import plugins
 from mjsim.files.tables import Tables, build
-from mjsim.fitting.observations import Run, Series
+from mjsim.fitting.observations import RUN, Run, Series
 from mjsim.fitting.parameters import with_values
 from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene
@@ -25,15 +25,12 @@ from mjsim.simulation.simulation import simulate
 Array = NDArray[np.float64]
 
 _STATES = 100  # of the quasi-static model in a ramp from no pressure to the peak
-_COARSE = {
-    "ends": (4, 0.02),
-    "all": (8, 0.01),
-}  # links a segment and time step [s]
-_MANY = 24  # walks that are worth processes of their own; chosen
+_COARSE = {"ends": (4, 0.02), "all": (8, 0.01)}  # links per segment and time step [s]
+_MANY = 24  # walks from which on processes gain more than their start takes; chosen
 
 
 class Motion(NamedTuple):
-    """What came of a run.
+    """Motion of the strip in a run.
 
     Attributes:
         time: of the states since the first cycle began, (T,) [s].
@@ -53,11 +50,11 @@ class Motion(NamedTuple):
 
 
 Walk = Callable[[Scene, Numerics, tuple[float, ...]], Motion | None]
-"""From a scene, and places to look at, to what came of it; None if it failed."""
+"""Function from a scene, and places over the length, to the motion; None if the walk failed."""
 
 
 def by_mujoco(scene: Scene, numerics: Numerics, places: tuple[float, ...]) -> Motion | None:
-    """A walk in MuJoCo."""
+    """Motion of a scene in MuJoCo."""
     walk = simulate(scene, numerics)
     numbers = measure(walk)
     if numbers is None:
@@ -74,19 +71,19 @@ def by_mujoco(scene: Scene, numerics: Numerics, places: tuple[float, ...]) -> Mo
 
 
 def quasi_static(scene: Scene, numerics: Numerics, places: tuple[float, ...]) -> Motion | None:
-    """The same by the elastica that friction bends; valves are ideal in it."""
+    """Motion of a scene by the elastica that friction bends, with ideal valves."""
     fractions, times = scene.gait.path(_STATES, scene.cycles)
-    found = predict(
+    walk = predict(
         scene.robot, scene.gait, scene.ground, Elastica(60, scene.chamber),
         refinement=1, friction=scene.reference_friction, cycles=scene.cycles,
         path=scene.robot.peak_pressure * fractions, times=times,
     )  # fmt: skip
-    if not math.isfinite(found.locomotion.per_cycle):
+    if not math.isfinite(walk.locomotion.per_cycle):
         return None
-    x, z = found.shapes.curve(np.array(places) * scene.robot.length)
+    x, z = walk.shapes.curve(np.array(places) * scene.robot.length)
     return Motion(
-        np.asarray(times), found.locomotion.left[:, None] + x, z, places,
-        float(found.by_cycle[-1]), float(found.shapes.amplitude.max()), scene.gait.period,
+        np.asarray(times), walk.locomotion.left[:, None] + x, z, places,
+        float(walk.by_cycle[-1]), float(walk.shapes.amplitude.max()), scene.gait.period,
     )  # fmt: skip
 
 
@@ -94,30 +91,30 @@ WALKS: dict[str, Walk] = {"mujoco": by_mujoco, "quasi-static": quasi_static}
 
 
 def coarse(scene: Scene, numerics: Numerics) -> Numerics:
-    """Numerics that find the way, if the scene's own are dearer."""
+    """Numerics for most steps of a fit: those of the scene, or coarser ones."""
     if (scene.body, scene.friction) != (Scene.body, Scene.friction):
         return numerics
-    a_segment, longest = _COARSE["all" if scene.between else "ends"]
-    own = numerics.resolved(scene.body, scene.friction)
-    assert own.links is not None
-    links = max(12, a_segment * len(scene.robot.segments))
+    per_segment, longest = _COARSE["all" if scene.between else "ends"]
+    fine = numerics.resolved(scene.body, scene.friction)
+    assert fine.links is not None
+    links = max(12, per_segment * len(scene.robot.segments))
     step = min(longest, min(scene.gait.ramp_times) / 40)
-    return replace(numerics, links=min(links, own.links), timestep=max(step, own.timestep))
+    return replace(numerics, links=min(links, fine.links), timestep=max(step, fine.timestep))
 
 
 @dataclass
 class Predictor:
-    """What the model says of each series, for any values of the parameters.
+    """Prediction of each series for any values of the parameters.
 
     Args:
         base: tables of the scene.
-        series: what was measured.
-        walk: the model.
-        numerics: from a scene and its numerics to those to walk it with.
+        series: measurements.
+        walk: model.
+        numerics: function from a scene and its numerics to those to walk it with.
         pool: processes for many walks at once, if there are any.
 
     Attributes:
-        walks: how many there were.
+        walks: number of walks so far.
     """
 
     base: Tables
@@ -126,39 +123,36 @@ class Predictor:
     numerics: Callable[[Scene, Numerics], Numerics] = lambda scene, numerics: numerics
     pool: ProcessPoolExecutor | None = None
     walks: int = 0
-    _known: dict[str, Any] = field(default_factory=dict)
+    _motions: dict[str, Motion | None] = field(default_factory=dict)
 
     def __call__(self, values: Mapping[str, float]) -> list[Array]:
-        """Predictions, one array a series, NaN where the walk failed."""
+        """Predictions, one array per series, NaN where the walk failed."""
         return self.all([values])[0]
 
     def all(self, points: Iterable[Mapping[str, float]]) -> list[list[Array]]:
-        """The same at several points, their walks as one batch."""
+        """Predictions at several points, their walks as one batch."""
         points = list(points)
         todo: dict[str, tuple[Scene, Numerics]] = {}
         for values in points:
             for run in self._runs():
                 key, tables = self._tables(values, run)
-                if key not in self._known and key not in todo:
+                if key not in self._motions and key not in todo:
                     scene, numerics = build(tables)
                     todo[key] = scene, self.numerics(scene, numerics)
         jobs = [(*case, self._places) for case in todo.values()]
-        if self.pool is not None and len(jobs) > 1:
-            done = list(self.pool.map(self.walk, *zip(*jobs, strict=True)))
-        else:
-            done = [self.walk(*job) for job in jobs]
+        use = self.pool.map if self.pool is not None and len(jobs) > 1 else map
+        motions = use(self.walk, *zip(*jobs, strict=True)) if jobs else ()
+        self._motions |= dict(zip(todo, motions, strict=True))
         self.walks += len(jobs)
-        self._known |= dict(zip(todo, done, strict=True))
         return [[self._of(series, values) for series in self.series] for values in points]
 
     def changes(self, numerics: Callable[[Scene, Numerics], Numerics]) -> bool:
-        """Whether others than the scene's own would be walked."""
-        scene, own = build(self.base)
-        return self._walked(scene, numerics(scene, own)) != self._walked(scene, own)
-
-    @staticmethod
-    def _walked(scene: Scene, numerics: Numerics) -> Numerics:
-        return numerics.resolved(scene.body, scene.friction)
+        """True if other numerics than the scene's would be walked."""
+        scene, fine = build(self.base)
+        coarser, finer = (
+            n.resolved(scene.body, scene.friction) for n in (numerics(scene, fine), fine)
+        )
+        return coarser != finer
 
     @property
     def _places(self) -> tuple[float, ...]:
@@ -177,8 +171,8 @@ class Predictor:
     def _of(self, series: Series, values: Mapping[str, float]) -> Array:
         if series.quantity == "angle":
             return self._angle(series, values)
-        motions = [self._known[self._tables(values, run)[0]] for run in series.runs]
-        if len(motions) > 1 or series.quantity in ("displacement", "speed", "height"):
+        motions = [self._motions[self._tables(values, run)[0]] for run in series.runs]
+        if series.abscissa == RUN:
             return np.array([_number(series, motion) for motion in motions])
         (motion,) = motions
         if motion is None:
