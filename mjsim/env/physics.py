@@ -1,4 +1,4 @@
-"""A scene as dm_control's Physics, with named measurements."""
+"""Scene as dm_control's Physics, with named measurements."""
 
 from typing import Any
 
@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 class Physics(dm_mujoco.Physics):  # type: ignore[misc]
-    """Any scene, stepped by dm_control: friction by load and actuated chambers.
+    """Scene stepped by dm_control: friction by load and actuated chambers.
 
     Make one with `Physics.of(scene)`; its controls are the pressures of the segments [Pa].
     """
@@ -30,7 +30,7 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
 
     @classmethod
     def of(cls, scene: Scene, numerics: Numerics | None = None) -> "Physics":
-        """The physics of a scene, of the planar body.
+        """Make the physics of a scene, of the planar body.
 
         Raises:
             ValueError: the body cannot do what the scene asks for.
@@ -48,11 +48,11 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
         return np.asarray(self.data.geom_xpos[self._pads[[0, -1]]].mean(axis=1))
 
     def displacement(self) -> float:
-        """How far the left end has gone since the scene was made [m]."""
+        """Displacement of the left end since the scene was made [m]."""
         return float(self.ends()[0, 0]) - self._start
 
     def contact_lengths(self) -> tuple[float, float]:
-        """Lengths over which the ends lie on their side, 0 of an inflated one [m]."""
+        """Lengths of side contact of both ends, 0 of an inflated one [m]."""
         model, data = self.model.ptr, self.data.ptr
         mujoco.mj_forward(model, data)  # dm_control leaves the forces of the step before
         forces = ContactForces(self._scene, self._numerics, model, data)
@@ -65,10 +65,11 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
 
     def height(self) -> float:
         """Greatest height of the neutral line over flat rest [m]."""
-        return float(self.data.geom_xpos[self._pads, 2].max() - self._radius())
+        assert self._numerics.pad_radius is not None
+        return float(self.data.geom_xpos[self._pads, 2].max() - self._numerics.pad_radius)
 
     def observation(self) -> dict[str, Any]:
-        """Every measurement by its name."""
+        """Measurements by name."""
         return {
             "ends": self.ends(),
             "contact_lengths": np.array(self.contact_lengths()),
@@ -76,7 +77,3 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
             "displacement": self.displacement(),
             "height": self.height(),
         }
-
-    def _radius(self) -> float:
-        assert self._numerics.pad_radius is not None
-        return self._numerics.pad_radius

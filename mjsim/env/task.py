@@ -1,12 +1,12 @@
-"""The task that all environments share: press chambers, feel the body, go far towards +x.
+"""Task that all environments share: inflate chambers, sense the body, go far towards +x.
 
 An action is the pressure of each chamber over the peak, commanded to its valve for a control
-period. What is observed a robot could measure: the pressures, by sensors at the valves; the angle
-each segment is bent by, by stretch sensors; how steep the ends are, by accelerometers; over what
-length they lie on their side, by electrodes. Where it is on the ground it cannot.
+period. Observations are such as a robot could measure: the pressures, by sensors at the valves; the
+angle by which each segment is bent, by stretch sensors; the inclination of the ends, by
+accelerometers; the length of their side contact, by electrodes. The place on the ground is none.
 
 Friction acts at the two ends, as in every scene whose gait keeps the middle up. A policy may let it
-down: then the middle pushes on the ground but does not hold, unless contacts is "all" (the single
+down: then the middle has normal forces but no friction, unless contacts is "all" (the single
 environments; slower).
 """
 
@@ -21,8 +21,10 @@ from analytic.checks import is_number, positive
 from analytic.scene.chain import segment_overlap
 from mjsim.files.quantities import check_field, field_value, with_fields
 from mjsim.files.tables import Tables, build
+from mjsim.results.status import Status
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.scene import Contacts
+from mjsim.simulation.simulation import Simulation
 
 Array = NDArray[np.float64]
 Range = tuple[float, float] | Sequence[str]
@@ -33,7 +35,7 @@ _WHOLE = 1e-9  # of a control period in time steps
 
 @dataclass(frozen=True)
 class Settings:
-    """What an environment is of.
+    """Settings of an environment.
 
     Raises:
         ValueError: a value is out of its range; the message names it.
@@ -42,18 +44,18 @@ class Settings:
     surfaces: tuple[str, ...] = ("gelatin",)
     """names of the grounds, one of which is drawn at each reset"""
     control_period: float = 0.1
-    """between actions [s]"""
+    """time between actions [s]"""
     duration: float = 20.0
-    """of an episode [s]"""
+    """duration of an episode [s]"""
     randomise: Mapping[str, Range] = field(default_factory=dict)
-    """fields of the scene, as robot.modulus, and their ranges, from which one is drawn evenly at
-    each reset; or words, one of which is"""
+    """fields of the scene, as robot.modulus, and their ranges, from which a number is drawn evenly
+    at each reset; or words, one of which is drawn"""
     base: Tables = field(default_factory=dict)
     """tables of the scene that all start from"""
     numerics: Numerics = field(default_factory=lambda: Numerics(links=12, timestep=0.01))
-    """how it is simulated; within 2 % of the distance for the default robot and gait"""
+    """links and time step; within 2 % of the distance for the default robot and gait"""
     contacts: Contacts = "ends"
-    """where friction acts: ends, or all for environments that are not vectorised"""
+    """places of friction: ends, or all for environments that are not vectorised"""
 
     def __post_init__(self) -> None:
         positive("control_period", self.control_period, "s")
@@ -66,30 +68,30 @@ class Settings:
                 f"control_period must be whole time steps of {self.numerics.timestep:g} s, got "
                 f"{self.control_period:g} s"
             )
-        for name, said in self.randomise.items():
+        for name, choice in self.randomise.items():
             check_field(name)
-            if not said or not (all(isinstance(v, str) for v in said) or _is_range(said)):
-                raise ValueError(f"range of {name} must be two numbers or words, got {said!r}")
+            if not choice or not (all(isinstance(v, str) for v in choice) or _is_range(choice)):
+                raise ValueError(f"range of {name} must be two numbers or words, got {choice!r}")
         for surface in self.surfaces:
             self.scene({"ground.surface": surface})
 
     @property
     def steps(self) -> int:
-        """Time steps of a control period."""
+        """Number of time steps of a control period."""
         return round(self.control_period / self.numerics.timestep)
 
     @property
     def length(self) -> int:
-        """Actions of an episode."""
+        """Number of actions of an episode."""
         return max(1, round(self.duration / self.control_period))
 
     @property
     def segments(self) -> int:
-        """Chambers of the robot."""
+        """Number of chambers of the robot."""
         return len(self.scene({}).robot.segments)
 
     def scene(self, values: Mapping[str, Any]) -> Scene:
-        """The scene with other values of some fields.
+        """Scene with other values of some fields.
 
         Raises:
             ValueError: they do not make one, or it is not of the planar body.
@@ -100,23 +102,23 @@ class Settings:
         return replace(scene, contacts=self.contacts)
 
     def draw(self, rng: np.random.Generator) -> Scene:
-        """A scene for an episode."""
+        """Draw a scene for an episode."""
         values: dict[str, Any] = {"ground.surface": str(rng.choice(list(self.surfaces)))}
-        for name, said in self.randomise.items():
-            if not _is_range(said):
-                values[name] = str(rng.choice([str(word) for word in said]))
+        for name, choice in self.randomise.items():
+            if not _is_range(choice):
+                values[name] = str(rng.choice([str(word) for word in choice]))
             else:
-                low, high = (float(field_value(name, value)) for value in said)
+                low, high = (float(field_value(name, value)) for value in choice)
                 values[name] = float(rng.uniform(low, high))
         return self.scene(values)
 
 
-def _is_range(said: Sequence[Any]) -> bool:
-    return len(said) == 2 and all(is_number(value) for value in said)
+def _is_range(choice: Sequence[Any]) -> bool:
+    return len(choice) == 2 and all(is_number(value) for value in choice)
 
 
 class Names(NamedTuple):
-    """Parts of an observation: how many numbers each has, in order."""
+    """Parts of an observation in order, and the count of numbers of each."""
 
     pressure: int
     bend: int
@@ -125,7 +127,7 @@ class Names(NamedTuple):
 
 
 def names(segments: int) -> Names:
-    """Of a robot."""
+    """Parts of the observation of a robot of so many segments."""
     return Names(pressure=segments, bend=segments, inclination=2, side_contact=2)
 
 
@@ -136,16 +138,16 @@ def sense(
     coordinates: Array,
     contact: Array,
 ) -> Array:
-    """What robots feel, a row each, (B, 2 S + 4).
+    """Measurements of robots, a row each, (B, 2 S + 4).
 
     Args:
-        scenes, numerics: of them.
+        scenes, numerics: of the robots.
         pressure: in the chambers, (B, S) [Pa].
         coordinates: of MuJoCo, (B, nq).
         contact: lengths of side contact of left and right end, (B, 2) [m].
 
     Returns:
-        Pressures over the peak; angles that segments are bent by, arching is positive [rad];
+        Pressures over the peak; angles by which segments are bent, arching is positive [rad];
         inclinations of left and right end, rising inwards is positive [rad]; lengths of side
         contact over L.
     """
@@ -174,5 +176,44 @@ def middle(scenes: Sequence[Scene], numerics: Numerics, coordinates: Array) -> A
 
 
 def commands(scene: Scene, action: ArrayLike) -> Array:
-    """Pressures that an action commands to the valves, (S,) [Pa]; outside [0, 1] it is cut."""
+    """Pressures that an action commands to the valves, (S,) [Pa]; it is clipped to [0, 1]."""
     return scene.robot.peak_pressure * np.clip(np.asarray(action, dtype=float), 0.0, 1.0)
+
+
+class Strip:
+    """Strip of a single environment: its simulation, and the last observation of that.
+
+    Args:
+        scene: whose robot and ground it has.
+        settings: of the environment.
+    """
+
+    def __init__(self, scene: Scene, settings: Settings) -> None:
+        self.scene, self.simulation = scene, Simulation(scene, settings.numerics, history=False)
+        self.seen = self.simulation.observe()
+
+    def reset(self) -> None:
+        """Lay the strip on its ground again and let it settle."""
+        self.seen = self.simulation.reset()
+
+    def play(self, pressures: Array, steps: int) -> None:
+        """Do time steps with pressures commanded to the valves, (S,) [Pa]."""
+        self.seen = self.simulation.play(np.tile(pressures, (steps, 1)))
+
+    @property
+    def fallen(self) -> bool:
+        """True of a strip that stands on its two ends no more."""
+        return self.seen.status not in (Status.OK, Status.UNSETTLED)
+
+    def sense(self) -> Array:
+        """Measurements of the robot, (2 S + 4,), see sense."""
+        contact = np.array([[self.seen.contact_left, self.seen.contact_right]])
+        return sense([self.scene], self.simulation.numerics, self.seen.pressure[None],
+                     self._coordinates(), contact)[0]  # fmt: skip
+
+    def middle(self) -> float:
+        """Place of the middle between both ends over L."""
+        return float(middle([self.scene], self.simulation.numerics, self._coordinates())[0])
+
+    def _coordinates(self) -> Array:
+        return np.array(self.simulation.data.qpos)[None]
