@@ -1,6 +1,7 @@
 """Tables of measured numbers: CSV whose heads name their units, as `time [s]` or `p1_kPa`.
 
-Commas, semicolons (then with decimal commas) or tabs between; lines that begin with # are comments.
+Columns are separated by commas, semicolons (then with decimal commas) or tabs; lines that begin
+with # are comments.
 """
 
 import csv
