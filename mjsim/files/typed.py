@@ -2,7 +2,7 @@
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import MISSING, Field, fields
+from dataclasses import MISSING, fields
 from numbers import Real
 from pathlib import Path
 from types import NoneType, UnionType
@@ -27,7 +27,8 @@ def make(kind: type[Kind], table: Mapping[str, Any], where: str = "", **more: An
     """
     values = {**checked(kind, table, where), **more}
     for field in fields(kind):  # type: ignore[arg-type]
-        if field.name not in values and _needed(field):
+        needed = field.default is MISSING and field.default_factory is MISSING
+        if needed and field.name not in values:
             raise ValueError(f"{where}{field.name} is missing")
     try:
         return kind(**values)
@@ -93,10 +94,6 @@ def as_number(value: Any, name: str, unit: str) -> float:
         ValueError: it is none.
     """
     return float(as_type(float, value, name, unit))
-
-
-def _needed(field: "Field[Any]") -> bool:
-    return field.default is MISSING and field.default_factory is MISSING
 
 
 def read_toml(path: Path, what: str) -> Table:

@@ -6,16 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from analytic.scene.robot import Robot
-from analytic.scene.surface import SURFACES, Surface
-from mjsim.files.fields import units
-from mjsim.files.tables import SURFACE_FIELDS, Tables, build, check_keys
+from analytic.scene.surface import SURFACES
+from mjsim.files.quantities import field_unit
+from mjsim.files.tables import NAMES, SURFACE_FIELDS, Tables, build, check_keys
 from mjsim.files.units import in_unit
-from mjsim.scene.scene import Scene
-from mjsim.scene.valves import Valves
 
 _FACTOR = 100.0  # from the start to a bound that is not given
-_HOMES: Mapping[str, type] = {"robot": Robot, "valves": Valves}
 OWN_GROUND = "surface"  # name of the scene's ground, as its options are called
 
 
@@ -128,9 +124,9 @@ def with_values(
     ground = _ground(tables, surface)
     for name, value in {**(overrides or {}), **values}.items():
         table, _, key = name.partition(".")
-        if table in (OWN_GROUND, surface):
+        if table in (OWN_GROUND, surface, "ground"):
             ground[key] = value
-        elif table in ("robot", "valves", "gait", "numerics"):
+        elif table in NAMES:
             tables.setdefault(table, {})[key] = value
     if set(ground) - {"surface", "slope_deg"} and (named := _values_of(ground)):
         ground = {**named, **ground, "surface": f"{ground['surface']}-fitted"}
@@ -159,9 +155,9 @@ def _check(name: str) -> None:
     table, dot, key = name.partition(".")
     if not dot:
         raise ValueError(f"free must name tables and fields, such as robot.modulus; got {name!r}")
-    if table in _HOMES:
+    if table in ("robot", "valves"):
         check_keys(table, {key: None})
-    elif table in ("gait", "numerics", "ground"):
+    elif table in NAMES:
         raise ValueError(
             f"free must be of robot, valves, surface or a surface's name; got {name!r}"
         )
@@ -180,12 +176,10 @@ def unit_of(name: str) -> str:
         ValueError: there is no such field.
     """
     table, _, key = name.partition(".")
-    if table in _HOMES or table in ("gait", "numerics"):
-        check_keys(table, {key: None})
-    if table == "gait":
-        return "s" if key in ("ramp_time", "period") else "1"
-    kind: type = {**_HOMES, "numerics": Scene}.get(table, Surface)
-    return units(kind).get(key, "1")
+    if table not in NAMES:  # of a surface
+        return field_unit(f"ground.{key}")
+    check_keys(table, {key: None})
+    return field_unit(name)
 
 
 def _number(name: str, text: str) -> float:
