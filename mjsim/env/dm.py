@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mjsim.env.dm_binding import control, specs, wrapper
 from mjsim.env.dm_binding import mujoco as dm_mujoco
-from mjsim.env.task import FALL, Settings, Strip, commands, names
+from mjsim.env.task import Settings, Strip, names
 from mjsim.scene import Scene
 
 Array = NDArray[np.float64]
@@ -24,7 +24,7 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
 
     strip: Strip
     _settings: Settings
-    _valves: Array
+    _action: Any
 
     @classmethod
     def of(cls, scene: Scene, settings: Settings) -> "Physics":
@@ -32,11 +32,11 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
         strip = Strip(scene, settings)
         physics: Physics = cls(wrapper.MjData(strip.simulation.data))
         physics.strip, physics._settings = strip, settings
-        physics._valves = np.zeros(settings.segments)
+        physics._action = np.zeros(settings.segments)
         return physics
 
     def __getstate__(self) -> dict[str, Any]:
-        return {name: vars(self)[name] for name in ("strip", "_settings", "_valves")}
+        return {name: vars(self)[name] for name in ("strip", "_settings", "_action")}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         super().__setstate__(wrapper.MjData(state["strip"].simulation.data))
@@ -58,7 +58,7 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
             self.strip = Strip(scene, self._settings)
             self._reload_from_data(wrapper.MjData(self.strip.simulation.data))
         self.strip.reset()
-        self._valves = np.zeros(self._settings.segments)
+        self._action = np.zeros(self._settings.segments)
 
     def reset(self, keyframe_id: int | None = None) -> None:
         """Nothing: `start` does it, as the friction law has a state of its own."""
@@ -68,11 +68,11 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
 
     def set_control(self, control: Any) -> None:
         """Command the valves, fractions of the peak pressure (S,)."""
-        self._valves = commands(self.strip.scene, control)
+        self._action = np.array(control, dtype=float)
 
     def step(self, nstep: int = 1) -> None:
         """Do time steps."""
-        self.strip.play(self._valves, nstep)
+        self.strip.play(self._action, nstep)
 
     def timestep(self) -> float:
         """Time step of the simulation [s]."""
@@ -94,12 +94,10 @@ class Walk(control.Task):  # type: ignore[misc]
     def __init__(self, settings: Settings, seed: int | None = None) -> None:
         self.settings = settings
         self.rng = np.random.default_rng(seed)
-        self._place = 0.0
 
     def initialize_episode(self, physics: Physics) -> None:
         """Draw a scene and lay the strip on its ground."""
         physics.start(self.settings.draw(self.rng))
-        self._place = physics.strip.middle()
 
     def action_spec(self, physics: Physics) -> specs.BoundedArray:
         """Pressures over the peak."""
@@ -107,7 +105,6 @@ class Walk(control.Task):  # type: ignore[misc]
 
     def before_step(self, action: Any, physics: Physics) -> None:
         """Command the valves."""
-        self._place = physics.strip.middle()
         physics.set_control(action)
 
     def get_observation(self, physics: Physics) -> "OrderedDict[str, Array]":
@@ -118,7 +115,7 @@ class Walk(control.Task):  # type: ignore[misc]
 
     def get_reward(self, physics: Physics) -> float:
         """Distance of this step over L."""
-        return FALL if physics.strip.fallen else physics.strip.middle() - self._place
+        return physics.strip.reward
 
     def get_termination(self, physics: Physics) -> float | None:
         """Discount 0 of a strip that fell, which ends the episode, else None."""

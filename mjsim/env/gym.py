@@ -61,19 +61,17 @@ class WalkEnv(gymnasium.Env):  # type: ignore[misc]
             self._strip, self._picture = Strip(scene, self.settings), None
         else:
             self._strip.reset()
-        self._count, self._place = 0, self._strip.middle()
+        self._count = 0
         return self._sense(self._strip), {"surface": scene.ground.name}
 
     def step(self, action: Any) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Command the valves for a control period."""
         strip = self._strip
         assert strip is not None, "reset comes first"
-        strip.play(commands(strip.scene, action), self.settings.steps)
+        strip.play(action, self.settings.steps)
         self._count += 1
-        place = strip.middle()
-        reward, self._place = FALL if strip.fallen else place - self._place, place
         late = self._count >= self.settings.length
-        return self._sense(strip), float(reward), strip.fallen, late, {}
+        return self._sense(strip), strip.reward, strip.fallen, late, {}
 
     def render(self) -> Any:
         """Picture from the side, (H, W, 3) bytes."""

@@ -24,7 +24,7 @@ from mjsim.files.tables import Tables, build
 from mjsim.results.status import Status
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.scene import Contacts
-from mjsim.simulation.simulation import Simulation
+from mjsim.simulation.simulation import Observation, Simulation
 
 Array = NDArray[np.float64]
 Range = tuple[float, float] | Sequence[str]
@@ -181,24 +181,32 @@ def commands(scene: Scene, action: ArrayLike) -> Array:
 
 
 class Strip:
-    """Strip of a single environment: its simulation, and the last observation of that.
+    """Strip of a single environment: its simulation, and what that showed last.
 
     Args:
         scene: whose robot and ground it has.
         settings: of the environment.
+
+    Attributes:
+        seen: last observation of the simulation.
+        place: of the middle between both ends over L.
+        reward: of the last action: the distance over L, or FALL.
     """
 
     def __init__(self, scene: Scene, settings: Settings) -> None:
         self.scene, self.simulation = scene, Simulation(scene, settings.numerics, history=False)
-        self.seen = self.simulation.observe()
+        self.reward = 0.0
+        self._look(self.simulation.observe())
 
     def reset(self) -> None:
         """Lay the strip on its ground again and let it settle."""
-        self.seen = self.simulation.reset()
+        self._look(self.simulation.reset())
 
-    def play(self, pressures: Array, steps: int) -> None:
-        """Do time steps with pressures commanded to the valves, (S,) [Pa]."""
-        self.seen = self.simulation.play(np.tile(pressures, (steps, 1)))
+    def play(self, action: ArrayLike, steps: int) -> None:
+        """Do time steps with an action, fractions of the peak pressure (S,)."""
+        begin = self.place
+        self._look(self.simulation.play(np.tile(commands(self.scene, action), (steps, 1))))
+        self.reward = FALL if self.fallen else self.place - begin
 
     @property
     def fallen(self) -> bool:
@@ -211,9 +219,9 @@ class Strip:
         return sense([self.scene], self.simulation.numerics, self.seen.pressure[None],
                      self._coordinates(), contact)[0]  # fmt: skip
 
-    def middle(self) -> float:
-        """Place of the middle between both ends over L."""
-        return float(middle([self.scene], self.simulation.numerics, self._coordinates())[0])
+    def _look(self, seen: Observation) -> None:
+        self.seen = seen
+        (self.place,) = middle([self.scene], self.simulation.numerics, self._coordinates()).tolist()
 
     def _coordinates(self) -> Array:
         return np.array(self.simulation.data.qpos)[None]

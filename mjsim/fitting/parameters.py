@@ -93,10 +93,8 @@ def nominal(base: Tables, name: str) -> float:
     """
     table, _, key = name.partition(".")
     scene, _ = build(base)
-    owner: Any = {"robot": scene.robot, "valves": scene.valves, OWN_GROUND: scene.ground}.get(table)
-    if owner is None:
-        owner = SURFACES.get(table, scene.ground)
-    value = getattr(owner, key, None)
+    owners = {**SURFACES, "robot": scene.robot, "valves": scene.valves}
+    value = getattr(owners.get(table, scene.ground), key, None)
     if key == "mass" and value is None:
         value = scene.robot.weight / 9.81
     if not (isinstance(value, float) and value > 0):
