@@ -3,10 +3,11 @@
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from analytic.scene import pneunet
 from analytic.scene.gait import Gait
-from analytic.scene.robot import Robot
+from analytic.scene.limbs import AnyRobot, chambers_by_limb, limbs_of
 
 ATMOSPHERE = 101_325.0  # Pa, what gauge pressures are counted from
 
@@ -23,16 +24,21 @@ class Air(NamedTuple):
     work: float
 
 
-def air_per_cycle(robot: Robot, gait: Gait) -> Air:
-    """Of chambers that are filled from a supply and vented to the atmosphere.
+def air_per_cycle(robot: AnyRobot, gait: Gait) -> Air:
+    """Air of chambers that are filled from a supply and vented to the atmosphere.
 
     A chamber has the volume (5) of [Majidi13] at its pressure and no moment; what a rise of
     pressure adds comes from the supply, and what a fall lets out is lost.
     """
-    pressure = np.abs(robot.peak_pressure * np.array(gait.stages))
-    lengths = robot.length * np.diff(robot.borders)
-    volume = pneunet.filled_volume(robot, pressure) * lengths
-    inside = (ATMOSPHERE + pressure) / ATMOSPHERE * volume
-    work = (ATMOSPHERE + pressure) * volume * np.log1p(pressure / ATMOSPHERE)
-    rises = (np.maximum(np.diff(part, axis=0), 0.0).sum() for part in (inside, work))
-    return Air(*(float(rise) for rise in rises))
+    every = np.abs(robot.peak_pressure * np.array(gait.stages))
+    taken, work = 0.0, 0.0
+    for limb, part in zip(limbs_of(robot), chambers_by_limb(robot), strict=True):
+        strip, pressure = limb.strip, every[:, part]
+        volume = pneunet.filled_volume(strip, pressure) * strip.length * np.diff(strip.borders)
+        taken += _rises((ATMOSPHERE + pressure) / ATMOSPHERE * volume)
+        work += _rises((ATMOSPHERE + pressure) * volume * np.log1p(pressure / ATMOSPHERE))
+    return Air(taken, work)
+
+
+def _rises(values: NDArray[np.float64]) -> float:
+    return float(np.maximum(np.diff(values, axis=0), 0.0).sum())

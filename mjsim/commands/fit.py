@@ -191,7 +191,7 @@ def _table(found: "Estimate") -> str:
 
 
 def _last_line(found: "Estimate", record: dict[str, Any]) -> str:
-    units = {"angle": ("rad", 1.0), "speed": ("mm/s", 1e3)}
+    units = {"angle": ("rad", 1.0), "turn": ("rad", 1.0), "speed": ("mm/s", 1e3)}
     noise = []
     for kind, value in found.noise.items():
         unit, factor = units.get(kind, ("mm", 1e3))

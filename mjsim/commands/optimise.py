@@ -16,6 +16,7 @@ from mjsim.files.files import check_folder
 from mjsim.files.files import whole as whole_file
 from mjsim.files.options import SceneOptions, tables_of
 from mjsim.files.tables import build
+from mjsim.files.text_table import Column, text_table
 from mjsim.scene import Scene
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ class Options(SceneOptions):
     backward: bool = False
     """look for the best way to -x"""
     model: Literal["elastica", "lifted", "obstacle", "modes", "mujoco"] | None = None
-    """of the search; elastica if not given, for speed mujoco"""
+    """of the search; elastica if not given, for speed and for robots of limbs mujoco"""
     evaluations: int = 800
     """gaits to try"""
     seed: int = 0
@@ -98,13 +99,16 @@ def _objective(options: Options, scenes: Sequence[Scene]) -> "Objective":
         grounds.append(ground)
     if scenes[0].friction != "constant":
         raise ValueError(f"friction must be constant, got {scenes[0].friction}")
-    return Objective(scenes[0], tuple(grounds), options.aim, options.backward, _model(options))
+    model = _model(options, scenes[0].in_space)
+    return Objective(scenes[0], tuple(grounds), options.aim, options.backward, model)
 
 
-def _model(options: Options) -> str:
-    if options.aim == "speed" and options.model not in (None, "mujoco"):
-        raise ValueError(f"model of aim speed must be mujoco, got {options.model}")
-    return options.model or ("mujoco" if options.aim == "speed" else "elastica")
+def _model(options: Options, in_space: bool) -> str:
+    walked = options.aim == "speed" or in_space
+    if walked and options.model not in (None, "mujoco"):
+        what = "a robot of limbs" if in_space else "aim speed"
+        raise ValueError(f"model of {what} must be mujoco, got {options.model}")
+    return options.model or ("mujoco" if walked else "elastica")
 
 
 def _found(
@@ -116,7 +120,7 @@ def _found(
     from mjsim.optimising.space import Space
 
     scene = objective.scene
-    space = Space(len(scene.strip.segments), scene.gait.period, options.aim == "speed")
+    space = Space(len(scene.robot.chambers), scene.gait.period, options.aim == "speed")
     with processes("mjsim.optimising.confirm", workers) as pool:
         history: list[Generation] = []
         with bar("search", options.evaluations) as advance:
@@ -155,7 +159,7 @@ def _record(
     from analytic.scene.air import air_per_cycle
 
     gait: Gait = last.best
-    air = air_per_cycle(objective.scene.strip, gait)
+    air = air_per_cycle(objective.scene.robot, gait)
     return {
         "aim": options.aim, "backward": options.backward, "model": objective.model,
         "evaluations": last.evaluations, "worth": last.worth,
@@ -170,20 +174,23 @@ def _record(
 def _text(record: dict[str, Any]) -> str:
     from mjsim.results.prediction import WEAK
 
-    unit = {"displacement": "L a cycle", "speed": "m/s", "air": "-l/m", "work": "-J/m"}
+    unit = {"displacement": "L per cycle", "speed": "m/s", "air": "-l/m", "work": "-J/m"}
     where = ", ".join(record["searched_on"])
     model = record["model"] + f", {WEAK}," * (record["model"] != "mujoco")
-    lines = [
+    head = (
         f"{record['evaluations']} gaits by {model} in {record['wall_time_s']:.0f} s; "
         f"best on {where}: {record['worth']:+.4g} {unit[record['aim']]}, "
-        f"{record['period_s']:g} s and {record['air_litres_per_cycle']:.3g} l of air a cycle",
-        f"{'surface':<14}{'searched':>9}{'elastica':>10}{'MuJoCo':>9}{'10 % off':>19}"
-        f"{'start':>9}  status",
+        f"{record['period_s']:g} s and {record['air_litres_per_cycle']:.3g} l of air per cycle"
+    )
+    rows = [
+        {**row, "start": start["mujoco"]}
+        for row, start in zip(record["surfaces"], record["start"], strict=True)
     ]
-    for row, start in zip(record["surfaces"], record["start"], strict=True):
-        lines.append(
-            f"{row['surface']:<14}{row['searched']:>+9.4f}{row['elastica']:>+10.4f}"
-            f"{row['mujoco']:>+9.4f}{row['lowest']:>+10.4f}{row['highest']:>+9.4f}"
-            f"{start['mujoco']:>+9.4f}  {row['status']}"
-        )
+    columns = (
+        Column("surface", "surface"), Column("searched", "searched", "+.4f"),
+        Column("reference", "reference", "+.4f"), Column("MuJoCo", "mujoco", "+.4f"),
+        Column("10 % off: from", "lowest", "+.4f"), Column("to", "highest", "+.4f"),
+        Column("start", "start", "+.4f"), Column("status", "status"),
+    )  # fmt: skip
+    lines = [head, text_table(columns, rows)]
     return "\n".join([*lines, *record["files"]])

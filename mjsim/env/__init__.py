@@ -8,7 +8,7 @@ from typing import Any
 
 
 def load(*surfaces: str, seed: int | None = None, **settings: Any) -> Any:
-    """A dm_control environment, see mjsim.env.dm.load.
+    """Make a dm_control environment, see mjsim.env.dm.load.
 
     Raises:
         ImportError: dm_control is not installed, or does not know the MuJoCo that is.

@@ -1,4 +1,4 @@
-"""What mjsim uses of dm_control, or one line that says why it cannot be had here."""
+"""Parts of dm_control that mjsim uses, or one line that says why they cannot be imported."""
 
 import mujoco as _mujoco
 

@@ -1,4 +1,4 @@
-"""A scene as dm_control's Physics, with named measurements."""
+"""Scene as dm_control's Physics, with named measurements."""
 
 from typing import Any
 
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 
 class Physics(dm_mujoco.Physics):  # type: ignore[misc]
-    """Any scene, stepped by dm_control: friction by load and actuated chambers.
+    """Scene stepped by dm_control: friction by load and actuated chambers.
 
     Make one with `Physics.of(scene)`; its controls are the pressures of the segments [Pa].
     """
@@ -31,15 +31,20 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
 
     @classmethod
     def of(cls, scene: Scene, numerics: Numerics | None = None) -> "Physics":
-        """The physics of a scene, of the planar body.
+        """Make the physics of a scene, of the planar body.
 
         Raises:
             ValueError: the body cannot do what the scene asks for.
         """
+        if scene.in_space:
+            raise ValueError(
+                "Physics.of is for strips; of a robot of limbs dm_control loads what undulator "
+                "export writes"
+            )
         scene = walking_scene(scene)
-        numerics = resolved(scene, numerics)
-        physics: Physics = cls.from_model(wrapper.MjModel(compile_model(scene, numerics)))
-        physics._scene, physics._numerics = scene, numerics
+        own = resolved(scene, numerics)
+        physics: Physics = cls.from_model(wrapper.MjModel(compile_model(scene, own)))
+        physics._scene, physics._numerics = scene, own
         physics._pads = pads_by_node(physics.model.ptr)
         physics._start = float(physics.ends()[0, 0])
         return physics
@@ -49,11 +54,11 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
         return np.asarray(self.data.geom_xpos[self._pads[[0, -1]]].mean(axis=1))
 
     def displacement(self) -> float:
-        """How far the left end has gone since the scene was made [m]."""
+        """Displacement of the left end since the scene was made [m]."""
         return float(self.ends()[0, 0]) - self._start
 
     def contact_lengths(self) -> tuple[float, float]:
-        """Lengths over which the ends lie on their side, 0 of an inflated one [m]."""
+        """Lengths of side contact of both ends, 0 of an inflated one [m]."""
         model, data = self.model.ptr, self.data.ptr
         mujoco.mj_forward(model, data)  # dm_control leaves the forces of the step before
         forces = ContactForces(self._scene, self._numerics, model, data)
@@ -66,10 +71,10 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
 
     def height(self) -> float:
         """Greatest height of the neutral line over flat rest [m]."""
-        return float(self.data.geom_xpos[self._pads, 2].max() - self._radius())
+        return float(self.data.geom_xpos[self._pads, 2].max() - self._numerics.pad_radius)
 
     def observation(self) -> dict[str, Any]:
-        """Every measurement by its name."""
+        """Measurements by name."""
         return {
             "ends": self.ends(),
             "contact_lengths": np.array(self.contact_lengths()),
@@ -77,6 +82,3 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
             "displacement": self.displacement(),
             "height": self.height(),
         }
-
-    def _radius(self) -> float:
-        return self._numerics.pad_radius

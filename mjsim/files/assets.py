@@ -1,4 +1,4 @@
-"""Where the MJCF files are: beside the package in a wheel, at the top of a checkout."""
+"""Folder of the MJCF files: in the package of a wheel, at the top of a checkout."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Command lines from dataclasses: help that teaches, and bad input in one clear line."""
+"""Command lines from dataclasses, with bad input told in one line."""
 
 import contextlib
 import io
@@ -21,7 +21,7 @@ Plugins = Annotated[
         help_behavior_hint="",
     ),
 ]
-"""Of every command that takes a scene, as its field `plugin`; see mjsim.files.plugins.load."""
+"""Type of the field `plugin` of commands that take a scene; see mjsim.files.plugins.load."""
 
 BAD_INPUT, FAILED = 2, 3  # exit codes, beside 0
 ALL = "all"
@@ -30,13 +30,13 @@ _PATIENCE = 2.0  # s before a progress bar shows
 
 
 def fail(program: str, message: str) -> NoReturn:
-    """Print one line on stderr and leave with the code for bad input."""
+    """Print one line on stderr and exit with the code for bad input."""
     print(f"{program}: error: {' '.join(message.split())}", file=sys.stderr)
     sys.exit(BAD_INPUT)
 
 
 def say(text: str) -> None:
-    """Print, in plainer letters where the terminal has no better ones."""
+    """Print, in ASCII letters where the terminal's encoding lacks some."""
     encoding = sys.stdout.encoding or "ascii"
     try:
         text.encode(encoding)
@@ -46,7 +46,7 @@ def say(text: str) -> None:
 
 
 def strict_json(value: object) -> str:
-    """JSON, with null for numbers that are none."""
+    """JSON text, with null for NaN and infinite numbers."""
 
     def clean(item: object) -> object:
         if isinstance(item, dict):
@@ -64,30 +64,23 @@ def choose(name: str, text: str, valid: Iterable[str]) -> list[str]:
     Raises:
         ValueError: a name is not among the valid ones.
     """
-    known = list(valid)
-    chosen = known if text == ALL else text.split(",")
+    names = list(valid)
+    chosen = names if text == ALL else text.split(",")
     for word in chosen:
-        if word not in known:
-            raise ValueError(f"{name} must be one of {', '.join(known)}, {ALL}; got {word!r}")
+        if word not in names:
+            raise ValueError(f"{name} must be one of {', '.join(names)}, {ALL}; got {word!r}")
     return chosen
 
 
 @contextlib.contextmanager
 def bar(text: str, total: int) -> Iterator[Callable[[int], None]]:
-    """A progress bar on stderr for what takes long, where stderr is a terminal."""
-    if not sys.stderr.isatty():
-        yield lambda steps: None
-        return
+    """Progress bar on stderr for long work, where stderr is a terminal."""
     from tqdm import tqdm
 
-    with tqdm(
-        total=total,
-        desc=text,
-        delay=_PATIENCE,
-        leave=False,
-        file=sys.stderr,
-    ) as shown:
-        yield lambda steps: (shown.update(steps), None)[1]
+    with tqdm(  # disable=None: where the file is no terminal
+        total=total, desc=text, delay=_PATIENCE, leave=False, file=sys.stderr, disable=None
+    ) as progress:
+        yield lambda steps: (progress.update(steps), None)[1]
 
 
 def parse(
@@ -115,7 +108,7 @@ def parse(
 
 
 def _first_message(text: str) -> str:
-    """The sentence at the top of tyro's box, however it is drawn, in one line."""
+    """First sentence in tyro's box, however it is drawn, in one line."""
     words = re.sub(r"\x1b\[[0-9;]*m", "", text)
     body: list[str] = []
     for line in words.splitlines()[1:]:  # the first is the box's title
@@ -128,7 +121,7 @@ def _first_message(text: str) -> str:
 
 
 def _plain(message: str) -> str:
-    """What tyro says of a word that is no number or no choice, in the words of our own checks."""
+    """Tyro's message of a word that is no number or no choice, in the words of analytic.checks."""
     number = re.fullmatch(
         r"(?i)Error parsing (?:--\S+/)?--([^\s/]+): .*\b(int|float)\b.*(?:: |from \[)('.*?')\]?\.?",
         message,

@@ -17,14 +17,14 @@ def optional(
     aliases: Mapping[str, str] | None = None,
     more: Iterable[tuple[str, Any, Any]] = (),
 ) -> type[Any]:
-    """A dataclass of the same fields, each None unless it is given.
+    """Make a dataclass of the same fields, each None unless it is given.
 
     Args:
         name: of the new class.
-        kind: whose fields, documented by the words below each.
+        kind: dataclass of the fields, documented by the words below each.
         names: of the fields.
         aliases: other options that mean the same, by field.
-        more: fields that `kind` has not, as for dataclasses.make_dataclass.
+        more: fields that `kind` lacks, as for dataclasses.make_dataclass.
     """
     hints, docs = get_type_hints(kind), field_docs(kind)
     defaults = {item.name: item.default for item in fields(kind)}
@@ -39,32 +39,32 @@ def optional(
 
 
 def option(kind: Any, text: str, default: Any = None, alias: str | None = None) -> Any:
-    """The type of an option that is None unless given.
+    """Type of an option that is None unless given.
 
     Args:
-        kind: of its value.
+        kind: type of its value.
         text: its help.
-        default: what holds if it is not given, to be shown.
-        alias: another name of it.
+        default: value if it is not given, to be shown.
+        alias: another name of the option.
     """
     words = get_args(kind) if get_origin(kind) is Literal else ()
     metavar = "{" + ",".join(words) + "}" if words else kind.__name__.upper()
-    of = tyro.conf.arg(
+    argument = tyro.conf.arg(
         help=text,
         aliases=(alias,) if alias else None,
         metavar=metavar,
         help_behavior_hint="" if default is None else f"(default: {_shown(default)})",
     )
-    return Annotated[(str if kind is float else kind) | None, of]  # it may carry its unit
+    return Annotated[(str if kind is float else kind) | None, argument]  # it may carry its unit
 
 
 def given(options: Any) -> dict[str, Any]:
-    """The fields that are not None."""
+    """Fields that are not None."""
     return {key: value for key, value in vars(options).items() if value is not None}
 
 
 def parts(text: str) -> tuple[str, ...] | str:
-    """A list written with commas between, or the one word that it is."""
+    """Words of a list with commas between, or the text if it is a single word."""
     words = tuple(word.strip() for word in text.split(","))
     return words if len(words) > 1 else text
 
@@ -76,7 +76,7 @@ def _shown(default: Any) -> str:
 
 
 def _plain(hint: Any) -> Any:
-    """A type without None, and text in place of a list."""
+    """Type without None, and text in place of a list."""
     parts = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
     parts = tuple(part for part in parts if part is not NoneType)
     return str if any(get_origin(part) is tuple for part in parts) else Union[parts]  # noqa: UP007

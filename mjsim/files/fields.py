@@ -1,4 +1,4 @@
-"""What stands below each field of a dataclass: its documentation, and in it its unit."""
+"""Documentation of the fields of a dataclass, the text below each, and the unit in it."""
 
 import ast
 import inspect
@@ -6,33 +6,29 @@ import re
 import textwrap
 from collections.abc import Mapping
 from functools import cache
+from itertools import pairwise
 
 _CITATION = re.compile(r"[A-Z][a-z]+\d\d$")
 
 
 @cache
 def field_docs(kind: type) -> Mapping[str, str]:
-    """What stands below each field of a dataclass as its documentation."""
+    """Text below each field of a dataclass, its documentation, in one line."""
     (tree,) = ast.parse(textwrap.dedent(inspect.getsource(kind))).body
     assert isinstance(tree, ast.ClassDef)
     docs: dict[str, str] = {}
-    for one, two in zip(tree.body, tree.body[1:], strict=False):
-        if (
-            isinstance(one, ast.AnnAssign)
-            and isinstance(one.target, ast.Name)
-            and isinstance(two, ast.Expr)
-            and isinstance(two.value, ast.Constant)
-            and isinstance(two.value.value, str)
-        ):
-            docs[one.target.id] = " ".join(two.value.value.split())
+    for statements in pairwise(tree.body):
+        match statements:
+            case (
+                ast.AnnAssign(target=ast.Name(id=name)),
+                ast.Expr(value=ast.Constant(value=str(text))),
+            ):
+                docs[name] = " ".join(text.split())
     return docs
 
 
 def units(kind: type) -> Mapping[str, str]:
-    """The unit of each field that says one in its documentation: [m], [Pa s/m], [1]."""
-    found = {}
-    for name, text in field_docs(kind).items():
-        words = [word for word in re.findall(r"\[([^\]]+)\]", text) if not _CITATION.match(word)]
-        if words:
-            found[name] = words[0]
-    return found
+    """Unit of each field that has one in its documentation: [m], [Pa s/m], [1]."""
+    brackets = {name: re.findall(r"\[([^\]]+)\]", text) for name, text in field_docs(kind).items()}
+    texts = {name: [w for w in words if not _CITATION.match(w)] for name, words in brackets.items()}
+    return {name: words[0] for name, words in texts.items() if words}

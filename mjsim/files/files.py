@@ -1,4 +1,4 @@
-"""Files that appear under their name only when they are whole."""
+"""Files that appear under their name only when they are complete."""
 
 import os
 import tempfile
@@ -9,9 +9,9 @@ from pathlib import Path
 
 @contextmanager
 def whole(path: Path) -> Iterator[Path]:
-    """A hidden path beside `path`, of the same ending and nobody else's, to write to.
+    """Make a hidden file beside `path`, of the same ending, to write to.
 
-    It takes the name of `path` when the block ends well, and is gone if it does not.
+    It takes the name of `path` when the block ends without an error, and else is removed.
     """
     handle, name = tempfile.mkstemp(suffix=path.suffix, prefix=".part-", dir=path.parent)
     os.close(handle)

@@ -1,9 +1,9 @@
-"""Pressures as a sensor recorded them, as a gait: `--gait pressures.csv`.
+"""Gait from the pressures that a sensor recorded: `--gait pressures.csv`.
 
-A table with a column of time and one a segment, left first, whose heads name their units: `time
+The table has a column of time and one per segment, left first, whose heads name their units: `time
 [s], front [kPa]`, `t_ms, p1_psi`. Samples may come at any rate and need not be even, close a cycle
 or start at rest. They become straight ramps between few corners, as many as the noise leaves
-visible, so that what is computed from them grows with what changes and not with the samples.
+visible, so that the cost of a walk grows with the number of changes and not of samples.
 """
 
 import math
@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
 
 from analytic.scene.gait import Gait
-from mjsim.files.csv_table import factor, number_in, read_csv
+from mjsim.files.csv_table import read_csv
 
 Array = NDArray[np.float64]
 
-_NOISES = 1.5  # that a corner must stand out by, of the largest of so many samples; chosen
-_FEW = 16  # samples that tell nothing of their noise; chosen
-_LEAST = 0.005  # of the highest pressure: what is flatter is flat; chosen
+_NOISES = 1.5  # by which a corner must stand out, of the largest of so many samples; chosen
+_FEW = 16  # samples, too few to estimate their noise; chosen
+_LEAST = 0.005  # of the highest pressure, below which a change is none; chosen
 _SAME = 1e-9  # of the highest pressure
 
 
@@ -38,7 +38,7 @@ class Series(NamedTuple):
 
 
 def read_series(path: Path) -> Series:
-    """The series of a file.
+    """Read the series of a file.
 
     Raises:
         ValueError: the file cannot be read or is no such table; the message names line and column.
@@ -47,21 +47,15 @@ def read_series(path: Path) -> Series:
     where, heads, rows = table
     if len(heads) < 2:
         raise ValueError(f"{where}: needs a column of time and one a segment, got {heads}")
-    factors = [factor(table, heads[0], "s", "s or ms")]
-    factors += [factor(table, head, "Pa", "Pa, kPa, psi, bar") for head in heads[1:]]
     if len(rows) < 2:
         raise ValueError(f"{where}: needs two samples at least, got {len(rows)}")
-    cells = [
-        [number_in(table, line, head, cell) for head, cell in zip(heads, row, strict=True)]
-        for line, row in rows
-    ]
-    values = np.array(cells) * factors
-    time = values[:, 0] - values[0, 0]
+    time = table.numbers(0, "s", "s or ms")
     late = np.flatnonzero(np.diff(time) <= 0)
     if len(late):
         line, row = rows[late[0] + 1]
         raise ValueError(f"{where}: line {line}: time must increase, got {row[0]!r}")
-    return Series(time, values[:, 1:])
+    pressures = [table.numbers(i, "Pa", "Pa, kPa, psi, bar") for i in range(1, len(heads))]
+    return Series(time - time[0], np.stack(pressures, axis=1))
 
 
 def read_gait(path: Path) -> tuple[Gait, float]:
@@ -85,22 +79,23 @@ def as_gait(name: str, series: Series) -> tuple[Gait, float]:
     """
     time, pressure = series
     tolerance = _tolerance(pressure)
-    kept = _corners(time, pressure, tolerance)
-    fitted = _through(time, pressure, kept)
+    corners = _corners(time, pressure, tolerance)
+    fitted = _through(time, pressure, corners)
     fitted[np.abs(fitted) < tolerance] = 0.0
     highest = float(np.abs(fitted).max())
     if not highest > 0:
         raise ValueError("no pressure is above the noise")
     fractions = np.where(np.abs(fitted) > (1 - _SAME) * highest, np.sign(fitted), fitted / highest)
-    ramps = tuple(np.diff(time[kept]).tolist())
+    ramps = tuple(np.diff(time[corners]).tolist())
     return Gait(name, tuple(map(tuple, fractions.tolist())), ramps, repeats=False), highest
 
 
 def _tolerance(pressure: Array) -> float:
-    """What a corner must stand out by: several times the noise, of which second differences tell.
+    """Distance by which a corner must stand out: several times the noise [Pa].
 
-    A line has none, and white noise of deviation s has differences of deviation sqrt(6) s; the
-    largest of n samples is expected at sqrt(2 log n) deviations.
+    The noise is that of second differences: a line has none, and white noise of deviation s has
+    differences of deviation sqrt(6) s; the largest of n samples is expected at sqrt(2 log n)
+    deviations.
     """
     noise = 0.0
     if len(pressure) > _FEW:
@@ -112,28 +107,28 @@ def _tolerance(pressure: Array) -> float:
 
 def _corners(time: Array, pressure: Array, tolerance: float) -> NDArray[np.int_]:
     """Samples between which straight lines stay within the tolerance (Douglas and Peucker 1973)."""
-    kept, open_ = {0, len(time) - 1}, [(0, len(time) - 1)]
-    while open_:
-        first, last = open_.pop()
-        if last - first < 2:
+    corners, spans = {0, len(time) - 1}, [(0, len(time) - 1)]
+    while spans:
+        begin, end = spans.pop()
+        if end - begin < 2:
             continue
-        inside = slice(first + 1, last)
-        part = ((time[inside] - time[first]) / (time[last] - time[first]))[:, None]
-        chord = pressure[first] + part * (pressure[last] - pressure[first])
-        away = np.abs(pressure[inside] - chord).max(axis=1)
-        farthest = int(away.argmax())
-        if away[farthest] > tolerance:
-            middle = first + 1 + farthest
-            kept.add(middle)
-            open_ += [(first, middle), (middle, last)]
-    return np.array(sorted(kept))
+        inside = slice(begin + 1, end)
+        part = ((time[inside] - time[begin]) / (time[end] - time[begin]))[:, None]
+        chord = pressure[begin] + part * (pressure[end] - pressure[begin])
+        distance = np.abs(pressure[inside] - chord).max(axis=1)
+        farthest = int(distance.argmax())
+        if distance[farthest] > tolerance:
+            middle = begin + 1 + farthest
+            corners.add(middle)
+            spans += [(begin, middle), (middle, end)]
+    return np.array(sorted(corners))
 
 
-def _through(time: Array, pressure: Array, kept: NDArray[np.int_]) -> Array:
+def _through(time: Array, pressure: Array, corners: NDArray[np.int_]) -> Array:
     """Pressures at the corners by least squares of all samples, so that none carries its noise."""
-    count = len(kept)
-    index = np.clip(np.searchsorted(kept, np.arange(len(time)), side="right") - 1, 0, count - 2)
-    part = (time - time[kept[index]]) / (time[kept[index + 1]] - time[kept[index]])
+    count = len(corners)
+    index = np.clip(np.searchsorted(corners, np.arange(len(time)), side="right") - 1, 0, count - 2)
+    part = (time - time[corners[index]]) / (time[corners[index + 1]] - time[corners[index]])
     left, right = 1 - part, part
     normal = np.zeros((2, count))  # diagonal, and the one below it
     normal[0] = np.bincount(index, left**2, count) + np.bincount(index + 1, right**2, count)

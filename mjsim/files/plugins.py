@@ -1,7 +1,7 @@
-"""Bodies and laws of one's own: imported from modules and files, and carried to other processes.
+"""Plugins: bodies and friction laws from modules and files, and their way to other processes.
 
-A process that works for this one imports the same plugins, and gets what was registered here
-besides by pickle: by reference to the module of its class, the main one included.
+A worker process imports the same plugins. Other bodies and laws that are registered in this process
+reach it by pickle, which refers to the module of their class, the main one included.
 """
 
 import hashlib
@@ -25,11 +25,11 @@ _loaded: list[str] = []
 
 
 class Carried(NamedTuple):
-    """What is registered in a process, for another one.
+    """Registered laws and bodies of a process, for another one.
 
     Attributes:
-        plugins: modules, and whole paths of files.
-        things: kind and name of each law and body, and it pickled, or why it cannot be.
+        plugins: modules, and absolute paths of files.
+        things: kind and name of each law and body, and its pickle, or the error of pickling it.
     """
 
     plugins: tuple[str, ...]
@@ -51,7 +51,7 @@ def load(words: Iterable[str]) -> None:
             continue
         try:
             _import(plugin)
-        except (Exception, SystemExit) as error:  # whatever a plugin does while it is imported
+        except (Exception, SystemExit) as error:  # a plugin may do anything while it is imported
             raise ValueError(
                 f"plugin must be a module or a .py file that can be imported, got {word!r}: "
                 f"{type(error).__name__}: {error}"
@@ -71,7 +71,7 @@ def _import(plugin: str) -> None:
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     if str(path.parent) not in sys.path:
-        sys.path.append(str(path.parent))  # for what lies beside it
+        sys.path.append(str(path.parent))  # for modules beside it
     sys.modules[name] = module
     try:
         spec.loader.exec_module(module)
@@ -81,7 +81,7 @@ def _import(plugin: str) -> None:
 
 
 def carried() -> Carried:
-    """What is registered in this process."""
+    """Laws and bodies that are registered in this process."""
     things = [
         (kind, name, _pickled(value))
         for kind, registry in _KINDS.items() for name, value in registry.registered.items()
@@ -92,21 +92,21 @@ def carried() -> Carried:
 def _pickled(value: Any) -> bytes | str:
     try:
         return pickle.dumps(value)
-    except Exception as error:  # whatever it is made of
+    except Exception as error:  # of any kind: the class is the user's
         return str(error)
 
 
-def adopt(given: Carried) -> None:
-    """Know in this process what is registered in another one.
+def adopt(registered: Carried) -> None:
+    """Register in this process the laws and bodies of another one.
 
-    What cannot be had here is refused in one line when a scene asks for it.
+    Those that cannot be imported here are refused in one line when a scene names them.
     """
     trouble = ""
     try:
-        load(given.plugins)
+        load(registered.plugins)
     except ValueError as error:
         trouble = f"{error}; "
-    for kind, name, thing in given.things:
+    for kind, name, thing in registered.things:
         registry = _KINDS[kind]
         if isinstance(thing, bytes):
             try:
@@ -129,12 +129,12 @@ def _refusal(kind: str, name: str, why: str, group: str) -> str:
 def processes(
     preload: str, count: int | None = None, begin: Callable[[], None] | None = None
 ) -> ProcessPoolExecutor:
-    """Processes that know the laws and bodies that are registered here now.
+    """Start a pool of processes with the laws and bodies that are registered here now.
 
     Args:
         preload: module that is imported once for all of them.
-        count: how many; one a core if None.
-        begin: what each does first.
+        count: number of processes; one per core if None.
+        begin: function that each calls first.
     """
     return ProcessPoolExecutor(
         count or os.cpu_count(), mp_context=clean_start(preload),
@@ -142,7 +142,7 @@ def processes(
     )  # fmt: skip
 
 
-def _begin(begin: Callable[[], None] | None, given: Carried) -> None:
+def _begin(begin: Callable[[], None] | None, registered: Carried) -> None:
     if begin is not None:
         begin()
-    adopt(given)
+    adopt(registered)

@@ -1,14 +1,14 @@
-"""Processes that begin clean, whatever threads and OpenGL this one has."""
+"""Start of processes that inherit neither threads nor OpenGL."""
 
 import multiprocessing
 from multiprocessing.context import BaseContext
 
 
 def clean_start(*modules: str) -> BaseContext:
-    """For a pool: by a server that imports modules once for all; on Windows, which has none, anew.
+    """Context of a pool: a server that imports modules once for all, or on Windows a new process.
 
     Args:
-        modules: names of what every process will use.
+        modules: names of the modules that every process will use.
     """
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")

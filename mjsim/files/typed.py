@@ -2,7 +2,7 @@
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import MISSING, Field, fields
+from dataclasses import MISSING, fields
 from numbers import Real
 from pathlib import Path
 from types import NoneType, UnionType
@@ -15,11 +15,11 @@ from mjsim.files.units import in_unit
 Table = dict[str, Any]
 Kind = TypeVar("Kind")
 
-UNITS = {"ramp_time": "s", "period": "s"}  # of gaits; other fields say it themselves
+UNITS = {"ramp_time": "s", "period": "s"}  # of gaits; other fields have it in their documentation
 
 
 def make(kind: type[Kind], table: Mapping[str, Any], where: str = "", **more: Any) -> Kind:
-    """A dataclass of given values and defaults, its values checked against their types.
+    """Make a dataclass of given values and defaults, checked against their types.
 
     Raises:
         ValueError: a key is no field, a value is not of its type or out of range, or one is
@@ -27,7 +27,8 @@ def make(kind: type[Kind], table: Mapping[str, Any], where: str = "", **more: An
     """
     values = {**checked(kind, table, where), **more}
     for field in fields(kind):  # type: ignore[arg-type]
-        if field.name not in values and _needed(field):
+        needed = field.default is MISSING and field.default_factory is MISSING
+        if needed and field.name not in values:
             raise ValueError(f"{where}{field.name} is missing")
     try:
         return kind(**values)
@@ -36,7 +37,7 @@ def make(kind: type[Kind], table: Mapping[str, Any], where: str = "", **more: An
 
 
 def checked(kind: type[Any], table: Mapping[str, Any], where: str) -> Table:
-    """Values of a table, each as the type of the dataclass's field has it.
+    """Values of a table, each of the type of the dataclass's field.
 
     Raises:
         ValueError: a key is no field, or a value is not of its type.
@@ -52,9 +53,9 @@ def checked(kind: type[Any], table: Mapping[str, Any], where: str) -> Table:
 
 
 def as_type(hint: Any, value: Any, name: str, unit: str | None = None) -> Any:
-    """The value as its type has it.
+    """Convert a value to its type.
 
-    Lists become tuples and whole numbers floats, and numbers with a unit are turned into the SI.
+    Lists become tuples and whole numbers floats, and numbers with a unit are converted to SI.
 
     Raises:
         ValueError: it is not of that type.
@@ -68,7 +69,7 @@ def as_type(hint: Any, value: Any, name: str, unit: str | None = None) -> Any:
             return value
         real = isinstance(value, Real) and not isinstance(value, bool)
         if option is float and real:
-            return float(value)  # whether it is finite is asked where it is used
+            return float(value)  # its user checks whether it is finite
         if option is int and real and not isinstance(value, float):
             return value
         if option in (str, bool) and isinstance(value, option):
@@ -87,7 +88,7 @@ def _described(options: tuple[Any, ...]) -> str:
 
 
 def as_number(value: Any, name: str, unit: str) -> float:
-    """A number in a unit of the SI, or a text that says its own.
+    """Convert a number in an SI unit, or a text with its own unit.
 
     Raises:
         ValueError: it is none.
@@ -95,15 +96,11 @@ def as_number(value: Any, name: str, unit: str) -> float:
     return float(as_type(float, value, name, unit))
 
 
-def _needed(field: "Field[Any]") -> bool:
-    return field.default is MISSING and field.default_factory is MISSING
-
-
 def read_toml(path: Path, what: str) -> Table:
-    """What a TOML file holds.
+    """Read a TOML file.
 
     Raises:
-        ValueError: it cannot be read, or is no TOML; the message says `what` it was to be.
+        ValueError: it cannot be read, or is no TOML; the message begins with `what`, its kind.
     """
     try:
         return tomllib.loads(path.read_bytes().decode("utf-8-sig"))  # Windows marks the byte order

@@ -1,4 +1,4 @@
-"""Values with the unit that they were measured in: `7 psi`, `90 mm`, `12 g`; inside all are SI."""
+"""Conversion of values with a unit, `7 psi`, `90 mm`, `12 g`, to SI."""
 
 import re
 from functools import cache
@@ -9,12 +9,12 @@ _LARGEST = 60  # letters of a value; longer ones are no quantity
 
 
 def in_unit(name: str, value: str, unit: str | None) -> float:
-    """A number, or a number with a unit, in the unit that the program uses.
+    """Convert a number, or a number with a unit, to the unit of the program.
 
     Args:
         name: of the value, for the message.
-        value: as it was written.
-        unit: in which it is wanted; None or "1" for a plain number, which may be in %.
+        value: text.
+        unit: of the result; None or "1" for a plain number, which may be in %.
 
     Raises:
         ValueError: it is no number, or one with a unit of another kind.
@@ -23,22 +23,22 @@ def in_unit(name: str, value: str, unit: str | None) -> float:
         return float(value)
     except ValueError:
         pass
-    found = _NUMBER.match(value)
-    if found is None or len(value) > _LARGEST:
+    number = _NUMBER.match(value)
+    if number is None or len(value) > _LARGEST:
         raise ValueError(_message(name, value, unit)) from None
-    words = value[found.end() :].strip()
+    words = value[number.end() :].strip()
     try:
-        return float(found.group()) * _factor(words, "1" if unit is None else unit)
-    except Exception as error:  # whatever a parser of units makes of words that are none
+        return float(number.group()) * _factor(words, "1" if unit is None else unit)
+    except Exception as error:  # pint raises many kinds for words that are no unit
         raise ValueError(_message(name, value, unit)) from error
 
 
 @cache
 def _factor(words: str, unit: str) -> float:
-    """How many of the one unit the other is."""
+    """Factor from the unit that words name to another."""
     registry = _registry()
-    wanted = registry.Unit("" if unit == "1" else unit)
-    return float(registry.Quantity(1.0, words).to(wanted).magnitude)
+    target = registry.Unit("" if unit == "1" else unit)
+    return float(registry.Quantity(1.0, words).to(target).magnitude)
 
 
 @cache

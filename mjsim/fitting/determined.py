@@ -1,10 +1,11 @@
-"""What the data do not determine: directions in which parameters may change unseen.
+"""Directions in which parameters may change without the data telling.
 
-The walk of a strip on constant bounds depends on dimensionless groups alone; what leaves them all
-as they are cannot be seen in any shape or distance over the length.
+The walk of a strip on constant bounds depends on dimensionless groups alone; a change that leaves
+them all as they are shows in no shape or distance over the length.
 """
 
 import math
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from analytic.friction.laws import friction_number
 from analytic.scene import pneunet
+from analytic.scene.limbs import limbs_of
 from mjsim.files.tables import Tables, build
 from mjsim.fitting.estimate import Estimate
 from mjsim.fitting.parameters import with_values
@@ -19,8 +21,8 @@ from mjsim.fitting.parameters import with_values
 Array = NDArray[np.float64]
 
 _WIDE = math.log(2.0) / 1.96  # error of a logarithm: a factor of 2 either way; chosen
-_PART = 0.1  # of the largest exponent: less is left out
-_MOVES = 0.05  # of a group's logarithm, for a unit step: less leaves it as it is
+_PART = 0.1  # of the largest exponent, below which one is left out; chosen
+_MOVES = 0.05  # change of a group's logarithm for a unit step, below which it stays; chosen
 _STEP = 1e-3
 
 
@@ -39,14 +41,14 @@ class Direction(NamedTuple):
     same: tuple[str, ...]
 
     def __str__(self) -> str:
-        """In one line."""
+        """Sentence for the user."""
         product = " ".join(
             name if abs(power - 1) < 0.005 else f"{name}^{power:.2g}"
             for name, power in self.exponents.items()
         )
-        known = f"within a factor of {self.factor:.2g}" if self.factor < 1e3 else "at all"
-        kept = f" (leaves {', '.join(self.same)} as they are)" if self.same else ""
-        return f"the data do not determine {product} {known}{kept}"
+        precision = f"within a factor of {self.factor:.2g}" if self.factor < 1e3 else "at all"
+        groups = f" (leaves {', '.join(self.same)} as they are)" if self.same else ""
+        return f"the data do not determine {product} {precision}{groups}"
 
 
 def undetermined(estimate: Estimate, base: Tables) -> list[Direction]:
@@ -58,7 +60,7 @@ def undetermined(estimate: Estimate, base: Tables) -> list[Direction]:
     """
     values, vectors = np.linalg.eigh(estimate.covariance)
     slopes = _group_slopes(estimate, base)
-    found = []
+    directions = []
     for variance, vector in sorted(zip(values, vectors.T, strict=True), key=lambda pair: -pair[0]):
         error = math.sqrt(max(variance, 0.0))
         if error <= _WIDE:
@@ -69,16 +71,11 @@ def undetermined(estimate: Estimate, base: Tables) -> list[Direction]:
             for p, power in zip(estimate.parameters, vector, strict=True)
             if abs(power) > _PART
         }
-        moved = {name: abs(float(slope @ vector)) > _MOVES for name, slope in slopes.items()}
-        found.append(
-            Direction(
-                exponents,
-                math.exp(min(1.96 * error, 700.0)),
-                tuple(name for name, moves in moved.items() if moves),
-                tuple(name for name, moves in moved.items() if not moves),
-            )
-        )
-    return found
+        changed = tuple(name for name, slope in slopes.items() if abs(slope @ vector) > _MOVES)
+        same = tuple(name for name in slopes if name not in changed)
+        factor = math.exp(min(1.96 * error, 700.0))
+        directions.append(Direction(exponents, factor, changed, same))
+    return directions
 
 
 def at_bounds(estimate: Estimate) -> list[str]:
@@ -91,9 +88,15 @@ def at_bounds(estimate: Estimate) -> list[str]:
 
 
 def groups(base: Tables, values: dict[str, float]) -> dict[str, float]:
-    """The dimensionless groups of a scene: load, turn, friction number, ratio of the bounds."""
+    """Dimensionless groups of a scene: load, turn, friction number, ratio of the bounds.
+
+    Those of a strip, of a robot of limbs those of the first limb that carries none.
+    """
     scene, _ = build(with_values(base, values))
-    robot, surface = scene.strip, scene.ground.at(0.0)
+    limbs, surface = limbs_of(scene.robot), scene.ground.at(0.0)
+    carriers = {limb.on for limb in limbs}
+    limb = next(limb.strip for limb in limbs if limb.name not in carriers)
+    robot = replace(limb, peak_pressure=scene.robot.peak_pressure)
     side = surface.shear_strength * robot.width * robot.length / len(robot.segments)
     rigidity = pneunet.base_rigidity(robot)
     return {
@@ -106,12 +109,15 @@ def groups(base: Tables, values: dict[str, float]) -> dict[str, float]:
 
 def _group_slopes(estimate: Estimate, base: Tables) -> dict[str, Array]:
     """Exponent of each parameter in each group."""
-    names = [p.name for p in estimate.parameters]
-    at = groups(base, estimate.values)
-    rows: dict[str, list[float]] = {group: [] for group in at}
-    for name in names:
-        moved = groups(base, {**estimate.values, name: estimate.values[name] * math.exp(_STEP)})
-        for group, value in moved.items():
-            usable = 0 < value < math.inf and 0 < at[group] < math.inf
-            rows[group].append(math.log(value / at[group]) / _STEP if usable else 0.0)
-    return {group: np.array(row) for group, row in rows.items()}
+    values = estimate.values
+    start = groups(base, values)
+    moved = [groups(base, {**values, name: values[name] * math.exp(_STEP)}) for name in values]
+    return {
+        name: np.array([_slope(value, end[name]) for end in moved]) for name, value in start.items()
+    }
+
+
+def _slope(start: float, end: float) -> float:
+    """Change of a group's logarithm per unit step, 0 for a group that is 0 or infinite."""
+    usable = 0 < start < math.inf and 0 < end < math.inf
+    return math.log(end / start) / _STEP if usable else 0.0

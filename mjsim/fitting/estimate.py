@@ -1,8 +1,8 @@
-"""Least squares that bear outliers, with noise that is estimated and intervals that hold.
+"""Robust least squares with estimated noise and 95 % intervals.
 
 Parameters are fitted on a logarithmic scale. Residuals are over the noise of their kind; beyond
-Huber's bend they count by their size and no longer by its square (Huber 1964). The noise is found
-anew from what the fit leaves (Huber's proposal 2), and standard errors are those of such an
+Huber's bend they count by their size and no longer by its square (Huber 1964). The noise is
+estimated from the residuals (Huber's proposal 2), and standard errors are those of such an
 estimate, of errors that are independent of each other.
 """
 
@@ -20,26 +20,26 @@ from mjsim.fitting.walks import Predictor
 
 Array = NDArray[np.float64]
 
-_LOST = 1e-5  # of the largest: information below it is an error of the sensitivities, 0.1 %
-_ENDLESS = 1e3  # error of the logarithm of what data do not determine at all
+_LOST = 1e-5  # of the largest information: below it is an error of the sensitivities, 0.1 %
+_ENDLESS = 1e3  # error of the logarithm of a parameter that the data do not determine at all
 _NOTHING = 1e-9  # deviations of the data for a unit of a logarithm, likewise
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """Where a fit ended, and how sure it is.
+    """Fitted values and their uncertainty.
 
     Attributes:
         parameters: that were free.
-        value: of them, (P,).
+        value: of the parameters, (P,).
         error: standard error of their logarithms, (P,): relative.
         low, high: of the 95 % intervals, (P,).
         covariance: of the logarithms, (P, P).
         sensitivity: of residuals over noise to the logarithms, (n, P).
         noise: standard deviation by kind [m, rad or m/s].
         offset: data of x, by number [m].
-        series: what was fitted.
-        model: what the model says of it, offsets included.
+        series: measurements.
+        model: prediction of each series, offsets included.
         count: numbers that were fitted.
     """
 
@@ -58,27 +58,26 @@ class Estimate:
 
     @property
     def values(self) -> dict[str, float]:
-        """By name."""
+        """Values by name of the parameter."""
         return by_name(self.parameters, np.log(self.value))
 
     def residuals(self) -> list[Array]:
-        """Data less model, of each series."""
+        """Residuals, data less model, of each series."""
         return [s.value - model for s, model in zip(self.series, self.model, strict=True)]
 
     @property
     def correlation(self) -> Array:
-        """Of the logarithms, (P, P)."""
+        """Correlation of the logarithms, (P, P)."""
         return np.asarray(self.covariance / np.outer(self.error, self.error))
 
     def autocorrelation(self) -> float:
-        """Of neighbours along time or pressure, in the series where it is largest."""
-        found = [0.0]
-        for series, left in zip(self.series, self.residuals(), strict=True):
-            if len(left) > 8 and len(series.runs) == 1:
-                left = np.clip(left / self.noise[series.noise], -3, 3)
-                left = left[np.argsort(series.at)]
-                found.append(float(left[1:] @ left[:-1] / (left @ left)))
-        return max(found)
+        """Correlation of residuals along time or pressure, the largest of all series."""
+        largest = 0.0
+        for series, residual in zip(self.series, self.residuals(), strict=True):
+            if len(residual) > 8 and len(series.runs) == 1:
+                part = np.clip(residual / self.noise[series.noise], -3, 3)[np.argsort(series.at)]
+                largest = max(largest, float(part[1:] @ part[:-1] / (part @ part)))
+        return largest
 
 
 def estimate(
@@ -89,9 +88,9 @@ def estimate(
     """Fit the parameters to the predictor's series.
 
     Args:
-        predictor: the model, walked often.
-        parameters: those that are free.
-        refined: a dearer model in which the fit ends; its sensitivities are taken to be the same.
+        predictor: model that walks often.
+        parameters: free ones.
+        refined: finer model in which the fit ends; its sensitivities are taken to be the same.
 
     Raises:
         ValueError: there are fewer numbers than unknowns, or the walk at the start fails.
@@ -102,13 +101,13 @@ def estimate(
             f"data must be more than the {problem.unknowns} unknowns, got {problem.count} numbers"
         )
     point = problem.start()
-    first = problem.differences(point)
-    if not np.isfinite(first).all():
+    differences = problem.differences(point)
+    failed = problem.failed(differences)
+    if failed:
         raise ValueError(
-            "the walk at the start fails in " + ", ".join(problem.failed(first))
-            + ": give another --start"
-        )  # fmt: skip
-    problem.set_noise(first, spread=True)
+            f"the walk at the start fails in {', '.join(failed)}: give another --start"
+        )
+    problem.set_noise(differences, spread=True)
     point = problem.settle(point)
     sensitivity = problem.sensitivity(point)
     if refined is not None:
@@ -118,12 +117,12 @@ def estimate(
 
 
 def _judged(problem: Problem, point: Array, sensitivity: Array) -> Estimate:
-    """Errors of an estimate with a bent loss (Huber, Robust Statistics, section 7.6)."""
+    """Estimate with the errors of a bent loss (Huber, Robust Statistics, section 7.6)."""
     count, free = len(problem.parameters), max(problem.count - problem.unknowns, 1)
     differences = problem.differences(point)
-    left = differences / problem.noise
-    inside = max(float(np.mean(np.abs(left) <= BEND)), 1 / problem.count)
-    variance = max(float(np.sum(np.clip(left, -BEND, BEND) ** 2)) / free, _NOTHING)
+    deviations = differences / problem.noise
+    inside = max(float(np.mean(np.abs(deviations) <= BEND)), 1 / problem.count)
+    variance = max(float(np.sum(np.clip(deviations, -BEND, BEND) ** 2)) / free, _NOTHING)
     jacobian = problem.jacobian(sensitivity)
     data, prior = jacobian[: problem.count], jacobian[problem.count :]
     whole = _inverse(data.T @ data * inside**2 / variance + prior.T @ prior)
@@ -132,7 +131,6 @@ def _judged(problem: Problem, point: Array, sensitivity: Array) -> Estimate:
     logs, wide = point[:count], float(stats.t.ppf(0.975, free)) * error
     with np.errstate(over="ignore"):
         low, high = np.exp(logs - wide), np.exp(logs + wide)
-    ends = np.cumsum([len(s.value) for s in problem.series])[:-1]
     shifts = (point[count:] * problem.scale).tolist()
     return Estimate(
         parameters=problem.parameters,
@@ -145,15 +143,15 @@ def _judged(problem: Problem, point: Array, sensitivity: Array) -> Estimate:
         noise=problem.noise_by_kind(),
         offset=dict(zip(problem.offsets, shifts, strict=True)),
         series=problem.series,
-        model=tuple(np.split(problem.data + differences, ends)),
+        model=tuple(problem.split(problem.data + differences)),
         count=problem.count,
     )
 
 
 def _inverse(information: Array) -> Array:
-    """Of a symmetric matrix; what it does not determine has an error that is all but endless.
+    """Inverse of a symmetric matrix, nearly infinite along directions that it does not determine.
 
-    But not so great that the errors of the other directions drown in its rounding.
+    It stays so small that the errors of the other directions do not drown in its rounding.
     """
     scale = np.maximum(np.sqrt(np.diag(information)), _NOTHING)
     values, vectors = np.linalg.eigh(information / np.outer(scale, scale))

@@ -1,4 +1,4 @@
-"""What is free in a fit: fields of the scene, with a start, bounds and perhaps a prior."""
+"""Free parameters of a fit: fields of the scene, with a start, bounds and perhaps a prior."""
 
 import copy
 import math
@@ -6,17 +6,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from analytic.scene.robot import Robot
-from analytic.scene.surface import SURFACES, Surface
-from mjsim.files.fields import units
-from mjsim.files.tables import SURFACE_FIELDS, Tables, build, check_keys
+from analytic.scene.limbs import limbs_of
+from analytic.scene.robot import GRAVITY
+from analytic.scene.surface import SURFACES
+from mjsim.files.quantities import field_unit
+from mjsim.files.tables import NAMES, SURFACE_FIELDS, Tables, build, check_keys
 from mjsim.files.units import in_unit
-from mjsim.scene.scene import Scene
-from mjsim.scene.valves import Valves
 
 _FACTOR = 100.0  # from the start to a bound that is not given
-_HOMES: Mapping[str, type] = {"robot": Robot, "valves": Valves}
-OWN_GROUND = "surface"  # the scene's, as its options are called
+OWN_GROUND = "surface"  # name of the scene's ground, as its options are called
 
 
 @dataclass(frozen=True)
@@ -25,7 +23,7 @@ class Parameter:
 
     Attributes:
         name: table and field, as robot.modulus, surface.tip_force, felt.shear_strength.
-        start: where the search begins, in the unit of the field.
+        start: value at which the search begins, in the unit of the field.
         low, high: bounds.
         prior: mean and standard deviation of what is known beside the data, or None.
     """
@@ -47,17 +45,17 @@ class Parameter:
 
     @property
     def unit(self) -> str:
-        """The unit of the field."""
+        """Unit of the field."""
         return unit_of(self.name)
 
 
 def parameters(
     base: Tables, free: str, start: str = "", bounds: str = "", prior: str = ""
 ) -> list[Parameter]:
-    """Parameters from what was written: lists with commas between.
+    """Parameters from lists with commas between.
 
     Args:
-        base: tables of the scene, where they start if nothing else is said.
+        base: tables of the scene, whose values are the starts that are not given.
         free: names.
         start: name=value; with units.
         bounds: name=low..high.
@@ -74,38 +72,34 @@ def parameters(
     for name in names:
         _check(name)
     starts = _assigned("start", start, names)
-    limits, known = _assigned("bounds", bounds, names), _assigned("prior", prior, names)
-    found = []
+    limits, priors = _assigned("bounds", bounds, names), _assigned("prior", prior, names)
+    free_parameters = []
     for name in names:
-        mean, deviation = None, 0.0
-        if name in known:
-            mean, deviation = (_number(name, part) for part in _two("prior", known[name], "+-"))
+        known = _two("prior", name, priors[name], "+-") if name in priors else None
         if name in starts:
-            first = _number(name, starts[name])
+            begin = _number(name, starts[name])
         else:
-            first = mean if mean is not None else nominal(base, name)
-        low, high = first / _FACTOR, first * _FACTOR
+            begin = known[0] if known else nominal(base, name)
+        low, high = begin / _FACTOR, begin * _FACTOR
         if name in limits:
-            low, high = (_number(name, part) for part in _two("bounds", limits[name], ".."))
-        known_to = None if mean is None else (mean, deviation)
-        found.append(Parameter(name, first, low, high, known_to))
-    return found
+            low, high = _two("bounds", name, limits[name], "..")
+        free_parameters.append(Parameter(name, begin, low, high, known))
+    return free_parameters
 
 
 def nominal(base: Tables, name: str) -> float:
-    """The value of a field in the scene.
+    """Value of a field in the scene.
 
     Raises:
         ValueError: it is 0 or not given.
     """
     table, _, key = name.partition(".")
     scene, _ = build(base)
-    owner: Any = {"robot": scene.robot, "valves": scene.valves, OWN_GROUND: scene.ground}.get(table)
-    if owner is None:
-        owner = SURFACES.get(table, scene.ground)
-    value = getattr(owner, key, None)
+    robot = scene.robot if hasattr(scene.robot, key) else limbs_of(scene.robot)[0].strip
+    owners = {**SURFACES, "robot": robot, "valves": scene.valves}
+    value = getattr(owners.get(table, scene.ground), key, None)
     if key == "mass" and value is None:
-        value = scene.robot.weight / 9.81
+        value = scene.robot.weight / GRAVITY
     if not (isinstance(value, float) and value > 0):
         raise ValueError(
             f"{name} is not above 0 in the scene: give it a start, --start {name}=VALUE"
@@ -125,45 +119,46 @@ def with_values(
         base: of the scene.
         values: of parameters; those of another surface than that of the run do not matter.
         overrides: other fields, by table and name.
-        surface: the run's, by name, in place of the scene's.
+        surface: name of the run's, in place of the scene's.
     """
     tables = copy.deepcopy(base)
     ground = _ground(tables, surface)
     for name, value in {**(overrides or {}), **values}.items():
         table, _, key = name.partition(".")
-        if table in (OWN_GROUND, surface):
+        if table in (OWN_GROUND, surface, "ground"):
             ground[key] = value
-        elif table in ("robot", "valves", "gait", "numerics"):
+        elif table in NAMES:
             tables.setdefault(table, {})[key] = value
-    if ground.get("surface") in SURFACES and set(ground) - {"surface", "slope_deg"}:
-        known = SURFACES[ground["surface"]]
-        own = {key: getattr(known, key) for key in SURFACE_FIELDS}
-        ground = {**own, **ground, "surface": f"{known.name}-fitted"}
+    if set(ground) - {"surface", "slope_deg"} and (named := _values_of(ground)):
+        ground = {**named, **ground, "surface": f"{ground['surface']}-fitted"}
     tables["ground"] = ground
     return tables
 
 
 def _ground(tables: Tables, surface: str | None) -> dict[str, Any]:
+    """Table of the ground of a run on a surface, a named one or the scene's by another name."""
     ground = dict(tables.get("ground", {}))
     if surface is None:
-        return ground if ground else {"surface": "felt"}
+        return ground or {"surface": "felt"}
     if surface in SURFACES:
-        kept = {key: value for key, value in ground.items() if key == "slope_deg"}
-        return {**kept, "surface": surface}
-    own = {key: value for key, value in ground.items() if key != "surface"}
-    if ground.get("surface") in SURFACES:
-        known = SURFACES[ground["surface"]]
-        own = {**{key: getattr(known, key) for key in SURFACE_FIELDS}, **own}
-    return {**own, "surface": surface}
+        slope = {key: value for key, value in ground.items() if key == "slope_deg"}
+        return {**slope, "surface": surface}
+    return {**_values_of(ground), **ground, "surface": surface}
+
+
+def _values_of(ground: Mapping[str, Any]) -> dict[str, Any]:
+    """Values of the named surface of a table, none where it names none."""
+    surface = SURFACES.get(ground.get("surface", ""))
+    return {key: getattr(surface, key) for key in SURFACE_FIELDS} if surface else {}
 
 
 def _check(name: str) -> None:
     table, dot, key = name.partition(".")
     if not dot:
         raise ValueError(f"free must name tables and fields, such as robot.modulus; got {name!r}")
-    if table in _HOMES:
+    if table in ("robot", "valves"):
         check_keys(table, {key: None})
-    elif table in ("gait", "numerics", "ground"):
+    elif table in NAMES:
         raise ValueError(
             f"free must be of robot, valves, surface or a surface's name; got {name!r}"
         )
@@ -176,18 +171,16 @@ def _check(name: str) -> None:
 
 
 def unit_of(name: str) -> str:
-    """The unit of a field of the scene, "1" if it has none.
+    """Unit of a field of the scene, "1" if it has none.
 
     Raises:
         ValueError: there is no such field.
     """
     table, _, key = name.partition(".")
-    if table in _HOMES or table in ("gait", "numerics"):
-        check_keys(table, {key: None})
-    if table == "gait":
-        return "s" if key in ("ramp_time", "period") else "1"
-    found: Mapping[str, str] = units({**_HOMES, "numerics": Scene}.get(table, Surface))
-    return found.get(key, "1")
+    if table not in NAMES:  # of a surface
+        return field_unit(f"ground.{key}")
+    check_keys(table, {key: None})
+    return field_unit(name)
 
 
 def _number(name: str, text: str) -> float:
@@ -195,19 +188,20 @@ def _number(name: str, text: str) -> float:
 
 
 def _assigned(option: str, text: str, names: Sequence[str]) -> dict[str, str]:
-    found = {}
+    """Texts by name from name=text of some names, with commas between."""
+    assigned = {}
     for part in text.split(","):
         if not part.strip():
             continue
         name, sign, value = part.partition("=")
         if not sign or name.strip() not in names:
             raise ValueError(f"{option} must be name=value of {', '.join(names)}; got {part!r}")
-        found[name.strip()] = value
-    return found
+        assigned[name.strip()] = value
+    return assigned
 
 
-def _two(option: str, text: str, mark: str) -> list[str]:
-    parts = text.split(mark)
-    if len(parts) != 2:
+def _two(option: str, name: str, text: str, mark: str) -> tuple[float, float]:
+    low, sign, high = text.partition(mark)
+    if not sign or mark in high:
         raise ValueError(f"{option} must be two numbers with {mark} between, got {text!r}")
-    return parts
+    return _number(name, low), _number(name, high)

@@ -1,11 +1,11 @@
-"""What a model says of what was measured: walks in MuJoCo, or quasi-static ones."""
+"""Predictions of measurements: walks in MuJoCo, or quasi-static ones."""
 
 import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,32 +14,34 @@ from scipy.interpolate import CubicSpline
 from analytic.prediction import Elastica, predict
 from analytic.scene import pneunet
 from analytic.scene.chain import node_positions
+from analytic.scene.limbs import limbs_of
+from analytic.solvers.limbs.path import Path
 from mjsim.files import plugins
 from mjsim.files.tables import Tables, build
-from mjsim.fitting.observations import Run, Series
+from mjsim.fitting.observations import RUN, Run, Series
 from mjsim.fitting.parameters import with_values
 from mjsim.results.measures import measure
+from mjsim.results.prediction import reference
 from mjsim.scene import Numerics, Scene, resolved
 from mjsim.simulation.simulation import simulate
 
 Array = NDArray[np.float64]
 
 _STATES = 100  # of the quasi-static model in a ramp from no pressure to the peak
-_COARSE = {
-    "ends": (4, 0.02),
-    "all": (8, 0.01),
-}  # links a segment and time step [s]
-_MANY = 24  # walks that are worth processes of their own; chosen
+_COARSE = {"ends": (4, 0.02), "all": (8, 0.01)}  # links per segment and time step [s]
+_COARSE_LIMBS = 4, 0.02  # links of a limb and time step [s]
+_MANY = 24  # walks from which on processes gain more than their start takes; chosen
 
 
 class Motion(NamedTuple):
-    """What came of a run.
+    """Motion of the strip, or of the trunk, in a run.
 
     Attributes:
         time: of the states since the first cycle began, (T,) [s].
         x, z: of points at `places`, (T, P) [m].
-        places: over the length, (P,).
-        displacement, height: of the left end per cycle, and the greatest height [m].
+        places: over the length of the strip or the trunk, (P,).
+        displacement, height: ahead per cycle, and the greatest height [m].
+        turn: to the left in the last cycle [rad].
         period: of a cycle [s].
     """
 
@@ -49,43 +51,68 @@ class Motion(NamedTuple):
     places: tuple[float, ...]
     displacement: float
     height: float
+    turn: float
     period: float
 
 
 Walk = Callable[[Scene, Numerics, tuple[float, ...]], Motion | None]
-"""From a scene, and places to look at, to what came of it; None if it failed."""
+"""Function from a scene, and places over the length, to the motion; None if the walk failed."""
 
 
 def by_mujoco(scene: Scene, numerics: Numerics, places: tuple[float, ...]) -> Motion | None:
-    """A walk in MuJoCo."""
+    """Motion of a scene in MuJoCo."""
     walk = simulate(scene, numerics)
     numbers = measure(walk)
     if numbers is None:
         return None
     length, rows = scene.robot.length, slice(walk.start, None)
     x, z = (part[rows] for part in walk.nodes())
-    nodes = node_positions(scene.strip, walk.numerics.links)
-    at = np.array(places) * length
     return Motion(
-        walk.time[rows], CubicSpline(nodes, x, axis=1)(at), CubicSpline(nodes, z, axis=1)(at),
-        places, numbers.displacement * length, numbers.amplitude * length, scene.gait.period,
+        walk.time[rows], *_at_places(scene, walk.numerics.links, x, z, places), places,
+        numbers.displacement * length, numbers.amplitude * length, numbers.turn, scene.gait.period,
     )  # fmt: skip
 
 
+def _at_places(
+    scene: Scene, links: int, x: Array, z: Array, places: tuple[float, ...]
+) -> tuple[Array, Array]:
+    """Points of the strip or the trunk through its vertices (T, N + 2), (T, P) each [m]."""
+    trunk = limbs_of(scene.robot)[0].strip
+    nodes, at = node_positions(trunk, links), np.array(places) * trunk.length
+    return CubicSpline(nodes, x, axis=1)(at), CubicSpline(nodes, z, axis=1)(at)
+
+
 def quasi_static(scene: Scene, numerics: Numerics, places: tuple[float, ...]) -> Motion | None:
-    """The same by the elastica that friction bends; valves are ideal in it."""
+    """Motion of a scene by the reference that friction bends, with ideal valves."""
+    if scene.in_space:
+        return _quasi_static_limbs(scene, numerics, places)
     fractions, times = scene.gait.path(_STATES, scene.cycles)
-    found = predict(
+    walk = predict(
         scene.strip, scene.gait, scene.ground, Elastica(60, scene.chamber),
         refinement=1, friction=scene.reference_friction, cycles=scene.cycles,
         path=scene.robot.peak_pressure * fractions, times=times,
     )  # fmt: skip
-    if not math.isfinite(found.locomotion.per_cycle):
+    if not math.isfinite(walk.locomotion.per_cycle):
         return None
-    x, z = found.shapes.curve(np.array(places) * scene.robot.length)
+    x, z = walk.shapes.curve(np.array(places) * scene.robot.length)
     return Motion(
-        np.asarray(times), found.locomotion.left[:, None] + x, z, places,
-        float(found.by_cycle[-1]), float(found.shapes.amplitude.max()), scene.gait.period,
+        np.asarray(times), walk.locomotion.left[:, None] + x, z, places,
+        float(walk.by_cycle[-1]), float(walk.shapes.amplitude.max()), 0.0, scene.gait.period,
+    )  # fmt: skip
+
+
+def _quasi_static_limbs(
+    scene: Scene, numerics: Numerics, places: tuple[float, ...]
+) -> Motion | None:
+    theory, links = reference(scene, numerics), resolved(scene, numerics).links
+    assert isinstance(theory.walk, Path)
+    nodes = np.array([rest.nodes for rest in theory.walk.rests])
+    half = nodes.shape[1] // 2
+    trunk = 0.5 * (nodes[:, : links + 2] + nodes[:, half : half + links + 2])
+    return Motion(
+        theory.walk.times, *_at_places(scene, links, trunk[..., 0], trunk[..., 2], places), places,
+        float(theory.displacement[0]) * scene.robot.length, theory.height, theory.turn,
+        scene.gait.period,
     )  # fmt: skip
 
 
@@ -93,29 +120,32 @@ WALKS: dict[str, Walk] = {"mujoco": by_mujoco, "quasi-static": quasi_static}
 
 
 def coarse(scene: Scene, numerics: Numerics) -> Numerics:
-    """Numerics that find the way, if the scene's own are dearer."""
+    """Numerics for most steps of a fit: those of the scene, or coarser ones."""
     if (scene.body, scene.friction) != (Scene.body, Scene.friction):
         return numerics
-    a_segment, longest = _COARSE["all" if scene.between else "ends"]
-    own = resolved(scene, numerics)
-    links = max(12, a_segment * len(scene.strip.segments))
+    fine = resolved(scene, numerics)
+    if scene.in_space:
+        links, longest = _COARSE_LIMBS
+    else:
+        per_segment, longest = _COARSE["all" if scene.between else "ends"]
+        links = max(12, per_segment * len(scene.strip.segments))
     step = min(longest, min(scene.gait.ramp_times) / 40)
-    return replace(numerics, links=min(links, own.links), timestep=max(step, own.timestep))
+    return replace(numerics, links=min(links, fine.links), timestep=max(step, fine.timestep))
 
 
 @dataclass
 class Predictor:
-    """What the model says of each series, for any values of the parameters.
+    """Prediction of each series for any values of the parameters.
 
     Args:
         base: tables of the scene.
-        series: what was measured.
-        walk: the model.
-        numerics: from a scene and its numerics to those to walk it with.
+        series: measurements.
+        walk: model.
+        numerics: function from a scene and its numerics to those to walk it with.
         pool: processes for many walks at once, if there are any.
 
     Attributes:
-        walks: how many there were.
+        walks: number of walks so far.
     """
 
     base: Tables
@@ -124,39 +154,33 @@ class Predictor:
     numerics: Callable[[Scene, Numerics], Numerics] = lambda scene, numerics: numerics
     pool: ProcessPoolExecutor | None = None
     walks: int = 0
-    _known: dict[str, Any] = field(default_factory=dict)
+    _motions: dict[str, Motion | None] = field(default_factory=dict)
 
     def __call__(self, values: Mapping[str, float]) -> list[Array]:
-        """Predictions, one array a series, NaN where the walk failed."""
+        """Predictions, one array per series, NaN where the walk failed."""
         return self.all([values])[0]
 
     def all(self, points: Iterable[Mapping[str, float]]) -> list[list[Array]]:
-        """The same at several points, their walks as one batch."""
+        """Predictions at several points, their walks as one batch."""
         points = list(points)
         todo: dict[str, tuple[Scene, Numerics]] = {}
         for values in points:
             for run in self._runs():
                 key, tables = self._tables(values, run)
-                if key not in self._known and key not in todo:
+                if key not in self._motions and key not in todo:
                     scene, numerics = build(tables)
                     todo[key] = scene, self.numerics(scene, numerics)
         jobs = [(*case, self._places) for case in todo.values()]
-        if self.pool is not None and len(jobs) > 1:
-            done = list(self.pool.map(self.walk, *zip(*jobs, strict=True)))
-        else:
-            done = [self.walk(*job) for job in jobs]
+        use = self.pool.map if self.pool is not None and len(jobs) > 1 else map
+        motions = use(self.walk, *zip(*jobs, strict=True)) if jobs else ()
+        self._motions |= dict(zip(todo, motions, strict=True))
         self.walks += len(jobs)
-        self._known |= dict(zip(todo, done, strict=True))
         return [[self._of(series, values) for series in self.series] for values in points]
 
     def changes(self, numerics: Callable[[Scene, Numerics], Numerics]) -> bool:
-        """Whether others than the scene's own would be walked."""
-        scene, own = build(self.base)
-        return self._walked(scene, numerics(scene, own)) != self._walked(scene, own)
-
-    @staticmethod
-    def _walked(scene: Scene, numerics: Numerics) -> Numerics:
-        return resolved(scene, numerics)
+        """True if other numerics than the scene's would be walked."""
+        scene, fine = build(self.base)
+        return resolved(scene, numerics(scene, fine)) != resolved(scene, fine)
 
     @property
     def _places(self) -> tuple[float, ...]:
@@ -175,8 +199,8 @@ class Predictor:
     def _of(self, series: Series, values: Mapping[str, float]) -> Array:
         if series.quantity == "angle":
             return self._angle(series, values)
-        motions = [self._known[self._tables(values, run)[0]] for run in series.runs]
-        if len(motions) > 1 or series.quantity in ("displacement", "speed", "height"):
+        motions = [self._motions[self._tables(values, run)[0]] for run in series.runs]
+        if series.abscissa == RUN:
             return np.array([_number(series, motion) for motion in motions])
         (motion,) = motions
         if motion is None:
@@ -192,16 +216,17 @@ class Predictor:
 
     def _angle(self, series: Series, values: Mapping[str, float]) -> Array:
         run = series.runs[0]
-        robot = build(self._tables(values, run)[1])[0].strip
-        length = series.length or robot.length * (robot.borders[1] - robot.borders[0])
-        return pneunet.natural_curvature(robot, series.at) * length
+        robot = build(self._tables(values, run)[1])[0].robot
+        strip = limbs_of(robot)[0].strip
+        length = series.length or strip.length * (strip.borders[1] - strip.borders[0])
+        return pneunet.natural_curvature(strip, series.at) * length
 
 
 def _number(series: Series, motion: Motion | None) -> float:
     if motion is None:
         return math.nan
     return {"displacement": motion.displacement, "speed": motion.displacement / motion.period,
-            "height": motion.height}[series.quantity]  # fmt: skip
+            "height": motion.height, "turn": motion.turn}[series.quantity]  # fmt: skip
 
 
 def processes(runs: int, parameters: int) -> ProcessPoolExecutor | None:

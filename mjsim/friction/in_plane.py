@@ -165,6 +165,13 @@ class Grips:
         """Places of all pads, whose speed tells whether the robot is at rest, (P, 3) [m]."""
         return np.array(self._data.geom_xpos[self._pads])
 
+    def side_contacts(self) -> Array:
+        """Length over which each limb lay on its side when it was looked at last, (L,) [m]."""
+        lengths = np.zeros(len(self._rows))
+        for contact in self.contacts:
+            lengths[contact.limb] += contact.length
+        return lengths
+
     def _turn(self) -> None:
         """Lay the first row of each place along its slip, or where friction holds it."""
         data, count = self._data, self._data.nf

@@ -200,13 +200,16 @@ class Hinges:
 
     Args:
         model, scene, numerics: as compiled, and what it is of.
+
+    Attributes:
+        angles: places of the hinges' angles among MuJoCo's coordinates, limb by limb.
     """
 
     def __init__(self, model: mujoco.MjModel, scene: Scene, numerics: Resolved) -> None:
         self._scene, self._links = scene, numerics.links
         joints = [model.joint(name) for name in hinge_names(limbed(scene), numerics.links)]
         self._hinges = np.array([joint.id for joint in joints])
-        self._angles = np.array([int(joint.qposadr[0]) for joint in joints])
+        self.angles = np.array([int(joint.qposadr[0]) for joint in joints])
         self._stiffness, self._rest = model.jnt_stiffness, model.qpos_spring
 
     def loads(self, valves: Array, before: Array, pressures: Array) -> Sequence[Any]:
@@ -221,7 +224,7 @@ class Hinges:
 
     def apply(self, load: Any) -> None:
         """Set them for the next step."""
-        self._stiffness[self._hinges], self._rest[self._angles] = load
+        self._stiffness[self._hinges], self._rest[self.angles] = load
 
 
 def hinge_names(robot: LimbedRobot, links: int) -> list[str]:

@@ -1,1 +1,1 @@
-"""Search for the best gait: its variables, what it is judged by, the search, its confirmation."""
+"""Search for the best gait: variables, objective, search and confirmation."""

@@ -1,17 +1,15 @@
-"""Whether a gait that was found keeps what it promises: finer, in MuJoCo, and off its mark."""
+"""Confirmation of a gait by finer models, by MuJoCo, and with pressure and friction 10 % off."""
 
 import itertools
 import math
 from dataclasses import replace
 from typing import NamedTuple
 
-import numpy as np
-
 from analytic.scene.gait import Gait
 from analytic.scene.surface import Surface
 from mjsim.optimising.objective import Objective
 from mjsim.results.measures import measure
-from mjsim.results.prediction import displacement, prediction
+from mjsim.results.prediction import reference
 from mjsim.scene import Scene
 from mjsim.simulation.checked import walk_checked
 
@@ -22,17 +20,17 @@ class Confirmation(NamedTuple):
     """A gait on one surface; displacements per cycle over L, towards +x.
 
     Attributes:
-        surface: it.
-        searched: by the model of the search, what is sure alone.
-        elastica: by the reference, which friction bends; NaN if it has none.
+        surface: name of the surface.
+        searched: by the model of the search, less the change that rests on flagged states.
+        reference: by the quasi-static reference, which friction bends; NaN if it has none.
         mujoco: by MuJoCo, links and time step checked; NaN if it failed.
-        status: of that walk.
+        status: of the walk in MuJoCo.
         lowest, highest: by the model of the search with pressure and friction 10 % off.
     """
 
     surface: str
     searched: float
-    elastica: float
+    reference: float
     mujoco: float
     status: str
     lowest: float
@@ -40,45 +38,43 @@ class Confirmation(NamedTuple):
 
 
 def confirm(objective: Objective, gait: Gait, surface: Surface) -> Confirmation:
-    """Predict a gait on a surface by everything there is.
+    """Predict a gait on a surface by all models.
 
     Args:
-        objective: of the search; its model and its scene.
+        objective: of the search, with its model and its scene.
         gait, surface: to be confirmed.
     """
     scene = replace(objective.scene, gait=gait, ground=surface)
-    towards = replace(objective, backward=objective.backward)
-    sign = -1.0 if objective.backward else 1.0
-    searched = sign * towards.sure(scene.strip, gait, [surface])[0]
+    searched = objective.sign * objective.sure(scene.robot, gait, [surface])[0]
     try:
-        elastica = displacement(scene, prediction(scene))
+        predicted = float(reference(scene).displacement[0])
     except ValueError:
-        elastica = math.nan
+        predicted = math.nan
     mujoco, status = _simulated(scene)
-    off = [sign * shift for shift in _off_its_mark(objective, scene, surface)]
-    return Confirmation(surface.name, searched, elastica, mujoco, status, min(off), max(off))
+    off = [objective.sign * shift for shift in _perturbed(objective, scene, surface)]
+    return Confirmation(surface.name, searched, predicted, mujoco, status, min(off), max(off))
 
 
 def _simulated(scene: Scene) -> tuple[float, str]:
     try:
-        found = walk_checked(scene, 0.02)
+        check = walk_checked(scene, 0.02)
     except ValueError as error:
         return math.nan, str(error)
-    numbers = measure(found.walk)
+    numbers = measure(check.walk)
     if numbers is None:
-        return math.nan, str(found.walk.status)
-    return numbers.displacement, str(found.walk.status) if found.agreed else "unconverged"
+        return math.nan, str(check.walk.status)
+    return numbers.displacement, str(check.walk.status) if check.agreed else "unconverged"
 
 
-def _off_its_mark(objective: Objective, scene: Scene, surface: Surface) -> list[float]:
-    """Sure displacements the right way with pressure, tip and side 10 % off, every combination."""
+def _perturbed(objective: Objective, scene: Scene, surface: Surface) -> list[float]:
+    """Sure displacements the right way with pressure, tip and side 10 % off, all combinations."""
     grounds = [
         replace(surface, name=f"{surface.name}-off", tip_force=tip * surface.tip_force,
                 shear_strength=side * surface.shear_strength)
         for tip, side in itertools.product(_PARTS, _PARTS)
     ]  # fmt: skip
-    found: list[float] = []
+    shifts: list[float] = []
     for part in _PARTS:
-        robot = replace(scene.strip, peak_pressure=part * scene.strip.peak_pressure)
-        found += objective.sure(robot, scene.gait, grounds)
-    return [value if np.isfinite(value) else math.nan for value in found]
+        robot = replace(scene.robot, peak_pressure=part * scene.robot.peak_pressure)
+        shifts += objective.sure(robot, scene.gait, grounds)
+    return [shift if math.isfinite(shift) else math.nan for shift in shifts]

@@ -1,7 +1,8 @@
-"""What a gait is worth, by a model that must not be fooled.
+"""Objective of the search for a gait, safe against holes of the model.
 
-Only what is sure counts: from a displacement everything is taken off that rests on states with a
-flag (see analytic.uncertainty.flagged_change). A model whose assumptions break finds nothing there.
+Of a displacement, the part that rests on flagged states is subtracted (see
+analytic.uncertainty.flagged_change), so that the search gains nothing where a model's assumptions
+break.
 """
 
 import math
@@ -13,29 +14,39 @@ from analytic.locomotion import STANDSTILL
 from analytic.prediction import SOLVERS, Elastica, predict_grounds
 from analytic.scene.air import air_per_cycle
 from analytic.scene.gait import Gait
-from analytic.scene.robot import Robot
+from analytic.scene.limbs import AnyRobot, LimbedRobot
 from analytic.scene.surface import Surface
 from analytic.uncertainty import flagged_change
 from mjsim.scene import Numerics, Scene
 
 Aim = Literal["displacement", "speed", "air", "work"]
 _LONGEST, _STEPS = 0.01, 20  # of MuJoCo: time step [s], and steps of the shortest ramp; chosen
-_AT_ENDS, _BETWEEN = 6, 8  # links a segment
+_AT_ENDS, _BETWEEN = 6, 8  # links per segment, by contact at the ends alone or between them too
+_OF_A_LIMB, _LONGEST_IN_SPACE = 4, 0.02  # links and time step [s] of a robot of limbs; chosen
 _LINKS = 36  # of the elastica in a search; within 2e-4 L of 60, measured
+
+
+def coarse(scene: Scene) -> Numerics:
+    """Links and time step of MuJoCo in a search."""
+    step = min(scene.gait.ramp_times) / _STEPS
+    if scene.in_space:
+        return Numerics(_OF_A_LIMB, min(_LONGEST_IN_SPACE, step))
+    per_segment = _BETWEEN if scene.between else _AT_ENDS
+    return Numerics(per_segment * len(scene.strip.segments), min(_LONGEST, step))
 
 
 @dataclass(frozen=True)
 class Objective:
-    """What is to be as large as can be.
+    """Quantity to be maximised.
 
     Attributes:
         scene: robot and friction; its gait and ground are replaced.
-        surfaces: on all of them, the worst counts.
+        surfaces: on which the gait must walk; the worst counts.
         aim: displacement per cycle over L; speed [m/s]; or, with a minus, air [l/m] or work [J/m]
             for each metre.
-        backward: the way that counts.
+        backward: whether displacements to -x count.
         model: mujoco, coarse, or one of the quasi-static solvers.
-        states: of it, in a ramp from no pressure to the peak.
+        states: of a quasi-static solver in a ramp from no pressure to the peak.
     """
 
     scene: Scene
@@ -45,13 +56,18 @@ class Objective:
     model: str = "elastica"
     states: int = 10
 
-    def __call__(self, gait: Gait) -> float:
-        """Its worth; minus infinity for one that is not sure to go that way at all."""
-        return self.worth(gait, min(self.sure(self.scene.strip, gait, self.surfaces)))
+    @property
+    def sign(self) -> float:
+        """Sign of the displacements that count."""
+        return -1.0 if self.backward else 1.0
 
-    def worth(self, gait: Gait, shift: float) -> float:
-        """The same, of its displacement the right way over L."""
-        robot = self.scene.strip
+    def __call__(self, gait: Gait) -> float:
+        """Value of a gait; minus infinity for one that is not sure to go the right way."""
+        return self.value(gait, min(self.sure(self.scene.robot, gait, self.surfaces)))
+
+    def value(self, gait: Gait, shift: float) -> float:
+        """Value of a gait with a displacement over L the right way."""
+        robot = self.scene.robot
         if self.aim == "displacement":
             return shift
         if self.aim == "speed":
@@ -62,10 +78,12 @@ class Objective:
         used = 1e3 * air.volume if self.aim == "air" else air.work
         return -used / (shift * robot.length)
 
-    def sure(self, robot: Robot, gait: Gait, surfaces: Sequence[Surface]) -> list[float]:
+    def sure(self, robot: AnyRobot, gait: Gait, surfaces: Sequence[Surface]) -> list[float]:
         """Displacement the right way over L that rests on no flagged state, on each surface."""
         if self.model == "mujoco":
             return self._walked(robot, gait, surfaces)
+        if isinstance(robot, LimbedRobot):
+            raise ValueError(f"model of a robot of limbs must be mujoco, got {self.model}")
         solver = SOLVERS[self.model]()
         if isinstance(solver, Elastica):
             solver = Elastica(_LINKS, self.scene.chamber)
@@ -76,15 +94,14 @@ class Objective:
             )
         except ValueError:  # a gait at which the strip would close into a circle
             return [-math.inf] * len(surfaces)
-        sign = -1.0 if self.backward else 1.0
         return [
-            (sign * walk.locomotion.per_cycle - flagged_change(walk)) / robot.length
+            (self.sign * walk.locomotion.per_cycle - flagged_change(walk)) / robot.length
             if math.isfinite(walk.locomotion.per_cycle) else -math.inf
             for walk in walks
         ]  # fmt: skip
 
-    def _walked(self, robot: Robot, gait: Gait, surfaces: Sequence[Surface]) -> list[float]:
-        """The same by MuJoCo, for whose states there are no flags: a fall counts as nothing."""
+    def _walked(self, robot: AnyRobot, gait: Gait, surfaces: Sequence[Surface]) -> list[float]:
+        """Displacement in MuJoCo, whose states have no flags; minus infinity of a fall."""
         from mjsim.results.measures import measure
         from mjsim.results.trajectory import Trajectory
         from mjsim.simulation.batch_simulate import simulate_batch
@@ -93,11 +110,6 @@ class Objective:
             scenes = [replace(self.scene, robot=robot, gait=gait, ground=g) for g in surfaces]
         except ValueError:
             return [-math.inf] * len(surfaces)
-        step = min(_LONGEST, min(gait.ramp_times) / _STEPS)
-        links = (_BETWEEN if scenes[0].between else _AT_ENDS) * len(robot.segments)
-        found = []
-        for walk in simulate_batch(scenes, Numerics(links=links, timestep=step)):
-            numbers = measure(walk) if isinstance(walk, Trajectory) else None
-            shift = -math.inf if numbers is None else numbers.displacement
-            found.append(-shift if self.backward and numbers else shift)
-        return found
+        walks = simulate_batch(scenes, coarse(scenes[0]))
+        measures = [measure(walk) if isinstance(walk, Trajectory) else None for walk in walks]
+        return [self.sign * m.displacement if m else -math.inf for m in measures]

@@ -1,6 +1,6 @@
-"""The search: CMA-ES (Hansen 2016), a generation at a time on all cores."""
+"""Search by CMA-ES (Hansen 2016), a generation at a time on all cores."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from typing import NamedTuple
 
@@ -16,17 +16,17 @@ Array = NDArray[np.float64]
 
 POPULATION = 16  # of a generation; chosen: a multiple of the cores
 _SIGMA = 0.25  # of the unit cube, the first steps; chosen
-_WORTHLESS = 1e6
+_FAILED = 1e6  # loss of a gait whose objective is minus infinity
 
 
 class Generation(NamedTuple):
-    """What a generation found.
+    """Result of a generation.
 
     Attributes:
-        evaluations: so far.
-        best: gait of the largest worth so far.
-        worth: of it.
-        median: of this generation's.
+        evaluations: number so far.
+        best: gait of the largest objective so far.
+        worth: objective of the best gait.
+        median: of the objectives of this generation.
     """
 
     evaluations: int
@@ -46,44 +46,40 @@ def search(
     """Look for the best gait.
 
     Args:
-        objective: what is to be large.
+        objective: to be maximised.
         space: of gaits.
-        evaluations: about how many.
+        evaluations: number after which the search ends, to a generation.
         seed: of the random numbers.
         pool: processes, if there are any.
         begin: points to begin at, in turn as restarts; the middle of the space if none.
     """
-    worth: Callable[[Iterable[Gait]], list[float]] = (
-        (lambda gaits: list(pool.map(objective, gaits)))
-        if pool
-        else (lambda gaits: [objective(gait) for gait in gaits])
-    )
+    evaluate = pool.map if pool else map
     starts = list(begin) or [space.middle()]
-    best, most, done = space.gait(starts[0]), -np.inf, 0
+    best, most, count = space.gait(starts[0]), -np.inf, 0
     low = [None] * space.lags + [0.0] * (space.size - space.lags)
     high = [None] * space.lags + [1.0] * (space.size - space.lags)
-    for run, start in enumerate(_for_ever(starts, space, seed)):
-        found = cma.CMAEvolutionStrategy(
+    for run, start in enumerate(_all_starts(starts, space, seed)):
+        strategy = cma.CMAEvolutionStrategy(
             start, _SIGMA,
             {"bounds": [low, high], "popsize": POPULATION, "seed": seed + run + 1, "verbose": -9,
              "tolfun": 1e-5, "tolx": 2e-3, "tolflatfitness": 5},
         )  # fmt: skip
-        while not found.stop():
-            points = found.ask()
+        while not strategy.stop():
+            points = strategy.ask()
             gaits = [space.gait(point, "best") for point in points]
-            values = worth(gaits)
-            found.tell(points, [-v if np.isfinite(v) else _WORTHLESS for v in values])
-            done += len(values)
+            values = list(evaluate(objective, gaits))
+            strategy.tell(points, [-v if np.isfinite(v) else _FAILED for v in values])
+            count += len(values)
             top = int(np.argmax(values))
             if values[top] > most:
                 best, most = gaits[top], values[top]
-            yield Generation(done, best, most, float(np.median(values)))
-            if done >= evaluations:
+            yield Generation(count, best, most, float(np.median(values)))
+            if count >= evaluations:
                 return
 
 
-def _for_ever(starts: list[Array], space: Space, seed: int) -> Iterator[Array]:
-    """The points to begin at, then random ones."""
+def _all_starts(starts: list[Array], space: Space, seed: int) -> Iterator[Array]:
+    """Points to begin at, then random ones."""
     yield from starts
     rng = np.random.default_rng(seed)
     while True:

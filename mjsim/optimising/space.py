@@ -1,4 +1,4 @@
-"""Gaits as points of a unit cube: when each segment is pressed, how long, how gently, how far."""
+"""Gaits as points of a unit cube: lag, duty, ramp and pressure of the chambers."""
 
 from typing import NamedTuple
 
@@ -10,48 +10,48 @@ from analytic.scene.trapezoid import staggered
 
 Array = NDArray[np.float64]
 
-GRID = 0.02  # of the cycle and of the pressure: what is finer nobody can command; chosen
-SHORTEST = 0.2  # period that is searched, of the longest; chosen
+GRID = 0.02  # of the cycle and of the pressure, the finest that valves can follow; chosen
+SHORTEST = 0.2  # of the longest period, the shortest that is searched; chosen
 _DUTY = (0.1, 0.9)
 _GENTLEST, _LEAST = 1.0, 0.15  # ramps, as part of the longest that the duty leaves room for
 
 
 class Space(NamedTuple):
-    """Of a robot's gaits.
+    """Space of a robot's gaits.
 
-    A point holds S - 1 lags between neighbours (parts of the cycle, periodic), then S duties, one
+    A point has S - 1 lags between neighbours (parts of the cycle, periodic), then S duties, one
     ramp as part of the longest possible, and S fractions of the peak pressure.
 
     Attributes:
-        segments: S.
-        period: of all gaits [s]; where `free`, the longest, and a last number says which.
+        chambers: S.
+        period: of all gaits [s]; where `free`, the longest, and a last number sets it.
         free: whether the period is searched too.
     """
 
-    segments: int
+    chambers: int
     period: float
     free: bool = False
 
     @property
     def size(self) -> int:
         """Number of variables."""
-        return 3 * self.segments + self.free
+        return 3 * self.chambers + self.free
 
     @property
     def lags(self) -> int:
-        """How many of them, from the first on, are periodic."""
-        return self.segments - 1
+        """Number of periodic variables, which come first."""
+        return self.chambers - 1
 
     def middle(self) -> Array:
-        """A point to begin at: the wave of [Majidi13], at nine tenths of the pressure."""
-        s = self.segments
+        """Point to begin at: the wave of [Majidi13], at nine tenths of the pressure."""
+        s = self.chambers
         lag, duty = 0.2, (0.4 - _DUTY[0]) / (_DUTY[1] - _DUTY[0])
         ramp = (0.5 - _LEAST) / (_GENTLEST - _LEAST)
         return np.array([lag] * (s - 1) + [duty] * s + [ramp] + [0.9] * s + [0.5] * self.free)
 
     def gait(self, point: Array, name: str = "searched") -> Gait:
-        """The gait of a point; all its times and pressures are multiples of GRID."""
-        s = self.segments
+        """Gait of a point; all its times and pressures are multiples of GRID."""
+        s = self.chambers
         lags, rest = point[: s - 1] % 1.0, np.clip(point[s - 1 :], 0.0, 1.0)
         duties = _on_grid(_DUTY[0] + (_DUTY[1] - _DUTY[0]) * rest[:s])
         room = np.minimum(duties, 1 - duties)

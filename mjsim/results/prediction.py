@@ -149,6 +149,8 @@ def prediction(
     Raises:
         ValueError: the solver does not know what the scene asks for.
     """
+    if scene.in_space:
+        raise ValueError(f"model {solver} is for strips; of a robot of limbs take {QUASI_STATIC}")
     friction = scene.reference_friction
     if not (bent and solver == REFERENCE):
         friction = replace(friction, tension=0.0)

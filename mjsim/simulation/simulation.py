@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from analytic.scene.gait import Gait
 from mjsim.friction.footing import footing
+from mjsim.friction.in_plane import Grips
 from mjsim.friction.recorder import ContactRecorder
 from mjsim.model.builder import compile_model
 from mjsim.model.chambers import Chambers
@@ -249,6 +250,16 @@ class Simulation(Copied):
             data.qpos[:] = self.data.qpos
         mujoco.mj_kinematics(self.model, data)
         return nodes_of(data, self._pads, self.numerics)
+
+    def hinges(self) -> Array:
+        """Angles of the hinges of each limb of a robot in space, up is positive, (L, N) [rad]."""
+        assert isinstance(self._joints, Hinges)
+        return self.data.qpos[self._joints.angles].reshape(-1, self.numerics.links)
+
+    def side_contacts(self) -> Array:
+        """Length over which each limb of a robot in space lies on its side, (L,) [m]."""
+        assert isinstance(self._footing, Grips)
+        return self._footing.side_contacts()
 
     def _now(self) -> Status:
         if self._stopped:

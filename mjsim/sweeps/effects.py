@@ -1,12 +1,14 @@
-"""What came of a sweep: effects of each field, alone and in pairs, on one column of results.
+"""Effects of the fields of a sweep, alone and in pairs, on one column of its results.
 
 The part of the variance that a field explains alone is that of the means over its levels (its
-first-order Sobol index, Saltelli and others 2008), less what so many levels explain by chance:
-epsilon squared (Kelley 1935). Of a pair it is the same over cells, less what both explain alone.
+first-order Sobol index, Saltelli and others 2008), less the part that so many levels explain by
+chance: epsilon squared (Kelley 1935). Of a pair it is the same over cells, less the parts of both
+fields alone.
 """
 
 import sqlite3
 from collections.abc import Mapping
+from contextlib import closing
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
@@ -20,17 +22,17 @@ from mjsim.sweeps.rows import OUTPUTS
 
 Array = NDArray[np.float64]
 
-_LEVELS = 12  # values that are told apart; more are put into bins of equal counts
+_LEVELS = 12  # distinct values that are levels; more are put into bins of equal counts
 _IN_CELL = 8  # scenes that a cell of a pair should have
 _LEAST = 3  # bins of a pair
 _NUMBERS = tuple(name for name, (kind, _, _) in OUTPUTS.items() if kind == "REAL")
 
 
 class Field(NamedTuple):
-    """A field in which scenes differ.
+    """Field in which scenes differ.
 
     Attributes:
-        name, unit: of it.
+        name, unit: of the field.
         values: of the scenes, numbers, or the place of a word in `words`, (N,).
         words: of a field without numbers, else empty.
     """
@@ -77,10 +79,10 @@ class Results:
 
     Attributes:
         fields: in which they differ, the one that explains most first.
-        quantity, unit: what is looked at.
-        values: of it, (N,).
-        parts: of its variance that each field explains alone.
-        status: how many scenes ended how, those without a number too.
+        quantity, unit: of the column.
+        values: of the quantity, (N,).
+        parts: of the variance that each field explains alone.
+        status: number of scenes by status, those without a number too.
     """
 
     fields: list[Field]
@@ -92,7 +94,7 @@ class Results:
 
 
 def load(path: Path, quantity: str) -> Results:
-    """The results of a file.
+    """Read the results of a file.
 
     Raises:
         ValueError: it is no file of a sweep, has no such column, or nothing in it differs.
@@ -101,30 +103,29 @@ def load(path: Path, quantity: str) -> Results:
         raise ValueError(f"results must be a file of undulator sweep, got {str(path)!r}")
     if quantity not in _NUMBERS:
         raise ValueError(f"quantity must be one of {', '.join(_NUMBERS)}; got {quantity!r}")
-    base = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
     try:
-        units = described(base)
-        inputs = [n for (n,) in base.execute("select name from columns where role = 'input'")]
-        names = ", ".join(f'"{name}"' for name in [*inputs, quantity])
-        rows = base.execute(f"select {names} from scenes where {quantity} is not null").fetchall()
-        status = dict(
-            base.execute("select status, count(*) from scenes group by 1 order by 2 desc")
-        )
+        with closing(sqlite3.connect(f"file:{path}?mode=ro", uri=True)) as base:
+            units = described(base)
+            inputs = [n for (n,) in base.execute("select name from columns where role = 'input'")]
+            names = ", ".join(f'"{name}"' for name in [*inputs, quantity])
+            numbers = base.execute(f"select {names} from scenes where {quantity} is not null")
+            rows = numbers.fetchall()
+            status = dict(
+                base.execute("select status, count(*) from scenes group by 1 order by 2 desc")
+            )
     except sqlite3.DatabaseError as error:
         raise ValueError(
             f"results {str(path)!r} are no file of undulator sweep: {error}"
         ) from error
-    finally:
-        base.close()
     if len(rows) < 2:
         raise ValueError(f"results {str(path)!r} have {len(rows)} scenes with a {quantity}")
-    *columns, found = zip(*rows, strict=True)
+    *columns, outputs = zip(*rows, strict=True)
     fields = [
         _field(name, units[name][0], column)
         for name, column in zip(inputs, columns, strict=True)
         if len(set(column)) > 1
     ]
-    values = np.array(found, dtype=float)
+    values = np.array(outputs, dtype=float)
     if not fields:
         raise ValueError(f"results {str(path)!r} differ in no field")
     parts = {field.name: explained(values, levels(field.values).of) for field in fields}
@@ -142,10 +143,10 @@ def _field(name: str, unit: str, column: tuple[Any, ...]) -> Field:
 
 
 def levels(values: Array, most: int = _LEVELS) -> Levels:
-    """Values as levels: each its own if they are few, else bins of equal counts."""
-    own, of = np.unique(values, return_inverse=True)
-    if len(own) <= most:
-        return Levels(of, own)
+    """Levels of values: each value one if they are few, else bins of equal counts."""
+    distinct, of = np.unique(values, return_inverse=True)
+    if len(distinct) <= most:
+        return Levels(of, distinct)
     edges = np.quantile(values, np.linspace(0, 1, most + 1)[1:-1])
     of = np.searchsorted(edges, values, side="right")
     centre = np.array([values[of == level].mean() for level in range(most)])
@@ -165,9 +166,9 @@ def explained(values: Array, groups: NDArray[np.int_]) -> float:
 
 
 def pairs(results: Results, fields: int = 4) -> list[Map]:
-    """Maps of each two of the fields that explain most, the pair that acts together most first."""
+    """Maps of each two of the fields that explain most, the largest joint effect first."""
     most = max(_LEAST, min(_LEVELS, int((len(results.values) / _IN_CELL) ** 0.5)))
-    found = []
+    maps = []
     for one, two in combinations(results.fields[:fields], 2):
         a, b = levels(one.values, most), levels(two.values, most)
         cell = b.of * len(a.centre) + a.of
@@ -178,5 +179,5 @@ def pairs(results: Results, fields: int = 4) -> list[Map]:
         alone = explained(results.values, a.of) + explained(results.values, b.of)
         part = max(0.0, explained(results.values, cell) - alone)
         shape = len(b.centre), len(a.centre)
-        found.append(Map(one, two, a.centre, b.centre, mean.reshape(shape), part))
-    return sorted(found, key=lambda pair: -pair.part)
+        maps.append(Map(one, two, a.centre, b.centre, mean.reshape(shape), part))
+    return sorted(maps, key=lambda pair: -pair.part)

@@ -1,4 +1,4 @@
-"""Where jobs of a sweep run: processes of this machine, or a Dask cluster."""
+"""Workers of a sweep: processes of this machine, or a Dask cluster."""
 
 import logging
 import multiprocessing
@@ -19,32 +19,32 @@ class LostError(RuntimeError):
 
 
 class Workers(Protocol):
-    """Runs functions elsewhere."""
+    """Executor of functions in other processes."""
 
     @property
     def count(self) -> int:
-        """How many at a time."""
+        """Number of jobs at a time."""
         ...
 
     def submit(self, work: Callable[[Any], Any], job: Any) -> "Future[Any]":
-        """Start one."""
+        """Start a job."""
         ...
 
     def check(self) -> None:
-        """Raise LostError if nothing can be had from here any more."""
+        """Raise LostError if the workers are gone."""
         ...
 
     def restart(self) -> None:
-        """Make good for processes that died."""
+        """Replace processes that died."""
         ...
 
     def close(self) -> None:
-        """Let go of what still runs."""
+        """Stop the jobs that still run."""
         ...
 
 
 class Processes:
-    """Processes of this machine, one a core if no number is given."""
+    """Processes of this machine, one per core if no number is given."""
 
     def __init__(self, count: int | None = None) -> None:
         self._count = count or os.cpu_count() or 1
@@ -63,7 +63,7 @@ class Processes:
         return self._pool.submit(work, job)
 
     def check(self) -> None:
-        """See Workers.check: broken ones are told by their futures."""
+        """See Workers.check: futures tell of broken processes."""
 
     def restart(self) -> None:
         """See Workers.restart."""
@@ -76,7 +76,7 @@ class Processes:
 
 
 class Cluster:
-    """Workers of a Dask scheduler, which were started by `dask worker`.
+    """Workers of a Dask scheduler, started by `dask worker`.
 
     Args:
         address: of the scheduler, as tcp://host:8786.
@@ -91,7 +91,7 @@ class Cluster:
         except ImportError as error:
             raise ValueError("a scheduler needs Dask: pip install 'undulator[cluster]'") from error
         for name in ("distributed", "distributed.client", "distributed.comm", "tornado"):
-            logging.getLogger(name).setLevel(logging.CRITICAL)  # what is lost is said in one line
+            logging.getLogger(name).setLevel(logging.CRITICAL)  # LostError says it in one line
         try:
             self._client: Any = Client(address, timeout=_PATIENCE, set_as_default=False)
         except (OSError, ValueError) as error:
@@ -108,7 +108,7 @@ class Cluster:
 
     def submit(self, work: Callable[[Any], Any], job: Any) -> "Future[Any]":
         """See Workers.submit."""
-        return self._executor.submit(_knowing, carried(), work, job)
+        return self._executor.submit(_adopting, carried(), work, job)
 
     def check(self) -> None:
         """See Workers.check."""
@@ -123,14 +123,14 @@ class Cluster:
         self._client.close(timeout=2)
 
 
-def _knowing(given: Carried, work: Callable[[Any], Any], job: Any) -> Any:
-    """Work with the laws and bodies of the driver, in a process that others started."""
-    adopt(given)
+def _adopting(registered: Carried, work: Callable[[Any], Any], job: Any) -> Any:
+    """Work with the laws and bodies of the driver, in a process that it did not start."""
+    adopt(registered)
     return work(job)
 
 
 def _begin() -> None:
-    """What a process does first: be quiet about divergence, and end when its driver does."""
+    """Silence warnings of divergence, and end this process when its driver ends."""
     logging.getLogger("absl").setLevel(logging.ERROR)
     parent = multiprocessing.parent_process()
     if parent is not None:

@@ -3,6 +3,7 @@
 import csv
 import sqlite3
 from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -18,16 +19,12 @@ def export(results: Path, out: Path) -> None:
         ValueError: the ending is none of these, or what writes it is not installed.
     """
     check_ending(out)
-    base = sqlite3.connect(results)
-    try:
-        with whole(out) as part:
-            _WRITERS[out.suffix](base, part)
-    finally:
-        base.close()
+    with closing(sqlite3.connect(results)) as base, whole(out) as part:
+        _WRITERS[out.suffix](base, part)
 
 
 def check_ending(out: Path) -> None:
-    """Raise ValueError for a file of another kind, or one that nothing here can write."""
+    """Raise ValueError for a file of another kind, or one whose writer is not installed."""
     if out.suffix not in _WRITERS:
         raise ValueError(f"export must end in {', '.join(_WRITERS)}, got {str(out)!r}")
     if out.suffix == ".parquet":
@@ -38,9 +35,14 @@ def check_ending(out: Path) -> None:
 
 
 def described(base: sqlite3.Connection) -> dict[str, tuple[str, str]]:
-    """Unit and meaning of each column."""
+    """Unit and meaning of each column, empty of the scenes' number."""
     rows = base.execute("select name, unit, long_name from columns")
-    return {name: (unit, text) for name, unit, text in rows}
+    return {"id": ("", "")} | {name: (unit, text) for name, unit, text in rows}
+
+
+def with_unit(name: str, unit: str) -> str:
+    """Head or label of a column: its name, and its unit in brackets if it has one."""
+    return name if unit in ("", "1") else f"{name} [{unit}]"
 
 
 def _csv(base: sqlite3.Connection, path: Path) -> None:
@@ -49,36 +51,30 @@ def _csv(base: sqlite3.Connection, path: Path) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         heads = [name for name, *_ in rows.description]
-        writer.writerow([_head(name, units.get(name, ("", ""))[0]) for name in heads])
+        writer.writerow([with_unit(name, units[name][0]) for name in heads])
         writer.writerows(rows)
-
-
-def _head(name: str, unit: str) -> str:
-    return name if unit in ("", "1") else f"{name} [{unit}]"
 
 
 def _netcdf(base: sqlite3.Connection, path: Path) -> None:
     import numpy as np
     import xarray as xr
 
+    def column(name: str) -> list[Any]:
+        return [value for (value,) in base.execute(f'select "{name}" from scenes order by id')]
+
     units = described(base)
-    kinds = {name: kind for _, name, kind, *_ in base.execute("pragma table_info(scenes)")}
     columns = {}
-    for name, kind in kinds.items():
-        if name == "id":
-            continue
-        found = [v for (v,) in base.execute(f'select "{name}" from scenes order by id')]
+    for _, name, kind, *_ in base.execute("pragma table_info(scenes)").fetchall()[1:]:
         if kind == "REAL":
-            values: Any = np.array([np.nan if v is None else v for v in found], dtype=float)
+            values: Any = np.array(column(name), dtype=float)  # None becomes NaN
         else:
-            values = np.array(["" if v is None else str(v) for v in found], dtype=object)
-        unit, text = units.get(name, ("", ""))
+            values = np.array(["" if v is None else str(v) for v in column(name)], dtype=object)
+        unit, text = units[name]
         attributes = {"long_name": text} | ({"units": unit} if unit else {})
         columns[name] = ("scene", values, attributes)
-    numbers = [v for (v,) in base.execute("select id from scenes order by id")]
-    plan = dict(base.execute("select key, value from plan"))
-    attributes = {key: str(value) for key, value in plan.items() if value is not None}
-    data = xr.Dataset(columns, coords={"scene": numbers}, attrs=attributes)
+    notes = base.execute("select key, value from plan where value is not null")
+    attributes = {key: str(value) for key, value in notes}
+    data = xr.Dataset(columns, coords={"scene": column("id")}, attrs=attributes)
     data.to_netcdf(path, engine="h5netcdf")
 
 
@@ -90,15 +86,14 @@ def _parquet(base: sqlite3.Connection, path: Path) -> None:
     types = {"REAL": pa.float64(), "INTEGER": pa.int64()}
     fields = [
         pa.field(name, types.get(kind.upper(), pa.string()),
-                 metadata={"unit": units.get(name, ("", ""))[0],
-                           "long_name": units.get(name, ("", ""))[1]})
+                 metadata=dict(zip(("unit", "long_name"), units[name], strict=True)))
         for _, name, kind, *_ in base.execute("pragma table_info(scenes)")
     ]  # fmt: skip
     schema = pa.schema(fields)
     rows = base.execute("select * from scenes order by id")
     with pq.ParquetWriter(path, schema) as writer:
-        while some := rows.fetchmany(_MANY):
-            pairs = zip(zip(*some, strict=True), fields, strict=True)
+        while chunk := rows.fetchmany(_MANY):
+            pairs = zip(zip(*chunk, strict=True), fields, strict=True)
             columns = [pa.array(column, type=field.type) for column, field in pairs]
             writer.write_table(pa.Table.from_arrays(columns, schema=schema))
 

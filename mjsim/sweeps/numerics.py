@@ -1,4 +1,4 @@
-"""Links and time step for a whole sweep, picked on its base scene."""
+"""Choice of links and time step for a whole sweep, on its base scene."""
 
 from mjsim.files.tables import build
 from mjsim.results.measures import measure
@@ -9,23 +9,24 @@ from mjsim.sweeps.plan import Plan
 
 
 def picked(plan: Plan) -> tuple[Numerics, Numerics]:
-    """The coarsest numerics that the next finer ones confirm, and these.
+    """Coarsest numerics that the next finer ones confirm, and those finer ones.
 
     Raises:
         ValueError: none do, or the scene cannot be simulated.
     """
     scene, _ = build(plan.base)
     assert plan.tolerance is not None
-    before = None
+    previous = None
     for numerics in ladder(scene):
         walk = simulate(scene, numerics)
-        step = walk.numerics.timestep
-        now = measure(walk)
-        if before is not None and now is not None:
-            change = abs(now.displacement - before[1])
-            if change <= closeness(step) * allowed(now.displacement, plan.tolerance):
-                return before[0], numerics
-        before = None if now is None else (numerics, now.displacement)
+        measures = measure(walk)
+        if previous is not None and measures is not None:
+            shift = measures.displacement
+            if abs(shift - previous[1]) <= closeness(walk.numerics.timestep) * allowed(
+                shift, plan.tolerance
+            ):
+                return previous[0], numerics
+        previous = None if measures is None else (numerics, measures.displacement)
     raise ValueError(
         f"no links and time step are sure to {plan.tolerance:g} on the base scene: take model "
         "auto, or give numerics.links and numerics.timestep in place of a tolerance"

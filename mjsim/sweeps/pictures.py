@@ -10,12 +10,13 @@ from matplotlib.figure import Figure
 
 from mjsim.files.files import whole
 from mjsim.sweeps.effects import Field, Map, Results, levels
+from mjsim.sweeps.export import with_unit
 
 _ACROSS = 3  # panels
 
 
 def main_effects(results: Results, path: Path) -> None:
-    """A panel a field: mean over its levels, and between which values 80 % of the scenes lie."""
+    """Draw a panel per field: mean over its levels, and the range of 80 % of the scenes."""
     figure, axes = _panels(len(results.fields))
     for field, part, panel in zip(results.fields, results.parts, axes, strict=False):
         of, centre = levels(field.values)
@@ -31,15 +32,15 @@ def main_effects(results: Results, path: Path) -> None:
         panel.axhline(0, color="0.6", lw=0.8)
         panel.set_title(f"explains {100 * part:.0f} % alone", fontsize=9)
         _label(panel, field, "x")
-        panel.set_ylabel(_name(results.quantity, results.unit), fontsize=8)
+        panel.set_ylabel(with_unit(results.quantity, results.unit), fontsize=8)
     _save(figure, path)
 
 
 def pair_maps(results: Results, maps: Sequence[Map], path: Path) -> list[dict[str, Any]]:
-    """A map a pair; where the quantity is 0 a line.
+    """Draw a map per pair, with a line where the quantity is 0.
 
     Returns:
-        The lines: two fields, and points of them in their units.
+        Lines: two fields, and points in their units.
     """
     figure, axes = _panels(len(maps))
     most = max(float(np.nanmax(np.abs(pair.mean))) for pair in maps) or 1.0
@@ -51,16 +52,16 @@ def pair_maps(results: Results, maps: Sequence[Map], path: Path) -> list[dict[st
         signs = np.sign(pair.mean[np.isfinite(pair.mean)])
         if min(pair.mean.shape) > 1 and signs.min() < 0 < signs.max():
             masked = np.ma.masked_invalid(pair.mean)
-            drawn = panel.contour(pair.x, pair.y, masked, levels=[0.0], colors="k", linewidths=1.5)
+            zero = panel.contour(pair.x, pair.y, masked, levels=[0.0], colors="k", linewidths=1.5)
             lines.append({
                 "fields": [pair.one.name, pair.two.name],
-                "lines": [line.tolist() for line in drawn.allsegs[0] if len(line)],
+                "lines": [line.tolist() for line in zero.allsegs[0] if len(line)],
             })  # fmt: skip
         panel.set_title(f"{100 * pair.part:.0f} % by both together", fontsize=9)
         _label(panel, pair.one, "x")
         _label(panel, pair.two, "y")
     bar = figure.colorbar(shown, ax=axes.tolist(), shrink=0.8)
-    bar.set_label(f"mean {_name(results.quantity, results.unit)}; black: 0")
+    bar.set_label(f"mean {with_unit(results.quantity, results.unit)}; black: 0")
     _save(figure, path)
     return lines
 
@@ -76,14 +77,10 @@ def _panels(count: int) -> tuple[Figure, Any]:
 
 
 def _label(panel: Any, field: Field, axis: str) -> None:
-    getattr(panel, f"set_{axis}label")(_name(field.name, field.unit), fontsize=8)
+    getattr(panel, f"set_{axis}label")(with_unit(field.name, field.unit), fontsize=8)
     if field.words:
         getattr(panel, f"set_{axis}ticks")(range(len(field.words)), field.words)
     panel.tick_params(labelsize=7)
-
-
-def _name(name: str, unit: str) -> str:
-    return name if unit in ("", "1") else f"{name} [{unit}]"
 
 
 def _save(figure: Figure, path: Path) -> None:

@@ -1,6 +1,7 @@
-"""Which scenes a sweep has: `plan.toml`.
+"""Plan of the scenes of a sweep: `plan.toml`.
 
-    model = "mujoco"           # mujoco, auto, elastica, obstacle, lifted, modes
+    model = "mujoco"           # mujoco, auto; quasi-static, the reference as run prints it; of
+                               # strips elastica, obstacle, lifted, modes
     tolerance = 0.02           # of mujoco: its links and time step are picked on the base scene
     scene = "my.toml"          # the base, or tables [scene.robot], [scene.ground], ...
 
@@ -25,7 +26,6 @@ and a sample. A scene's number is its place in that order, and never changes.
 import hashlib
 import json
 import math
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -37,6 +37,8 @@ from numpy.typing import NDArray
 from analytic.checks import is_number, one_of, whole
 from mjsim.files.quantities import check_field, field_value, with_fields
 from mjsim.files.tables import NAMES, Tables, build, check_keys, read_tables
+from mjsim.files.typed import read_toml
+from mjsim.results.prediction import QUASI_STATIC
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.auto import check_tolerance
 
@@ -54,39 +56,31 @@ seed = 1
 "robot.peak_pressure" = { from = "25 kPa", to = "55 kPa" }
 "robot.weight_per_length" = { from = 0.7, to = 2.8, log = true }
 """
-MODELS = ("mujoco", "auto", "elastica", "obstacle", "lifted", "modes")
+MODELS = ("mujoco", "auto", QUASI_STATIC, "elastica", "obstacle", "lifted", "modes")
 MOST = 100_000_000  # scenes
 MOST_LEVELS = 1_000_000  # of a field, and samples
-_KEYS = (
-    "model",
-    "tolerance",
-    "states",
-    "bent",
-    "confirm",
-    "scene",
-    "grid",
-    "latin_hypercube",
-    "list",
-)
+_KEYS = ("model", "tolerance", "states", "bent", "confirm", "scene", "grid", "latin_hypercube",
+         "list")  # fmt: skip
 _STATES = 16  # of the theory in a ramp; measured: within 1e-4 L, in the median 0.1 %
 _CONFIRM = 20  # scenes that are walked again, finer
 
 
 @dataclass(frozen=True)
 class Plan:
-    """The scenes of a sweep, in order, made when they are asked for.
+    """Scenes of a sweep, in order, made when they are asked for.
 
     Attributes:
         base: tables of the scene that they start from.
-        model: what predicts the distance.
-        tolerance: of models auto and mujoco, None if the scenes say links and time step.
+        model: that predicts the distance.
+        tolerance: of models auto and mujoco, None if the scenes give links and time step.
         states: of the theory in a ramp from no pressure to the peak.
         bent: whether friction bends the strip of the elastica, which takes six times as long.
-        confirm: how many scenes are walked again, finer, where links and time step were picked.
+        confirm: number of scenes that are walked again, finer, where links and time step were
+            picked.
         rows: of the list, fields and values.
         levels: of the grid, a field each.
         samples: of the hypercube, by field.
-        digest: of all that, in hexadecimal.
+        digest: of the plan, in hexadecimal.
     """
 
     base: Tables
@@ -132,30 +126,24 @@ class Plan:
 
 
 def read_plan(path: Path) -> Plan:
-    """The plan of a file.
+    """Read the plan of a file.
 
     Raises:
-        ValueError: it cannot be read or is no plan; the message names what.
+        ValueError: it cannot be read or is no plan; the message names the reason.
     """
-    where = f"plan {str(path)!r}"
-    try:
-        content = tomllib.loads(path.read_bytes().decode("utf-8-sig"))
-    except OSError as error:
-        raise ValueError(f"{where} cannot be read: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{where} is no TOML: {error}") from error
+    content = read_toml(path, "plan")
     try:
         return make_plan(content, path.parent)
     except ValueError as error:
-        raise ValueError(f"{where}: {error}") from error
+        raise ValueError(f"plan {str(path)!r}: {error}") from error
 
 
 def make_plan(content: Mapping[str, Any], folder: Path = Path()) -> Plan:
-    """The plan of what a file holds.
+    """Check the content of a file and make its plan.
 
     Args:
-        content: as TOML has it.
-        folder: from which a scene's file is named.
+        content: of the TOML file.
+        folder: to which the path of a scene's file is relative.
 
     Raises:
         ValueError: it is no plan.
@@ -181,16 +169,16 @@ def make_plan(content: Mapping[str, Any], folder: Path = Path()) -> Plan:
     cube = content.get("latin_hypercube", {})
     samples = _latin_hypercube(cube)
     named = [*dict.fromkeys(name for row in rows for name in row), *levels, *samples]
-    twice = next((name for name in named if named.count(name) > 1), None)
-    if twice:
-        raise ValueError(f"field {twice} must be in one of list, grid and latin_hypercube")
+    repeated = next((name for name in named if named.count(name) > 1), None)
+    if repeated:
+        raise ValueError(f"field {repeated} must be in one of list, grid and latin_hypercube")
     if not named:
         raise ValueError("needs a [grid], a [latin_hypercube] or a [[list]] of fields to change")
-    said = json.dumps(
+    text = json.dumps(
         [base, model, tolerance, states, bent, confirm, list(rows), levels, cube], sort_keys=True,
         default=str,
     )  # fmt: skip
-    digest = hashlib.sha256(said.encode()).hexdigest()[:16]
+    digest = hashlib.sha256(text.encode()).hexdigest()[:16]
     plan = Plan(base, model, tolerance, states, bent, confirm, rows, levels, samples, digest)
     if not 0 < len(plan) <= MOST:
         raise ValueError(f"must have 1 to {MOST:,} scenes, got {len(plan):,}")
@@ -198,49 +186,48 @@ def make_plan(content: Mapping[str, Any], folder: Path = Path()) -> Plan:
     return plan
 
 
-def _base(said: Any, folder: Path) -> Tables:
-    if isinstance(said, str):
-        return read_tables(folder / said)
-    if not isinstance(said, dict):
-        raise ValueError(f"scene must be a file or tables, got {said!r}")
-    for name, table in said.items():
+def _base(scene: Any, folder: Path) -> Tables:
+    if isinstance(scene, str):
+        return read_tables(folder / scene)
+    if not isinstance(scene, dict):
+        raise ValueError(f"scene must be a file or tables, got {scene!r}")
+    for name, table in scene.items():
         one_of("table of scene", name, NAMES)
-        if not isinstance(table, dict):
-            raise ValueError(f"scene.{name} must be a table, got {table!r}")
-        check_keys(name, table)
-    return said
+        check_keys(name, _table(f"scene.{name}", table))
+    return scene
+
+
+def _table(name: str, value: Any) -> dict[str, Any]:
+    if not isinstance(value, dict):
+        raise ValueError(f"{name} must be a table, got {value!r}")
+    return value
 
 
 def _list(rows: Any) -> list[dict[str, Any]]:
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
         raise ValueError(f"list must be tables, [[list]], got {rows!r}")
-    found = [{name: _value(name, value) for name, value in row.items()} for row in rows]
-    if any(set(row) != set(found[0]) for row in found):
+    if any(set(row) != set(rows[0]) for row in rows):
         raise ValueError("list: every row must have the same fields")
-    return found or [{}]
+    return [{name: _value(name, value) for name, value in row.items()} for row in rows] or [{}]
 
 
 def _grid(table: Any) -> dict[str, list[Any]]:
-    if not isinstance(table, dict):
-        raise ValueError(f"grid must be a table, got {table!r}")
     levels: dict[str, list[Any]] = {}
-    for name, said in table.items():
-        if isinstance(said, dict):
-            low, high, log = _range(name, said, ("count",))
-            whole(f"grid: count of {name}", said.get("count"), 1, MOST_LEVELS)
+    for name, given in _table("grid", table).items():
+        if isinstance(given, dict):
+            low, high, log = _range(name, given, ("count",))
+            whole(f"grid: count of {name}", given.get("count"), 1, MOST_LEVELS)
             space = np.geomspace if log else np.linspace
-            levels[name] = space(low, high, said["count"]).tolist()
-        elif isinstance(said, list) and said:
-            levels[name] = [_value(name, value) for value in said]
+            levels[name] = space(low, high, given["count"]).tolist()
+        elif isinstance(given, list) and given:
+            levels[name] = [_value(name, value) for value in given]
         else:
-            raise ValueError(f"grid: {name} must be a list or from, to and count, got {said!r}")
+            raise ValueError(f"grid: {name} must be a list or from, to and count, got {given!r}")
     return levels
 
 
 def _latin_hypercube(table: Any) -> dict[str, NDArray[np.float64]]:
-    if not isinstance(table, dict):
-        raise ValueError(f"latin_hypercube must be a table, got {table!r}")
-    if not table:
+    if not _table("latin_hypercube", table):
         return {}
     names = [name for name in table if name not in ("samples", "seed")]
     count, seed = table.get("samples"), table.get("seed", 0)
@@ -253,26 +240,27 @@ def _latin_hypercube(table: Any) -> dict[str, NDArray[np.float64]]:
     drawn = LatinHypercube(len(names), rng=np.random.default_rng(seed)).random(count)
     samples = {}
     for name, part in zip(names, drawn.T, strict=True):
-        said = table[name]
-        if isinstance(said, list) and len(said) == 2:
-            said = {"from": said[0], "to": said[1]}
-        if not isinstance(said, dict):
-            raise ValueError(f"latin_hypercube: {name} must be two numbers, got {said!r}")
-        low, high, log = _range(name, said)
+        given = table[name]
+        if isinstance(given, list) and len(given) == 2:
+            given = {"from": given[0], "to": given[1]}
+        if not isinstance(given, dict):
+            raise ValueError(f"latin_hypercube: {name} must be two numbers, got {given!r}")
+        low, high, log = _range(name, given)
         samples[name] = low * (high / low) ** part if log else low + (high - low) * part
     return samples
 
 
 def _range(
-    name: str, said: dict[str, Any], more: tuple[str, ...] = ()
+    name: str, given: dict[str, Any], more: tuple[str, ...] = ()
 ) -> tuple[float, float, bool]:
-    for key in said:
+    """Lowest and highest value in SI, and whether values between are spread logarithmically."""
+    for key in given:
         one_of(f"{name}: key", key, ("from", "to", "log", *more))
-    low, high = (_value(name, said.get(key)) for key in ("from", "to"))
+    low, high = (_value(name, given.get(key)) for key in ("from", "to"))
     for key, value in (("from", low), ("to", high)):
         if not is_number(value):
             raise ValueError(f"{name}: {key} must be a number, got {value!r}")
-    log = said.get("log", False)
+    log = given.get("log", False)
     if log and not (low > 0 and high > 0):
         raise ValueError(f"{name}: a logarithmic range must be above 0, got {low} to {high}")
     return float(low), float(high), bool(log)

@@ -1,4 +1,4 @@
-"""From points of a plan to rows of results: what a worker does."""
+"""Rows of results from points of a plan: the work of a worker."""
 
 import math
 import time
@@ -12,20 +12,22 @@ from analytic.locomotion import direction
 from analytic.uncertainty import modes_error
 from mjsim.files.quantities import with_fields
 from mjsim.files.tables import Tables, build
-from mjsim.results.prediction import displacement, prediction
+from mjsim.results.prediction import QUASI_STATIC, displacement, prediction, reference
 from mjsim.scene import Numerics, Scene
 
-REFUSED, CRASHED = "refused", "crashed"  # a bad scene; one that took its process down
+REFUSED, CRASHED = "refused", "crashed"  # a bad scene; one that broke its process
 
-OUTPUTS: dict[str, tuple[str, str, str]] = {  # column: type, unit, what it is
+OUTPUTS: dict[str, tuple[str, str, str]] = {  # column: type, unit, meaning
     "status": ("TEXT", "", "ok, or flags and failures of the model; refused, crashed"),
     "message": ("TEXT", "", "why there is no result"),
-    "displacement_over_L": ("REAL", "1", "displacement of the left end per cycle over the length"),
+    "displacement_over_L": ("REAL", "1", "displacement ahead per cycle over the length, of a "
+                            "strip's left end or a trunk's beginning"),
     "uncertainty_over_L": ("REAL", "1", "what is known of its error: of mujoco what inertia does, "
                            "of auto the last change too, of modes and lifted their assumption"),
-    "displacement_m": ("REAL", "m", "displacement of the left end per cycle"),
+    "displacement_m": ("REAL", "m", "the same"),
     "speed_m_per_s": ("REAL", "m/s", "the same over the period of the gait"),
     "direction": ("TEXT", "", "forward, backward, or none: within its uncertainty or 0.002 L"),
+    "turn_deg": ("REAL", "deg", "turn to the left per cycle, of a robot of limbs"),
     "amplitude_over_L": ("REAL", "1", "greatest height over the length"),
     "cpu_s": ("REAL", "s", "time of all cores that the scene took, set-up included"),
 }  # fmt: skip
@@ -35,12 +37,12 @@ Row = dict[str, Any]
 
 @dataclass(frozen=True)
 class Job:
-    """Some scenes to predict.
+    """Scenes to predict together.
 
     Attributes:
         base: tables of the scene that they start from.
-        model: of mjsim.sweeps.plan.MODELS.
-        points: number of a scene, and its fields in which scenes differ.
+        model: one of mjsim.sweeps.plan.MODELS.
+        points: number of a scene, and its values of the fields in which scenes differ.
         numerics: of mujoco, in place of the scenes' own.
         tolerance: of auto.
         states: of the theory in a ramp.
@@ -57,7 +59,7 @@ class Job:
 
 
 def rows_of(job: Job) -> list[Row]:
-    """A row a scene, with its number as `id`; of a bad one the message."""
+    """Row of each scene, with its number as `id`; of a bad one the message."""
     began = time.process_time()
     rows: dict[int, Row] = {}
     good: list[tuple[int, Scene, Numerics]] = []
@@ -69,11 +71,11 @@ def rows_of(job: Job) -> list[Row]:
     if job.model == "mujoco":
         rows |= _simulated(job, good)
     else:
-        one = _checked if job.model == "auto" else _predicted
-        for number, scene, _ in good:
+        predict = _checked if job.model == "auto" else _predicted
+        for number, scene, numerics in good:
             started = time.process_time()
             try:
-                rows[number] = one(job, scene)
+                rows[number] = predict(job, scene, numerics)
             except ValueError as error:
                 rows[number] = refused(str(error))
             rows[number]["cpu_s"] = time.process_time() - started
@@ -85,7 +87,7 @@ def rows_of(job: Job) -> list[Row]:
 
 
 def refused(message: str, status: str = REFUSED) -> Row:
-    """The row of a scene without a result."""
+    """Row of a scene without a result."""
     return {"status": status, "message": " ".join(message.split())}
 
 
@@ -95,8 +97,8 @@ def _simulated(job: Job, scenes: Sequence[tuple[int, Scene, Numerics]]) -> dict[
 
     rows: dict[int, Row] = {}
     alike: dict[Numerics, list[tuple[int, Scene]]] = {}
-    for number, scene, own in scenes:
-        alike.setdefault(job.numerics or own, []).append((number, scene))
+    for number, scene, numerics in scenes:
+        alike.setdefault(job.numerics or numerics, []).append((number, scene))
     for numerics, group in alike.items():
         walks = simulate_batch([scene for _, scene in group], numerics)
         for (number, _), walk in zip(group, walks, strict=True):
@@ -107,15 +109,15 @@ def _simulated(job: Job, scenes: Sequence[tuple[int, Scene, Numerics]]) -> dict[
     return rows
 
 
-def _checked(job: Job, scene: Scene) -> Row:
+def _checked(job: Job, scene: Scene, numerics: Numerics) -> Row:
     from mjsim.simulation.checked import walk_checked
 
-    found = walk_checked(scene, job.tolerance)
-    row = _walked(found.walk)
-    if not found.agreed:
+    check = walk_checked(scene, job.tolerance)
+    row = _walked(check.walk)
+    if not check.agreed:
         row["status"] = "unconverged" if row["status"] == "ok" else row["status"]
-    elif "uncertainty_over_L" in row and math.isfinite(found.error):
-        row["uncertainty_over_L"] += found.error
+    elif "uncertainty_over_L" in row and math.isfinite(check.error):
+        row["uncertainty_over_L"] += check.error
         row["direction"] = direction(row["displacement_over_L"], 1.0, row["uncertainty_over_L"])
     return row
 
@@ -126,33 +128,43 @@ def _walked(walk: Any) -> Row:
     numbers = measure(walk)
     if numbers is None:
         return {"status": str(walk.status)}
-    scene = walk.scene
-    shift = numbers.displacement * scene.robot.length
-    known = abs(numbers.unexplained)
-    return {
-        "status": str(walk.status),
-        "displacement_over_L": numbers.displacement,
-        "uncertainty_over_L": None if math.isnan(known) else known,
-        "displacement_m": shift,
-        "speed_m_per_s": shift / scene.gait.period,
-        "direction": direction(numbers.displacement, 1.0, 0.0 if math.isnan(known) else known),
-        "amplitude_over_L": numbers.amplitude,
-    }
+    error = abs(numbers.unexplained)
+    return _row(
+        walk.scene, str(walk.status), numbers.displacement, None if math.isnan(error) else error,
+        numbers.amplitude, numbers.turn,
+    )  # fmt: skip
 
 
-def _predicted(job: Job, scene: Scene) -> Row:
+def _predicted(job: Job, scene: Scene, numerics: Numerics) -> Row:
+    if job.model == QUASI_STATIC:
+        theory = reference(scene, numerics)
+        shift, flags = float(theory.displacement[0]), "+".join(theory.flags) or "ok"
+        if not math.isfinite(shift):
+            return {"status": flags}
+        height = theory.height / scene.robot.length
+        return _row(scene, flags, shift, None, height, theory.turn)
     walk = prediction(scene, job.model, states=job.states, bent=job.bent)
-    length, shift = scene.robot.length, scene.robot.length * displacement(scene, walk)
+    length, shift = scene.robot.length, displacement(scene, walk)
     flags = "+".join(flag.name.lower() for flag in walk.flags if flag.name) or "ok"
     if not math.isfinite(shift):
         return {"status": flags}
-    assumed = modes_error(walk) / length if job.model in ("modes", "lifted") else None
+    error = modes_error(walk) / length if job.model in ("modes", "lifted") else None
+    return _row(scene, flags, shift, error, float(np.nanmax(walk.shapes.amplitude)) / length)
+
+
+def _row(
+    scene: Scene, status: str, shift: float, error: float | None, amplitude: float,
+    turn: float = 0.0,
+) -> Row:  # fmt: skip
+    """Row of a scene with a result: displacement, its uncertainty and amplitude over L."""
+    metres = shift * scene.robot.length
     return {
-        "status": flags,
-        "displacement_over_L": shift / length,
-        "uncertainty_over_L": assumed,
-        "displacement_m": shift,
-        "speed_m_per_s": shift / scene.gait.period,
-        "direction": direction(shift / length, 1.0, assumed or 0.0),
-        "amplitude_over_L": float(np.nanmax(walk.shapes.amplitude)) / length,
+        "status": status,
+        "displacement_over_L": shift,
+        "uncertainty_over_L": error,
+        "displacement_m": metres,
+        "speed_m_per_s": metres / scene.gait.period,
+        "direction": direction(shift, 1.0, error or 0.0),
+        "turn_deg": math.degrees(turn) if scene.in_space else None,
+        "amplitude_over_L": amplitude,
     }

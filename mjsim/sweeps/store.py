@@ -1,10 +1,10 @@
-"""Results of a sweep in one SQLite file: a row a scene, with units and provenance beside.
+"""Results of a sweep in one SQLite file: a row per scene, with units and provenance.
 
     pandas.read_sql("select * from scenes", sqlite3.connect("results.sqlite"))
 
-Tables: `scenes`, a row a scene, numbers in the units of `columns`; `plan`, what the sweep is of;
-`sessions`, who worked on it when; `confirmations`, walks of some scenes again, finer. One driver
-writes, whole chunks in one transaction each: whatever dies leaves whole rows behind.
+Tables: `scenes`, a row per scene, numbers in the units of `columns`; `plan`, the sweep's settings;
+`sessions`, machines and times of work; `confirmations`, walks of some scenes again, finer. One
+driver writes, whole chunks in one transaction each, so that a crash leaves whole rows behind.
 """
 
 import json
@@ -13,7 +13,6 @@ import sys
 from collections.abc import Iterable, Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
-from types import TracebackType
 from typing import IO, Any
 
 from mjsim.files.quantities import field_text, field_unit
@@ -21,13 +20,13 @@ from mjsim.results.provenance import machine, origin
 from mjsim.sweeps.plan import Plan
 from mjsim.sweeps.rows import OUTPUTS, Row
 
-KIND = "undulator sweep 1"  # of file; the number is that of its layout
+KIND = "undulator sweep 2"  # of file; the number is that of its layout
 _UNUSED = 2**30 + 512  # a byte that SQLite never reads: in its page of locks, behind its own
-_TIES = ("python", "commit", "dm_control")  # what may differ between sessions of one sweep
+_FREE = ("python", "commit", "dm_control")  # versions that may differ between sessions of one sweep
 
 
 class Store:
-    """The file of a sweep, open for its one writer.
+    """File of a sweep, open for its one writer.
 
     Args:
         path: of the file; made if there is none.
@@ -46,7 +45,7 @@ class Store:
         except OSError as error:
             raise ValueError(f"out {str(path)!r} cannot be written: {error.strerror}") from error
         try:
-            _hold(self._lock)
+            _lock(self._lock)
         except OSError as error:
             self._lock.close()
             raise ValueError(f"out {str(path)!r} is being written by another sweep") from error
@@ -62,19 +61,20 @@ class Store:
         if tables:
             if "plan" not in tables:
                 raise ValueError("is no file of a sweep")
-            said = dict(self._base.execute("select key, value from plan"))
-            if said.get("kind") != KIND:
+            notes = dict(self._base.execute("select key, value from plan"))
+            if notes.get("kind") != KIND:
                 raise ValueError("is no file of a sweep")
-            if said["digest"] != plan.digest:
+            if notes["digest"] != plan.digest:
                 raise ValueError(
-                    f"holds another plan, {said['digest']}: give another file for {plan.digest}"
+                    f"holds another plan, {notes['digest']}: give another file for {plan.digest}"
                 )
-            mine, its = _versions(origin()), json.loads(said["versions"])
-            if mine != its:
-                name = next(key for key in mine if mine[key] != its.get(key))
-                raise ValueError(
-                    f"was made with {name} {its.get(name)}, here is {mine[name]}: give another file"
-                )
+            stored = json.loads(notes["versions"])
+            for name, version in _versions(origin()).items():
+                if version != stored.get(name):
+                    raise ValueError(
+                        f"was made with {name} {stored.get(name)}, here is {version}: give another "
+                        "file"
+                    )
         with self._base:
             if not tables:
                 self._create(plan)
@@ -85,40 +85,40 @@ class Store:
     def _create(self, plan: Plan) -> None:
         kinds = {name: _kind(plan, name) for name in plan.fields}
         kinds |= {name: kind for name, (kind, _, _) in OUTPUTS.items()}
-        columns = ", ".join(f'"{name}" {kind}' for name, kind in kinds.items())
+        typed = ", ".join(f'"{name}" {kind}' for name, kind in kinds.items())
         run = self._base.execute
-        run(f"create table scenes (id integer primary key, {columns})")
+        run(f"create table scenes (id integer primary key, {typed})")
         run("create table confirmations (id integer primary key, status, displacement_over_L)")
         run("create table plan (key text primary key, value text)")
         run("create table columns (name text primary key, role, unit, long_name)")
         run("create table sessions (began, origin, machine)")
-        said = {
+        notes = {
             "kind": KIND, "digest": plan.digest, "model": plan.model, "scenes": len(plan),
             "base": json.dumps(plan.base, default=str), "tolerance": plan.tolerance,
             "versions": json.dumps(_versions(origin())),
         }  # fmt: skip
-        self._base.executemany("insert into plan values (?, ?)", said.items())
-        described = [(n, "input", field_unit(n), field_text(n)) for n in plan.fields]
-        described += [(n, "output", unit, text) for n, (_, unit, text) in OUTPUTS.items()]
-        self._base.executemany("insert into columns values (?, ?, ?, ?)", described)
+        self._base.executemany("insert into plan values (?, ?)", notes.items())
+        columns = [(n, "input", field_unit(n), field_text(n)) for n in plan.fields]
+        columns += [(n, "output", unit, text) for n, (_, unit, text) in OUTPUTS.items()]
+        self._base.executemany("insert into columns values (?, ?, ?, ?)", columns)
 
     def note(self, key: str, value: str | None = None) -> str | None:
-        """Something said of the plan; written if a value is given."""
+        """Value of a key of the table `plan`, written first if it is given."""
         if value is not None:
             with self._base:
                 self._base.execute("insert or replace into plan values (?, ?)", (key, value))
-        found = self._base.execute("select value from plan where key = ?", (key,)).fetchone()
-        return found and found[0]
+        row = self._base.execute("select value from plan where key = ?", (key,)).fetchone()
+        return row and row[0]
 
     def missing(self, numbers: range, table: str = "scenes") -> list[int]:
-        """Those of some scenes that have no row yet."""
-        done = self._base.execute(
+        """Numbers of scenes that have no row yet."""
+        stored = self._base.execute(
             f"select id from {table} where id between ? and ?", (numbers[0], numbers[-1])
         )
-        return sorted(set(numbers) - {number for (number,) in done})
+        return sorted(set(numbers) - {number for (number,) in stored})
 
     def add(self, rows: Iterable[Row], points: Mapping[int, Mapping[str, Any]]) -> None:
-        """Rows of scenes and their fields, all or none of them."""
+        """Write rows of scenes and their fields, all or none of them."""
         names = ", ".join(f'"{name}"' for name in self._columns)
         marks = ", ".join("?" * (1 + len(self._columns)))
         values = [
@@ -129,13 +129,13 @@ class Store:
             self._base.executemany(f"insert into scenes (id, {names}) values ({marks})", values)
 
     def confirm(self, rows: Iterable[Row]) -> None:
-        """The same scenes walked again, finer."""
+        """Write rows of scenes that were walked again, finer."""
         values = [(row["id"], row["status"], row.get("displacement_over_L")) for row in rows]
         with self._base:
             self._base.executemany("insert into confirmations values (?, ?, ?)", values)
 
     def select(self, query: str, values: Sequence[Any] = ()) -> list[tuple[Any, ...]]:
-        """What SQL finds."""
+        """Rows of a query in SQL."""
         return self._base.execute(query, values).fetchall()
 
     def close(self) -> None:
@@ -146,20 +146,17 @@ class Store:
     def __enter__(self) -> "Store":
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:  # fmt: skip
+    def __exit__(self, *error: object) -> None:
         self.close()
 
 
-def _hold(file: IO[bytes]) -> None:
+def _lock(file: IO[bytes]) -> None:
     """Lock a file against other sweeps, until it is closed or this process ends, by kill too.
 
     Raises:
         OSError: another sweep has it.
     """
-    if sys.platform == "win32":  # where what is locked cannot be read by anybody else
+    if sys.platform == "win32":  # where no other process can read locked bytes
         import msvcrt
 
         file.seek(_UNUSED)
@@ -180,7 +177,7 @@ def _plain(value: Any) -> Any:
 
 
 def _versions(source: Mapping[str, Any]) -> dict[str, str]:
-    return {key: value for key, value in source["versions"].items() if key not in _TIES}
+    return {key: value for key, value in source["versions"].items() if key not in _FREE}
 
 
 def _why(error: Exception) -> str:

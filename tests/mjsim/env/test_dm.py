@@ -8,7 +8,7 @@ import pytest
 
 import mjsim.env
 from mjsim.env.gym import WalkEnv
-from mjsim.env.task import names
+from mjsim.env.task import Names
 
 pytest.importorskip("mjsim.env.dm_binding", exc_type=ImportError)
 from dm_control.mujoco.wrapper.mjbindings import sizes
@@ -33,7 +33,7 @@ def test_dm_controls_environment_walks_as_gymnasiums():
         step = dm.step(action)
         seen = step.observation
         assert step.reward == pytest.approx(reward, abs=1e-9)
-    assert tuple(seen) == names(3)._fields
+    assert tuple(seen) == Names._fields
 
 
 def test_a_strip_that_falls_ends_its_episode_as_gymnasiums_does():

@@ -115,7 +115,7 @@ def test_dm_controls_own_copy_is_one_and_shares_no_model():
         one.set_control(actions[3])
         one.step(20)
     assert np.array_equal(physics.data.qpos, env.physics.data.qpos)
-    assert np.array_equal(physics.named.data.qpos, physics.simulation.data.qpos)
+    assert np.array_equal(physics.named.data.qpos, physics.walker.simulation.data.qpos)
     with pytest.raises(ValueError, match="share_model must be False"):
         physics.copy(share_model=True)
 

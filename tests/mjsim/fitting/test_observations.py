@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
+from mjsim.files.tables import build
 from mjsim.fitting.observations import Run, read_observations
+from mjsim.fitting.parameters import with_values
 
 
 def read(tmp_path, text):
@@ -43,6 +45,13 @@ def test_rows_of_runs_carry_their_fields_in_si(tmp_path):
     np.testing.assert_allclose(speed.value, [2.5e-4, -5e-4])
 
 
+def test_runs_on_a_slope_are_walked_on_it(tmp_path):
+    (speed,) = read(tmp_path, "ground.slope_deg [deg],speed [mm/s]\n5,0.25\n")
+    (run,) = speed.runs
+    scene, _ = build(with_values({}, {}, dict(run.fields), run.surface))
+    assert scene.slope == pytest.approx(np.radians(5))
+
+
 def test_angles_are_of_a_segment_of_given_length(tmp_path):
     (angle,) = read(tmp_path, "pressure [psi],angle [deg],length [mm]\n1,90,50\n2,180,50\n")
     assert angle.length == pytest.approx(0.05)
@@ -61,6 +70,7 @@ def test_angles_are_of_a_segment_of_given_length(tmp_path):
         ("time [s],left [mm]\n0,a\n", "line 2: left [mm] must be a number, got 'a'"),
         ("time [s],left [mm]\n0,\n", "holds no number to fit"),
         ("robot.colour [m],speed [mm/s]\n1,2\n", "key 'colour' of [robot] is unknown"),
+        ("ground.colour [m],speed [mm/s]\n1,2\n", "key 'colour' of [ground] is unknown"),
         ("pressure [kPa],angle [deg],length [mm]\n1,2,3\n2,3,4\n", "length must be one above 0"),
         ("", "is empty"),
     ],

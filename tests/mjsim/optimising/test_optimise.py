@@ -119,15 +119,15 @@ def test_aims_rank_gaits_by_what_they_say():
     scene = Scene()
     far = Objective(scene, (SURFACES["felt"],))
     wave = GAITS["wave"]
-    assert far.worth(wave, 0.03) == 0.03
+    assert far.value(wave, 0.03) == 0.03
     speed = replace(far, aim="speed")
-    assert speed.worth(wave, 0.03) == pytest.approx(0.03 * 0.13 / 10)
+    assert speed.value(wave, 0.03) == pytest.approx(0.03 * 0.13 / 10)
     air = air_per_cycle(scene.robot, wave)
-    assert replace(far, aim="air").worth(wave, 0.03) == pytest.approx(
+    assert replace(far, aim="air").value(wave, 0.03) == pytest.approx(
         -1e3 * air.volume / (0.03 * 0.13)
     )
-    assert replace(far, aim="work").worth(wave, 0.03) == pytest.approx(-air.work / (0.03 * 0.13))
-    assert replace(far, aim="air").worth(wave, 0.001) == -np.inf
+    assert replace(far, aim="work").value(wave, 0.03) == pytest.approx(-air.work / (0.03 * 0.13))
+    assert replace(far, aim="air").value(wave, 0.001) == -np.inf
 
 
 @pytest.mark.parametrize(
