@@ -1,0 +1,267 @@
+"""Every command takes every robot, and prints the distance that `undulator run` prints."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from analytic.scene.limbs import quadruped
+from mjsim import load
+from mjsim.commands import analysis, compare, export, fit, optimise, run, sweep
+from mjsim.env.task import Settings, Walker
+from mjsim.files.tables import build, read_tables
+from mjsim.pictures.live_session import Session
+from mjsim.results.measures import measure
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.checked import walk_checked
+from mjsim.simulation.simulation import Simulation, simulate
+
+EQUAL = 1e-9  # of the length
+
+STRIP = """
+[robot]
+mass = "20 g"
+[gait]
+ramp_time = "1 s"
+[ground]
+surface = "gelatin"
+[numerics]
+links = 6
+timestep = 0.02
+"""
+QUADRUPED = """
+[robot]
+name = "quadruped"
+[gait]
+ramp_time = "1 s"
+left = 0.7
+[ground]
+surface = "gelatin"
+[numerics]
+links = 2
+timestep = 0.04
+"""
+LEG = 'length = "45 mm"\nwidth = "14 mm"\nmass = "5 g"\nat = "end"\non = "body"'
+THREE_LEGS = f"""
+[robot]
+peak_pressure = "40 kPa"
+[[robot.limbs]]
+name = "body"
+length = "30 mm"
+width = "30 mm"
+mass = "8 g"
+[[robot.limbs]]
+name = "left"
+angle_deg = 120
+{LEG}
+[[robot.limbs]]
+name = "right"
+angle_deg = -120
+segments = [1, 1]
+{LEG}
+[[robot.limbs]]
+name = "front"
+{LEG}
+[gait]
+stages = [[0, 0, 0, 0, 0], [0, 1, 1, 0, 0], [1, 0, 0, 1, 1], [0, 0, 0, 0, 1], [0, 0, 0, 0, 0]]
+ramp_time = "1 s"
+[ground]
+surface = "felt"
+[numerics]
+links = 2
+timestep = 0.04
+"""
+ROBOTS = {"strip": STRIP, "quadruped": QUADRUPED, "three-legs": THREE_LEGS}
+
+pytestmark = pytest.mark.usefixtures("coarse")
+
+
+@pytest.fixture(scope="module", params=list(ROBOTS))
+def robot(request, tmp_path_factory):
+    """A scene file, its scene and numerics, and the walk of its gait."""
+    path = tmp_path_factory.mktemp(request.param) / "scene.toml"
+    path.write_text(ROBOTS[request.param])
+    scene, numerics = build(read_tables(path))
+    return path, scene, numerics, simulate(scene, numerics)
+
+
+def said(command, words, capsys):
+    """The JSON that a command prints."""
+    assert command.main([*map(str, words), "--json"]) in (0, 3)
+    return json.loads(capsys.readouterr().out)
+
+
+def test_the_walk_of_run_is_that_of_simulate_and_is_read_back(robot, tmp_path, capsys):
+    path, _, _, walk = robot
+    row = said(run, ["--scene", path, "--no-video", "--out", tmp_path], capsys)
+    numbers = measure(walk)
+    assert row["displacement_over_L"] == pytest.approx(numbers.displacement, abs=EQUAL)
+    again = measure(load(row["trajectory"]))
+    assert again.displacement == pytest.approx(numbers.displacement, abs=EQUAL)
+    assert again.turn == pytest.approx(numbers.turn, abs=EQUAL)
+    assert row["prediction_uncertainty_over_L"] > 0
+    assert row["body"] == "planar"
+
+
+def test_compare_prints_the_distances_of_run(robot, tmp_path, capsys):
+    path, *_ = robot
+    row = said(run, ["--scene", path, "--no-video", "--out", tmp_path], capsys)
+    table = said(compare, ["--scene", path], capsys)
+    by_model = {line["model"]: line for line in table["rows"]}
+    for model, key in (("planar", "displacement_over_L"),
+                       (table["reference"], "predicted_displacement_over_L")):  # fmt: skip
+        assert by_model[model]["displacement_over_L"] == pytest.approx(row[key], abs=EQUAL)
+    bar = row["prediction_uncertainty_over_L"]
+    assert by_model[table["reference"]]["uncertainty_over_L"] == pytest.approx(bar, abs=EQUAL)
+
+
+def test_a_sweep_has_the_distances_of_run(robot, tmp_path, capsys):
+    path, *_ = robot
+    row = said(run, ["--scene", path, "--no-video", "--out", tmp_path], capsys)
+    for model, key in (("mujoco", "displacement_over_L"),
+                       ("quasi-static", "predicted_displacement_over_L")):  # fmt: skip
+        plan = tmp_path / f"{model}.toml"
+        plan.write_text(
+            f'model = "{model}"\nscene = "{path}"\n[grid]\n'
+            '"robot.peak_pressure" = [30e3, "40 kPa", 48263.299]\n'
+        )
+        out = tmp_path / f"{model}.sqlite"
+        words = [plan, "--out", out, "--workers", "1", "--export", out.with_suffix(".csv")]
+        said(sweep, words, capsys)
+        rows = pd.read_csv(out.with_suffix(".csv"), comment="#")
+        peak = row["peak_pressure_Pa"]
+        (near,) = rows[(rows["robot.peak_pressure"] - peak).abs() < 1e-3 * peak].index
+        # 7 psi was rounded to a millionth
+        within = EQUAL if peak == 40e3 else 1e-5
+        assert rows["displacement_over_L"][near] == pytest.approx(row[key], abs=within)
+        record = said(analysis, [out, "--out", tmp_path], capsys)
+        assert record["scenes"] == 3
+
+
+def test_controllers_sessions_and_environments_walk_as_the_gait_does(robot):
+    _, scene, numerics, walk = robot
+    rows = walk.pressure[walk.start + 1 :]
+    simulation = Simulation(scene, numerics)
+
+    def policy(seen):
+        return rows[round(seen.time / walk.numerics.timestep)]
+
+    by_policy = measure(simulation.run(policy))
+    assert by_policy.displacement == pytest.approx(measure(walk).displacement, abs=EQUAL)
+
+    session = Session(scene, numerics)
+    session.advance(scene.gait.period)
+    assert session.displacement == pytest.approx(measure(walk).displacement, abs=2e-3)
+
+    settings = Settings(
+        surfaces=(scene.ground.name,), base=_base(robot), control_period=0.04, numerics=numerics,
+        contacts="all" if scene.between else "ends",
+    )  # fmt: skip
+    walker = Walker(settings.scene({"ground.surface": scene.ground.name}), settings)
+    begin = walker.place
+    each = settings.steps
+    for row in rows[each - 1 :: each]:
+        walker.play(row / scene.robot.peak_pressure, each)
+    assert len(walker.sense()) == sum(settings.names)
+    went = walker.place - begin
+    assert np.sign(went) == np.sign(measure(walk).displacement) or abs(went) < 0.01
+
+
+def _base(robot):
+    return read_tables(robot[0])
+
+
+def test_a_fit_finds_the_strength_that_a_walk_had(robot, tmp_path, capsys):
+    path, scene, numerics, _ = robot
+    key = "tip_force" if scene.ground.name == "gelatin" else "shear_strength"
+    strong = replace(scene.ground, name="strong", **{key: 1.5 * getattr(scene.ground, key)})
+    walk = simulate(replace(scene, ground=strong), numerics)
+    x, z = walk.nodes()
+    rows = slice(walk.start, None, 5)
+    track = pd.DataFrame({"time [s]": walk.time[rows], "left [m]": x[rows, 0],
+                          "right [m]": x[rows, -1], "z@0.5 [m]": z[rows].max(axis=1)})  # fmt: skip
+    track.drop(columns="z@0.5 [m]").to_csv(tmp_path / "track.csv", index=False)
+    words = [tmp_path / "track.csv", "--scene", path, "--free", f"surface.{key}", "--out", tmp_path]
+    record = said(fit, words, capsys)
+    (found,) = record["parameters"]
+    assert found["value"] == pytest.approx(getattr(strong, key), rel=0.05)
+
+
+def test_a_search_finds_no_worse_a_gait_than_it_began_with(robot, tmp_path, capsys):
+    path, *_ = robot
+    words = ["--scene", path, "--evaluations", 16, "--workers", 1, "--model", "mujoco",
+             "--out", tmp_path]  # fmt: skip
+    record = said(optimise, words, capsys)
+    assert record["evaluations"] == 16
+    assert {row["surface"] for row in record["surfaces"]} >= {"felt", "gelatin"}
+
+
+def test_a_file_that_walks_by_itself_has_a_control_per_chamber(robot, tmp_path):
+    import mujoco
+
+    path, scene, *_ = robot
+    assert export.main(["--scene", str(path), "--out", str(tmp_path)]) == 0
+    (file,) = tmp_path.glob("*.xml")
+    model = mujoco.MjModel.from_xml_path(str(file))
+    assert model.nu == len(scene.robot.chambers)
+
+
+def test_valves_measured_pressures_inflated_starts_and_cycles_are_for_every_robot(robot, tmp_path):
+    _, scene, numerics, walk = robot
+    slow = replace(scene, valves=replace(scene.valves, fill_time=0.1))
+    lagged = simulate(slow, numerics)
+    assert lagged.pressure.max() < walk.pressure.max()
+    assert measure(lagged) is not None
+
+    stages = scene.gait.stages
+    inflated = replace(scene.gait, stages=(*stages[1:], stages[1]))
+    started = simulate(replace(scene, gait=inflated, cycles=2), numerics)
+    numbers = measure(started)
+    assert started.time[0] < -scene.settle_time
+    assert len(numbers.by_cycle) == 2
+
+    path = Path(tmp_path) / "record.csv"
+    heads = [f"{name} [Pa]" for name in scene.robot.chambers]
+    pd.DataFrame(walk.pressure[walk.start :], columns=heads).assign(
+        **{"time [s]": walk.time[walk.start :]}
+    )[["time [s]", *heads]].to_csv(path, index=False)
+    tables = {**_base(robot), "gait": {"file": str(path)}}
+    measured, _ = build(tables)
+    numbers = measure(simulate(measured, numerics))
+    assert numbers.displacement == pytest.approx(measure(walk).displacement, abs=2e-3)
+
+
+def test_auto_walks_every_robot_until_two_walks_agree(robot):
+    _, scene, *_ = robot
+    check = walk_checked(scene, 0.5)
+    assert check.agreed
+    assert len(check.tried) >= 2
+    assert all(two.timestep <= one.timestep for one, two in zip(check.tried, check.tried[1:],
+                                                                strict=False))  # fmt: skip
+
+
+def test_a_robot_of_one_limb_is_the_strip(tmp_path):
+    limb = STRIP.replace("[robot]\n", '[robot]\n[[robot.limbs]]\nname = "solo"\nlength = 0.13\n'
+                         "width = 0.04\nsegments = [1, 1, 1]\n")  # fmt: skip
+    scenes = []
+    for text in (STRIP, limb):
+        path = tmp_path / "scene.toml"
+        path.write_text(text)
+        scenes.append(build(read_tables(path))[0])
+    assert scenes[0] == scenes[1]
+
+
+def test_what_robots_of_limbs_cannot_do_is_said_in_one_line_with_the_reason():
+    for change, reason in (
+        ({"slope": 0.1}, "their reference knows level ground alone"),
+        ({"chamber": "sealed"}, "which is of strips"),
+        ({"actuation": "actuators"}, "actuators are of one strip"),
+        ({"contacts": "ends"}, "it has many"),
+    ):
+        with pytest.raises(ValueError, match=reason):
+            Scene(quadruped(), **change)
+    with pytest.raises(ValueError, match="side_angle does nothing for a robot in space"):
+        Simulation(Scene(quadruped()), Numerics(side_angle=0.1))
