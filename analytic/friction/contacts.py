@@ -19,7 +19,7 @@ _FLAT = 1e-3  # rad; less steep than this is flat, as in the simulation; chosen
 _POINT = 2  # nodes in a row that push in one point of contact, as it may fall between two
 
 
-class Patch(NamedTuple):
+class StripContact(NamedTuple):
     """One contact.
 
     Attributes:
@@ -60,7 +60,7 @@ class Finder:
 
     def find(
         self, force: Sequence[float], height: Sequence[float], lengths: tuple[float, float]
-    ) -> list[Patch]:
+    ) -> list[StripContact]:
         """The contacts of one state, left first.
 
         The two ends are tips or sides as in analytic.friction.contact_length, unless they curl up.
@@ -93,10 +93,10 @@ class Finder:
                 length = lengths[1 if end else 0]
                 if length and not whole:
                     length = self._side(run, push, self._place[end])
-                contacts.append(Patch([end], [1.0], length, load))
+                contacts.append(StripContact([end], [1.0], length, load))
             else:
                 share = [part / load for part in push]
-                contacts.append(Patch(run, share, self._length_between(run, push), load))
+                contacts.append(StripContact(run, share, self._length_between(run, push), load))
         return contacts
 
     def _runs(self, pushing: list[int], height: Sequence[float]) -> list[list[int]]:
@@ -132,7 +132,7 @@ class Finder:
         return length
 
 
-def patches_of(shapes: ContactShapes, height: Array, state: int) -> list[Patch]:
+def contacts_of(shapes: ContactShapes, height: Array, state: int) -> list[StripContact]:
     """The contacts of one of several states, its nodes at heights of shape (B, N) [m]."""
     lengths = float(shapes.contact_left[state]), float(shapes.contact_right[state])
     finder = Finder(shapes.robot, shapes.nodes)

@@ -25,7 +25,7 @@ _MOST_STEPS, _ENOUGH = 60, 1e-13
 _SHORTEST = 1e-12  # of a step that a line search tries
 
 
-class Motion(NamedTuple):
+class PlanarMotion(NamedTuple):
     """How the whole moves.
 
     Attributes:
@@ -43,7 +43,7 @@ class Motion(NamedTuple):
 
 def least_dissipation_in_plane(
     bounds: Array, places: Array, moves: Array, viscous: Array | None = None
-) -> Motion:
+) -> PlanarMotion:
     """The motion of the whole.
 
     Args:
@@ -64,7 +64,7 @@ def least_dissipation_in_plane(
         )
     size = float(np.abs(moves).max())
     if size == 0.0:
-        return Motion(np.zeros(2), 0.0, np.zeros_like(moves), 0.0)
+        return PlanarMotion(np.zeros(2), 0.0, np.zeros_like(moves), 0.0)
     centre = places.mean(axis=0)
     arms = places - centre
     reach = float(np.abs(arms).max()) or 1.0
@@ -82,7 +82,7 @@ def least_dissipation_in_plane(
     lost = bounds @ np.hypot(*slip.T)
     if viscous is not None:
         lost += np.asarray(viscous) @ (slip**2).sum(axis=1)
-    return Motion(shift, turn, slip, float(lost))
+    return PlanarMotion(shift, turn, slip, float(lost))
 
 
 def _minimise(weights: Array, thick: Array, lever: Array, moves: Array) -> Array:

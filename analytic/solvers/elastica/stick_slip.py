@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.contact_length import end_loads, side_contact
-from analytic.friction.contacts import Finder, Patch
+from analytic.friction.contacts import Finder, StripContact
 from analytic.friction.laws import LAWS, Friction
 from analytic.scene.chain import node_positions
 from analytic.scene.ground import over
@@ -49,7 +49,7 @@ class StickSlip:
         self._finder = Finder(chain.robot, self._nodes, self._press)
         self._pull = friction.downhill(chain.robot) / chain.force_unit
         self._unit = friction.tension / chain.force_unit
-        self.contacts: list[Patch] = []
+        self.contacts: list[StripContact] = []
         self.slips = np.zeros(0, dtype=int)
         self._before = self._nodes / chain.robot.length
         self._speed, self._slid = 0.0, np.zeros(0)
@@ -99,11 +99,11 @@ class StickSlip:
         contacts = self._touching(state)
         robot, law = self._chain.robot, LAWS[self._friction.law]
         x = self._places(state) * robot.length
-        under = [over(self._ground, *patch.extent(x)) for patch in contacts]
+        under = [over(self._ground, *contact.extent(x)) for contact in contacts]
         bounds, drag = self._unit * np.array([
-            (law.bound(surface, robot.width, patch.length, patch.load),
-             surface.drag(robot.width, patch.length))
-            for surface, patch in zip(under, contacts, strict=True)
+            (law.bound(surface, robot.width, contact.length, contact.load),
+             surface.drag(robot.width, contact.length))
+            for surface, contact in zip(under, contacts, strict=True)
         ]).reshape(-1, 2).T  # fmt: skip
         speed = self._slid if len(contacts) == len(self._slid) else np.zeros(len(contacts))
         bounds *= [surface.at_speed(v * self._speed)
@@ -121,7 +121,7 @@ class StickSlip:
         self._take(contacts, bounds, drag)
         return alike
 
-    def _touch_alike(self, contacts: list[Patch]) -> bool:
+    def _touch_alike(self, contacts: list[StripContact]) -> bool:
         """Whether the contacts are where they were."""
         if [one.nodes for one in contacts] != [one.nodes for one in self.contacts]:
             return False
@@ -137,23 +137,23 @@ class StickSlip:
 
     def signature(self) -> tuple[tuple[bool, int], ...]:
         """Which contacts there are, tips or sides, and which of them stick or slide."""
-        sides = (patch.length > 0 for patch in self.contacts)
+        sides = (contact.length > 0 for contact in self.contacts)
         return tuple(zip(sides, self.slips.tolist(), strict=True))
 
-    def _take(self, contacts: list[Patch], bounds: Array, drag: Array) -> None:
+    def _take(self, contacts: list[StripContact], bounds: Array, drag: Array) -> None:
         if len(contacts) != len(self.contacts):
             self.slips = np.zeros(len(contacts), dtype=int)
         self.contacts, self.bounds, self._drag = contacts, bounds, drag
         self._share = np.zeros((len(contacts), len(self._nodes)))
-        for row, patch in zip(self._share, contacts, strict=True):
-            row[patch.nodes] = patch.share
+        for row, contact in zip(self._share, contacts, strict=True):
+            row[contact.nodes] = contact.share
         self._columns = -np.cumsum(self._share.T, axis=0)[:-1]
 
     def _places(self, state: ChainState) -> Array:
         """x of the nodes over L."""
         return state.left + _nodes_of(self._chain.length * np.cos(state.theta))
 
-    def _touching(self, state: ChainState) -> list[Patch]:
+    def _touching(self, state: ChainState) -> list[StripContact]:
         chain, robot = self._chain, self._chain.robot
         force = chain.ground_force(state)[None, :] * chain.force_unit
         height = state.y[None, :] * robot.length
@@ -165,7 +165,7 @@ class StickSlip:
             return self._finder.find(force[0].tolist(), height[0].tolist(), lengths)
         loads = end_loads(force, height)
         ends = 0, len(self._nodes) - 1
-        return [Patch([ends[i]], [1.0], lengths[i], float(loads[i][0])) for i in (0, 1)]
+        return [StripContact([ends[i]], [1.0], lengths[i], float(loads[i][0])) for i in (0, 1)]
 
 
 class _FixedPoint:
