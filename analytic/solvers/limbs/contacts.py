@@ -1,11 +1,11 @@
-"""Where a tree of limbs touches the ground, how strongly that resists, and where it acts.
+"""Contacts of a tree of limbs with the ground: where they are and how strongly they resist.
 
 As for the strip of [Majidi13], section 2.2: a limb whose free end is inflated touches by its tip,
-which resists by V_t and bears all that pushes the limb; one without pressure lies on its side over
-a length that follows from the ground's forces (analytic.friction.contact_length), which resists by
-tau times its area; a belly that touches in between is a side of no area. A limb that lies flat as a
-whole passes on to its carrier what its side does not carry. Limbs that begin at one place share the
-tip force of an end by their widths.
+which resists by V_t and carries all that pushes the limb; one without pressure lies on its side
+over a length that follows from the ground's forces (analytic.friction.contact_length), which
+resists by tau times its area; an underside that touches in between is a side of no area. A limb
+that lies flat as a whole passes on to its carrier what its side does not carry. Limbs that begin at
+one place share the tip force of an end by their widths.
 """
 
 from typing import NamedTuple
@@ -29,6 +29,7 @@ _POINTS = (0.5 - 12**-0.5, 0.5 + 12**-0.5)  # of a side: two that resist turning
 _NEAR, _WHOLE = 2, 1e-9  # elements from an end that count as there; of a length: all of it
 _HARDLY = 1e-9  # of a length
 _TOUCHES = 1e-6  # of the weight: a node that pushes less hovers
+_INSTANT = 1e-12  # s; a shortest increment
 
 
 class Contact(NamedTuple):
@@ -138,11 +139,20 @@ class Contacts:
             found.append(Contact(i, _HARDLY * length, (moment / load,), load))
         return found
 
-    def places(self, rest: Rest, contacts: list[Contact]) -> Array:
-        """Places of all points that resist, (C, 2) [m]."""
-        return np.array(
-            [self.point(rest, contact.limb, at) for contact in contacts for at in contact.at]
-        ).reshape(-1, 2)
+    def weights(self, contacts: list[Contact]) -> Array:
+        """Weights of the nodes in the points of all contacts that resist, (C, P)."""
+        limbs = [contact.limb for contact in contacts for _ in contact.at]
+        return self._tree.points(limbs, [at for contact in contacts for at in contact.at])
+
+    def resistances(self, contacts: list[Contact], ground: Ground, x: Array) -> tuple[Array, Array]:
+        """Bounds [N] and viscous resistances [N s/m] of all these points, at places x (C,) [m]."""
+        points = [contact for contact in contacts for _ in contact.at]
+        pairs = [
+            self.resistance(contact, ground.at(place))
+            for contact, place in zip(points, x.tolist(), strict=True)
+        ]
+        bounds, viscous = np.array(pairs).reshape(-1, 2).T
+        return bounds, viscous
 
     def resistance(self, contact: Contact, surface: Surface) -> tuple[float, float]:
         """Bound of friction [N] and viscous resistance [N s/m] of each point of a contact."""
@@ -155,13 +165,6 @@ class Contacts:
         if not contact.length and not self._law.needs_load:
             bound *= self._share[contact.limb]
         return float(bound) / points, float(surface.drag(width, contact.length)) / points
-
-    def point(self, rest: Rest, limb: int, at: float) -> Array:
-        """Place of a point of a limb's middle line in plan, (2,) [m]."""
-        here, half = self._slice(limb), len(rest.nodes) // 2
-        middle = 0.5 * (rest.nodes[:half][here] + rest.nodes[half:][here])
-        arclength = self._tree.arclength[here]
-        return np.array([np.interp(at, arclength, middle[:, k]) for k in (0, 1)])
 
     def _slice(self, limb: int) -> slice:
         return slice(limb * self._per_limb, (limb + 1) * self._per_limb)
@@ -251,3 +254,15 @@ def check_ground(ground: Ground) -> None:
                 f"{what} of surface {surface.name!r} is for strips, not for robots of limbs; got "
                 f"{getattr(surface, what)!r}"
             )
+
+
+def durations(ground: Ground, times: Array | None, states: int) -> Array:
+    """Durations of the increments between states, (B - 1,) [s]; of 1 s each without times.
+
+    Raises:
+        ValueError: the ground is viscous and no times are given, or see check_ground.
+    """
+    check_ground(ground)
+    if times is None and any(surface.viscosity for surface in surfaces_of(ground)):
+        raise ValueError(f"times of the shapes must be given on viscous ground {ground.name!r}")
+    return np.maximum(np.diff(np.arange(float(states)) if times is None else times), _INSTANT)

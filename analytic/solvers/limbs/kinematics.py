@@ -8,6 +8,7 @@ points), pitch (up) and roll (left side up), then the hinges, trunk first; a hin
 outward direction up.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -177,7 +178,7 @@ class Tree:
         upper = np.where(self.above.T, inner, 0.0)
         return np.asarray(upper + np.tril(upper.T, -1) * (~self.above.T))
 
-    def points(self, limbs: NDArray[np.int_], at: Array) -> Array:
+    def points(self, limbs: Sequence[int], at: Sequence[float]) -> Array:
         """Weights of the nodes in points of the limbs' middle lines, (C, P).
 
         Args:

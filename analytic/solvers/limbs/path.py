@@ -1,4 +1,4 @@
-"""Where a tree of limbs went."""
+"""The path of a tree of limbs: its shapes, contacts, places and headings."""
 
 from dataclasses import dataclass
 
@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Path:
-    """Where a tree went.
+    """The path of a tree through B states.
 
     Attributes:
         pressures: of the limbs, (B, L) [Pa].
@@ -21,7 +21,6 @@ class Path:
         contacts: of each state.
         place: of the trunk's beginning, (B, 2) [m].
         heading: of the trunk, to the left, (B,) [rad].
-        converged: whether all shapes are equilibria.
     """
 
     pressures: Array
@@ -29,14 +28,18 @@ class Path:
     contacts: list[list[Contact]]
     place: Array
     heading: Array
-    converged: bool
 
     @property
     def displacement(self) -> Array:
-        """Of the trunk's beginning in all, (2,) [m]."""
+        """Displacement of the trunk's beginning in all, (2,) [m]."""
         return np.asarray(self.place[-1] - self.place[0])
 
     @property
     def turn(self) -> float:
-        """Of the trunk in all, to the left [rad]."""
+        """Turn of the trunk in all, to the left [rad]."""
         return float(self.heading[-1] - self.heading[0])
+
+    @property
+    def converged(self) -> bool:
+        """True if all shapes are equilibria."""
+        return all(rest.converged for rest in self.rests)

@@ -2,9 +2,8 @@
 
 The least energy over heights that are not below 0, found by an augmented Lagrangian (Hestenes and
 Powell): Newton's method with exact second derivatives inside, multipliers outside, which are the
-ground's forces in the end. Roll and pitch follow from it like every other angle. Without a grip
-friction bends nothing: the limit of weak friction, as in section 2.2 of [Majidi13]; x, y and yaw
-stay as they are.
+ground's forces in the end. Roll and pitch follow from it like every other angle. Without friction
+x, y and yaw stay as they are: the limit of weak friction, as in section 2.2 of [Majidi13].
 """
 
 from typing import NamedTuple
@@ -15,7 +14,7 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve, eigh
 
 from analytic.scene.chain import joint_springs
 from analytic.scene.limbs import rotation
-from analytic.solvers.limbs.grip import Grip, held
+from analytic.solvers.limbs.friction import ContactFriction
 from analytic.solvers.limbs.kinematics import HEIGHT, IN_PLAN, WHOLE, Pose, Tree
 
 Array = NDArray[np.float64]
@@ -23,12 +22,12 @@ Array = NDArray[np.float64]
 _STIFF = 3e4  # of the ground in the Lagrangian: weight over length; chosen
 _INNER, _OUTER = 100, 60
 _FLAT = 1e-13  # of a direction without stiffness, over the stiffest
-_STILL, _STILL_HELD = 1e-11, 1e-9  # of the gradient, weight times length; sharp friction rounds
-_SETTLED, _SETTLED_HELD = 1e-8, 1e-5  # of forces: weight
-_GAIN_HELD = 1e-16  # of energy, weight times length: less is none
+_STILL, _STILL_SHARP = 1e-11, 1e-9  # of the gradient, weight times length; sharp friction rounds
+_SETTLED, _SETTLED_SHARP = 1e-8, 1e-5  # of forces: weight
+_GAIN_SHARP = 1e-16  # of energy, weight times length: less is none
 _SHORTEST = 1e-9
 _LONGEST = 0.5  # change of an angle in a step [rad]
-_SMOOTH, _SHARP, _SHARPER = 1e-3, 1e-7, 0.2  # slips told apart from 0, over the length
+_SMOOTH, _SHARP, _SHARPER = 1e-3, 1e-7, 0.2  # slips that count beside 0, over the length
 
 
 class Rest(NamedTuple):
@@ -55,7 +54,6 @@ class Statics:
 
     Attributes:
         length: of the robot along its trunk [m].
-        iterations: Newton steps so far.
     """
 
     def __init__(self, tree: Tree) -> None:
@@ -66,7 +64,6 @@ class Statics:
         self._scale = np.ones(len(tree.parent))
         self._scale[: HEIGHT + 1] = self.length
         self._ground = _STIFF * self._weight / self.length
-        self.iterations = 0
 
     def flat(self) -> Rest:
         """Lying on the ground without pressure."""
@@ -82,26 +79,30 @@ class Statics:
         stiffness, rest = (np.concatenate([part[i][0] for part in parts]) for i in (0, 1))
         return stiffness, rest
 
-    def equilibrium(self, pressures: Array, guess: Rest, grip: Grip | None = None) -> Rest:
+    def equilibrium(
+        self, pressures: Array, guess: Rest, friction: ContactFriction | None = None
+    ) -> Rest:
         """The equilibrium near a guess.
 
         Args:
             pressures: of the limbs, (L,) [Pa].
             guess: of a neighbouring state.
-            grip: friction on the way there; none if None.
+            friction: on the way there; none if None.
         """
         stiffness, rest = self.springs(pressures)
         q, force = guess.q.copy(), guess.force.copy()
         sharpness = _SMOOTH * self.length
         for _ in range(_OUTER):
-            q, still = self._minimise(q, force, (stiffness, rest), grip, sharpness)
+            q, still = self._minimise(q, force, (stiffness, rest), friction, sharpness)
             pose = self.tree.pose(q)
             new = np.maximum(0.0, force - self._ground * pose.nodes[:, 2])
             change = float(np.abs(new - force).max())
             force = new
-            if grip is not None and sharpness > _SHARP * self.length:
+            if friction is not None and sharpness > _SHARP * self.length:
                 sharpness = max(_SHARPER * sharpness, _SHARP * self.length)
-            elif still and change < (_SETTLED if grip is None else _SETTLED_HELD) * self._weight:
+            elif (
+                still and change < (_SETTLED if friction is None else _SETTLED_SHARP) * self._weight
+            ):
                 return Rest(q, pose.nodes, force, True)
         return Rest(q, self.tree.pose(q).nodes, force, False)
 
@@ -110,12 +111,12 @@ class Statics:
         q: Array,
         multiplier: Array,
         springs: tuple[Array, Array],
-        grip: Grip | None,
+        friction: ContactFriction | None,
         sharpness: float,
     ) -> tuple[Array, bool]:
         """Newton's method on the Lagrangian at given multipliers."""
         tree, ground, (stiffness, rest) = self.tree, self._ground, springs
-        still = (_STILL if grip is None else _STILL_HELD) * self._weight * self.length
+        still = (_STILL if friction is None else _STILL_SHARP) * self._weight * self.length
 
         def energy(at: Array) -> float:
             nodes = tree.pose(at).nodes
@@ -123,9 +124,9 @@ class Statics:
             push = np.maximum(0.0, multiplier - ground * height)
             bent = at[WHOLE:] - rest
             stored = 0.5 * stiffness @ bent**2 + tree.weight @ height + 0.5 * push @ push / ground
-            return float(stored) + (grip.cost(nodes, sharpness) if grip else 0.0)
+            return float(stored) + (friction.cost(nodes, sharpness) if friction else 0.0)
 
-        now = energy(q)
+        value = energy(q)
         for _ in range(_INNER):
             pose = tree.pose(q)
             push = np.maximum(0.0, multiplier - ground * pose.nodes[:, 2])
@@ -134,13 +135,13 @@ class Statics:
             gradient = rise.T @ net
             gradient[WHOLE:] += stiffness * (q[WHOLE:] - rest)
             hessian = self._hessian(pose, net, rise[push > 0], stiffness)
-            if grip is None:
+            if friction is None:
                 gradient[list(IN_PLAN)] = 0.0
                 hessian[IN_PLAN, :] = hessian[:, IN_PLAN] = 0.0
                 hessian[IN_PLAN, IN_PLAN] = ground
             else:
-                pull, firm = held(tree, pose, grip, sharpness)
-                gradient, hessian = gradient + pull, hessian + firm
+                pull, stiff = friction.slopes(tree, pose, sharpness)
+                gradient, hessian = gradient + pull, hessian + stiff
             gradient *= self._scale
             if np.abs(gradient).max() < still:
                 return q, True
@@ -148,21 +149,20 @@ class Statics:
             step = -_solved(hessian, gradient)
             step *= min(1.0, _LONGEST / float(np.abs(step).max()))
             fall, part = float(gradient @ step), 1.0
-            self.iterations += 1
-            if grip is not None and -fall < _GAIN_HELD * self._weight * self.length:
+            if friction is not None and -fall < _GAIN_SHARP * self._weight * self.length:
                 return q, True
-            rounding = 1e-13 * abs(now)
-            while (then := energy(q + part * self._scale * step)) > (
-                now + 1e-4 * part * fall + rounding
+            rounding = 1e-13 * abs(value)
+            while (trial := energy(q + part * self._scale * step)) > (
+                value + 1e-4 * part * fall + rounding
             ):
                 part *= 0.5
                 if part < _SHORTEST:
                     return q, False
-            q, now = q + part * self._scale * step, then
+            q, value = q + part * self._scale * step, trial
         return q, False
 
     def _hessian(self, pose: Pose, net: Array, pushed: Array, stiffness: Array) -> Array:
-        """Of springs, weight and the ground's push, whose nodes rise by `pushed` (., Q)."""
+        """Hessian of springs, weight and the ground's push, whose nodes rise by `pushed` (., Q)."""
         force = np.zeros_like(pose.nodes)
         force[:, 2] = net
         hessian = self.tree.bending(pose, force) + self._ground * pushed.T @ pushed
