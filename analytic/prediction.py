@@ -214,25 +214,14 @@ def predict(
             fractions, times = gait.path(states_per_ramp, cycles)
         path = robot.peak_pressure * fractions
     path = np.asarray(path, dtype=float)
-    when = None if times is None else np.asarray(times, dtype=float)
-    clock = np.arange(float(len(path))) if when is None else when
-    if depends_on_speed(ground) and (not friction.tension or when is None):
+    clock = np.asarray(np.arange(len(path)) if times is None else times, dtype=float)
+    if depends_on_speed(ground) and (not friction.tension or times is None):
         raise ValueError(
             f"ground {ground.name!r} resists by speed: friction must have a tension above 0, and a "
             "path its times"
         )
-    shapes = solver.solve(robot, path, ground, friction, when)
-    changes = np.flatnonzero(_anchor_changes(shapes, ground, friction))
-    if len(changes) and refinement > 1:
-        path, clock = _refined(path, changes, refinement), _refined(clock, changes, refinement)
-        shapes = solver.solve(robot, path, ground, friction, None if when is None else clock)
-    flags = Status(int(np.bitwise_or.reduce(shapes.status)))
-    locomotion = displacements(shapes, ground, cycles, friction)
-    ends = np.linspace(clock[0], clock[-1], cycles + 1)
-    by_cycle = np.diff(np.interp(ends, clock, locomotion.left))
-    if isinstance(ground, Surface):
-        locomotion = locomotion._replace(per_cycle=float(by_cycle[-1]))
-    return Prediction(path, shapes, locomotion, flags, by_cycle)
+    walk = _Walk(robot, solver, friction, refinement, cycles, timed=times is not None)
+    return walk.on([ground], path, clock)[0]
 
 
 def predict_grounds(
@@ -256,16 +245,43 @@ def predict_grounds(
     """
     friction = replace(friction, tension=0.0)
     path = robot.peak_pressure * gait.path(states_per_ramp)[0]
-    shapes = solver.solve(robot, path, grounds[0], friction, None)
-    changes = np.flatnonzero(
-        np.any([_anchor_changes(shapes, ground, friction) for ground in grounds], axis=0)
-    )
-    if len(changes) and refinement > 1:
-        path = _refined(path, changes, refinement)
-        shapes = solver.solve(robot, path, grounds[0], friction, None)
-    flags = Status(int(np.bitwise_or.reduce(shapes.status)))
-    walks = [displacements(shapes, ground, 1, friction) for ground in grounds]
-    return [Prediction(path, shapes, walk, flags, walk.left[-1:]) for walk in walks]
+    walk = _Walk(robot, solver, friction, refinement, cycles=1, timed=False)
+    return walk.on(grounds, path, np.arange(float(len(path))))
+
+
+class _Walk(NamedTuple):
+    """Options of a walk, see predict; `timed` if its states have times that matter."""
+
+    robot: Robot
+    solver: Solver
+    friction: Friction
+    refinement: int
+    cycles: int
+    timed: bool
+
+    def on(self, grounds: Sequence[Ground], path: Array, clock: Array) -> list[Prediction]:
+        """Predictions on grounds that shapes are alike on, at pressures (B, S) and times (B,)."""
+        shapes = self._shapes(grounds[0], path, clock)
+        changes = np.flatnonzero(
+            np.any([_anchor_changes(shapes, ground, self.friction) for ground in grounds], axis=0)
+        )
+        if len(changes) and self.refinement > 1:
+            path, clock = (_refined(values, changes, self.refinement) for values in (path, clock))
+            shapes = self._shapes(grounds[0], path, clock)
+        flags = Status(int(np.bitwise_or.reduce(shapes.status)))
+        ends = np.linspace(clock[0], clock[-1], self.cycles + 1)
+        predictions = []
+        for ground in grounds:
+            locomotion = displacements(shapes, ground, self.cycles, self.friction)
+            by_cycle = np.diff(np.interp(ends, clock, locomotion.left))
+            if isinstance(ground, Surface):
+                locomotion = locomotion._replace(per_cycle=float(by_cycle[-1]))
+            predictions.append(Prediction(path, shapes, locomotion, flags, by_cycle))
+        return predictions
+
+    def _shapes(self, ground: Ground, path: Array, clock: Array) -> Shapes:
+        times = clock if self.timed else None
+        return self.solver.solve(self.robot, path, ground, self.friction, times)
 
 
 def _refined(values: Array, changes: NDArray[np.int_], parts: int) -> Array:

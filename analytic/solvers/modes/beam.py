@@ -56,10 +56,10 @@ def lift(k: Array, g: Array, a: Array, b: Array) -> Lifted:
     bend, turn = _integrals(quadratic, size)  # of y'' over a piece: once and twice
     total_turn = (turn + bend * (to_b - size)).sum(axis=1)  # int_a^b (b - u) y'' du
     slope_a = -total_turn / (b - a)
-    slope = slope_a[:, None] + _before(bend)
+    slope = slope_a[:, None] + before(bend)
     rise = slope * size + turn
     slope_b = slope_a + bend.sum(axis=1)
-    return Lifted(a, b, start, size, quadratic, slope, _before(rise), slope_b)
+    return Lifted(a, b, start, size, quadratic, slope, before(rise), slope_b)
 
 
 def _integrals(quadratic: Array, t: Array) -> tuple[Array, Array]:
@@ -68,10 +68,10 @@ def _integrals(quadratic: Array, t: Array) -> tuple[Array, Array]:
     return t * (a + t * (b / 2 + t * c / 3)), t * t * (a / 2 + t * (b / 6 + t * c / 12))
 
 
-def _before(parts: Array) -> Array:
-    """Sum of the pieces before each piece, shape (B, 3)."""
-    sums = np.cumsum(parts, axis=1)
-    return np.concatenate([np.zeros_like(sums[:, :1]), sums[:, :-1]], axis=1)
+def before(parts: Array) -> Array:
+    """Sum of the pieces before each piece, along the last axis."""
+    sums = np.cumsum(parts, axis=-1)
+    return np.concatenate([np.zeros_like(sums[..., :1]), sums[..., :-1]], axis=-1)
 
 
 def shortening(lifted: Lifted, s: Array) -> Array:
@@ -93,20 +93,18 @@ def extremes(lifted: Lifted) -> tuple[Array, Array]:
     a, b, c = lifted.quadratic
     t = real_cubic_roots(c / 3, b / 2, a, lifted.slope)  # y' = 0
     inside = (t > 0) & (t < lifted.size[..., None])
-    t = np.where(inside, t, 0.0)
-    turn = _integrals(lifted.quadratic[..., None], t)[1]
-    at_turns = lifted.height[..., None] + lifted.slope[..., None] * t + turn
-    flat = at_turns.reshape(len(at_turns), -1)
-    return np.minimum(flat.min(axis=1), 0.0), np.maximum(flat.max(axis=1), 0.0)
+    turning = _height(lifted, np.where(inside, t, 0.0)).reshape(len(lifted.a), -1)
+    return np.minimum(turning.min(axis=1), 0.0), np.maximum(turning.max(axis=1), 0.0)
 
 
 def heights(lifted: Lifted, s: Array) -> Array:
     """Height at material points s of shape (S,), 0 off the lifted part, shape (B, S)."""
-    height = np.zeros((len(lifted.a), len(s)))
-    for j in range(SEGMENTS):
-        t = s - lifted.start[:, j, None]
-        here = (t >= 0) & (t < lifted.size[:, j, None])
-        _, turn = _integrals(lifted.quadratic[:, :, j, None], t)
-        rise = lifted.height[:, j, None] + lifted.slope[:, j, None] * t + turn
-        height = np.where(here, rise, height)
-    return height
+    t = s - lifted.start[..., None]
+    inside = (t >= 0) & (t < lifted.size[..., None])
+    return np.where(inside, _height(lifted, t), 0.0).sum(axis=1)
+
+
+def _height(lifted: Lifted, t: Array) -> Array:
+    """Height at t of each piece, both of shape (B, 3, T)."""
+    turn = _integrals(lifted.quadratic[..., None], t)[1]
+    return np.asarray(lifted.height[..., None] + lifted.slope[..., None] * t + turn)
