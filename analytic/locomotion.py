@@ -1,4 +1,4 @@
-"""From a sequence of shapes and a ground to the way the robot goes ([Majidi13], section 2.2)."""
+"""Locomotion of a robot along a sequence of shapes on a ground ([Majidi13], section 2.2)."""
 
 from typing import Literal, NamedTuple
 
@@ -46,7 +46,7 @@ def displacements(
     Args:
         shapes: states in order of time, evenly or unevenly spaced; finer is more accurate.
         ground: under the left end at x = 0 and on both sides of it.
-        cycles: number of cycles that the sequence holds.
+        cycles: number of cycles in the sequence.
         friction: law and slope.
 
     Raises:
@@ -73,13 +73,13 @@ def displacements(
 def along(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, NDArray[np.bool_]]:
     """Displacement of the left end where the ground changes under the robot, (B,) [m].
 
-    Also the increments in which another end begins to hold, (B - 1,).
+    Also the increments in which another end begins to stick, (B - 1,).
     """
     law, width = LAWS[friction.law], shapes.robot.width
     contact, load = _ends(shapes, friction.law)
     downhill = friction.downhill(shapes.robot)
     left = np.zeros(len(shapes))
-    changes, last = np.zeros(len(shapes) - 1, dtype=bool), 0.5
+    changes, before = np.zeros(len(shapes) - 1, dtype=bool), 0.5
     for i, separation in enumerate(shapes.separation[:-1]):
         change = shapes.separation[i + 1] - separation
         slips, surfaces, x = [], [], left[i]
@@ -91,8 +91,8 @@ def along(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, ND
             surfaces.append((ground.at(x), ground.at(right)))
             x = left[i] - slips[0] * change  # where the second state would be by the first's rule
         left[i + 1] = left[i] - 0.5 * sum(slips) * change
-        changes[i] = slips[0] != slips[1] or slips[0] != last or surfaces[0] != surfaces[1]
-        last = slips[1]
+        changes[i] = slips[0] != slips[1] or slips[0] != before or surfaces[0] != surfaces[1]
+        before = slips[1]
     return left, changes
 
 
@@ -138,7 +138,7 @@ def _ends(shapes: Shapes, law: str) -> tuple[tuple[Array, Array], tuple[Array, A
 
 
 def undecided(shapes: Shapes, surface: Surface, law: str = "coulomb", alike: float = 0.0) -> float:
-    """How much of the displacement along a sequence the law leaves open, either way [m].
+    """Displacement along a sequence that the law leaves open, either way [m].
 
     Where both ends resist alike, by nothing or to the last digit, Coulomb's law does not say which
     one slides: the whole change of separation may be the left end's or the right end's, and
@@ -146,12 +146,12 @@ def undecided(shapes: Shapes, surface: Surface, law: str = "coulomb", alike: flo
 
     Args:
         shapes, surface, law: the walk.
-        alike: part of the larger bound by which two may differ and count as a tie [1].
+        alike: part of the larger bound by which two may differ and count as equal [1].
     """
     left, right = bounds(shapes, surface, law)
     near = np.abs(left - right) <= alike * np.maximum(left, right)
-    tied = near[1:] & near[:-1]
-    return float(0.5 * np.abs(np.diff(shapes.separation))[tied].sum())
+    equal = near[1:] & near[:-1]
+    return float(0.5 * np.abs(np.diff(shapes.separation))[equal].sum())
 
 
 def direction(displacement: float, length: float, error: float = 0.0) -> Direction:

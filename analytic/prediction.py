@@ -1,4 +1,4 @@
-"""How far a robot goes in a cycle, by any solver, with the changes of anchor resolved."""
+"""Displacement of a robot in a cycle, by any solver, with the changes of anchor resolved."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
@@ -165,7 +165,7 @@ class Prediction(NamedTuple):
 
     @property
     def cycles(self) -> int:
-        """How many cycles the states are of."""
+        """Number of cycles of the states."""
         return len(self.by_cycle)
 
 
@@ -195,7 +195,7 @@ def predict(
         friction: law, tension and slope; "coulomb" needs a solver that knows forces, and elastica
             alone lets friction bend the strip.
         path: pressures to follow instead of the gait's, (B, S) [Pa].
-        cycles: how many cycles of equal duration, or of equally many rows, the path holds.
+        cycles: number of cycles in the path, of equal duration or of equally many rows.
         times: of the path's states, (B,) [s]; the gait's if there is no path.
 
     Raises:
@@ -207,7 +207,7 @@ def predict(
         one_of("solver", solver, SOLVERS)
         solver = SOLVERS[solver]()
     if path is None:
-        if depends_on_speed(ground):  # which may creep while a pressure is held
+        if depends_on_speed(ground):  # which may creep while a pressure is constant
             fractions = gait.pressures(states_per_ramp, cycles)
             times = gait.times(states_per_ramp, cycles)
         else:
@@ -233,7 +233,7 @@ def predict_grounds(
     refinement: int = 32,
     friction: Friction = WEAK,
 ) -> list[Prediction]:
-    """The same walk on several grounds, whose friction bends nothing: the shapes are found once.
+    """Walk on several grounds, whose friction bends nothing, with shapes that are solved for once.
 
     Args:
         robot, gait, solver, states_per_ramp, refinement: see predict.

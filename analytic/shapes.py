@@ -1,4 +1,4 @@
-"""What every quasi-static solver returns: the strip's shape and contact at a batch of states."""
+"""Results of every quasi-static solver: the strip's shape and contact at a batch of states."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class Mode(IntEnum):
 
 
 class Status(IntFlag):
-    """How far a state can be trusted; flags add up.
+    """Flags of a state that say how far it can be trusted; they add up.
 
     Values are NaN with NO_ROOT, NOT_CONVERGED, BRANCH_END and ROLLED_UP, else numbers.
     """
@@ -35,13 +35,13 @@ class Status(IntFlag):
     OK = 0
     NO_ROOT = 1  # no lift-off point exists with one end flat: no equilibrium of the assumed kind
     SEVERAL_ROOTS = 2  # several lift-off points balance; the one with least contact was taken
-    PENETRATES = 4  # the shape dips below the ground between its contacts
+    PENETRATES = 4  # the shape sinks below the ground between its contacts
     BOTH_FLAT = 8  # the end in point contact slopes into the ground: both ends want to lie flat
-    HELD_FLAT = 16  # a part that lies flat is inflated: no moment in the paper's modes holds it so
+    HELD_FLAT = 16  # a part that lies flat is inflated: the paper's modes have no moment for that
     NOT_CONVERGED = 32  # the iteration gave up
     BRANCH_END = 64  # the stable equilibrium that the sequence followed ended before this state
     ROLLED_UP = 128  # an end curls up off the ground: neither tip nor side, so no law of friction
-    JUMPED = 256  # friction let go at once; this is where slow motion with damping comes to rest
+    JUMPED = 256  # friction gave way at once; this is where slow motion with damping comes to rest
 
 
 @dataclass(frozen=True)

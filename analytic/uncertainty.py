@@ -1,4 +1,4 @@
-"""How sure a predicted displacement is: what the modes assume, and what a finer solver changes."""
+"""Uncertainty of a predicted displacement: where it rests on states that carry flags."""
 
 import math
 
@@ -7,7 +7,7 @@ import numpy as np
 from analytic.prediction import Prediction
 from analytic.shapes import Status
 
-# flags of shapes that are no equilibrium: somewhere the ground would have to pull, or hold a
+# flags of shapes that are no equilibrium: somewhere the ground would have to pull, or exert a
 # moment. Several roots alone are no such thing, the one taken is the stable one
 UNSOUND = Status.NO_ROOT | Status.PENETRATES | Status.BOTH_FLAT | Status.HELD_FLAT
 

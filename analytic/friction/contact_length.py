@@ -1,4 +1,4 @@
-"""From the contact forces on nodes to contact lengths and modes, for one or many states."""
+"""Contact lengths and modes that follow from the contact forces on nodes, for many states."""
 
 from typing import Any
 
@@ -33,8 +33,8 @@ def side_contact(
         force: of the ground on each, 0 where it does not touch, shape (B, S) [N].
         height: of each, shape (B, S) [m].
         pressures: of the segments, shape (B, S) [Pa].
-        press: with which adhesion pulls at a flat stretch besides its weight; with any an inflated
-            end may lie flat too [N/m].
+        press: pull of adhesion on a flat stretch, besides its weight; with any an inflated end may
+            lie flat too [N/m].
 
     Returns:
         Two arrays of shape (B,) [m]; half the length each where no node is in the air, NaN where
@@ -62,7 +62,7 @@ def lifted_nodes(robot: Robot, nodes: Array, height: Array) -> NDArray[np.bool_]
 
 
 def ripple(robot: Robot, nodes: Array) -> float:
-    """How high a flat stretch ripples between nodes that push it, a bound [m]."""
+    """Bound of the height to which a flat stretch ripples between nodes that push it [m]."""
     spacing = float(np.diff(nodes).max())
     unit = robot.weight_per_length * robot.length * spacing**3 / pneunet.base_rigidity(robot)
     return _RIPPLE * unit
@@ -74,8 +74,8 @@ def _if_flat(pressure: Array, robot: Robot, contact: Array) -> Array:
 
 def _from_left(weight: float, nodes: Array, force: Array, up: NDArray[np.bool_]) -> Array:
     begun = np.cumsum(force > 0, axis=1) > 0  # the outermost node may hover by a rounding of h
-    held = force * (np.cumsum(begun & up, axis=1) == 0)
-    return np.asarray(flat_length(weight, held.sum(axis=1), held @ nodes))
+    carrying = force * (np.cumsum(begun & up, axis=1) == 0)
+    return np.asarray(flat_length(weight, carrying.sum(axis=1), carrying @ nodes))
 
 
 def flat_length(weight: Any, total: Any, moment: Any) -> Any:
@@ -91,7 +91,7 @@ def flat_length(weight: Any, total: Any, moment: Any) -> Any:
 
 
 def may_lie_flat(pressure: Any, peak_pressure: Any) -> Any:
-    """Whether an end segment at this pressure [Pa] may lie on its side: with next to none."""
+    """Tell whether an end segment at this pressure [Pa] may lie on its side: with next to none."""
     return abs(pressure) <= PASSIVE * peak_pressure
 
 

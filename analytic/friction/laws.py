@@ -16,7 +16,7 @@ Number = Any  # a float or an array of floats
 
 
 class TractionLaw(Protocol):
-    """How strongly a contact resists sliding.
+    """Rule of how strongly a contact resists sliding.
 
     Attributes:
         name: how commands and files call it.
@@ -38,7 +38,7 @@ class TractionLaw(Protocol):
         ...
 
     def acts_on(self, surface: Surface) -> bool:
-        """Whether any contact resists at all."""
+        """Tell whether any contact resists at all."""
         ...
 
 
@@ -86,7 +86,7 @@ def register(law: TractionLaw) -> None:
 
 @dataclass(frozen=True)
 class Friction:
-    """How quasi-static theory takes the friction between a robot and the ground.
+    """Friction between a robot and the ground, as quasi-static theory takes it.
 
     Args:
         law: a name of LAWS.

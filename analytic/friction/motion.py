@@ -1,4 +1,4 @@
-"""How a robot moves by friction at every contact, along a sequence of shapes."""
+"""Motion of a strip by friction at every contact, along a sequence of shapes."""
 
 from typing import NamedTuple
 
@@ -16,12 +16,12 @@ Array = NDArray[np.float64]
 
 
 class StripMotion(NamedTuple):
-    """Motion along B states.
+    """Motion of a strip along B states.
 
     Attributes:
         left: displacement of the left end since the first state, (B,) [m]; NaN from where a shape
             is missing.
-        changes: increments in which another contact begins to hold, (B - 1,).
+        changes: increments in which another contact begins to stick, (B - 1,).
     """
 
     left: Array
@@ -47,17 +47,17 @@ def motion(shapes: Shapes, ground: Ground, friction: Friction) -> StripMotion:
         for i in range(count)
     ]
     for i in range(count - 1):
-        here, there = contacts[i], contacts[i + 1]
-        if not (here and there):
+        pair = contacts[i : i + 2]
+        if not all(pair):
             left[i + 1 :] = np.nan
             break
         step = x[i + 1] - x[i]
         sides = [_slide(state, x[i] + left[i], step, ground, shapes.robot.width, friction)
-                 for state in (here, there)]  # fmt: skip
-        (before, tied, still), (after, tied_there, still_there) = sides
-        left[i + 1] = left[i] + 0.5 * (before + after)
-        moved = abs(still - still_there) > 1.5 * float(np.diff(shapes.nodes).max())
-        changes[i] = moved or tied != tied_there
+                 for state in pair]  # fmt: skip
+        (begin, begin_open, begin_stuck), (end, end_open, end_stuck) = sides
+        left[i + 1] = left[i] + 0.5 * (begin + end)
+        moved = abs(begin_stuck - end_stuck) > 1.5 * float(np.diff(shapes.nodes).max())
+        changes[i] = moved or begin_open != end_open
     return StripMotion(left, changes)
 
 
@@ -69,7 +69,7 @@ def _slide(
     width: float,
     friction: Friction,
 ) -> tuple[float, bool, float]:
-    """The motion of an increment [m], whether a tie decides it, and where a contact stays [m]."""
+    """Motion in an increment [m], whether bounds leave it open, and where a contact sticks [m]."""
     law = LAWS[friction.law]
     bounds = np.array([
         law.bound(over(ground, *contact.extent(x)), width, contact.length, contact.load)
@@ -77,7 +77,7 @@ def _slide(
     ])  # fmt: skip
     moves = np.array([contact.share @ step[contact.nodes] for contact in contacts])
     low, high = minimisers(bounds.tolist(), moves.tolist())
-    going = least_dissipation(bounds, moves)
-    stays = contacts[int(np.argmin(np.abs(going + moves)))]
-    place = float(stays.share @ x[stays.nodes])
-    return going, high > low and moves.max() > moves.min(), place
+    whole = least_dissipation(bounds, moves)
+    stuck = contacts[int(np.argmin(np.abs(whole + moves)))]
+    place = float(stuck.share @ x[stuck.nodes])
+    return whole, high > low and moves.max() > moves.min(), place

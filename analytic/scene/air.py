@@ -12,7 +12,7 @@ ATMOSPHERE = 101_325.0  # Pa, what gauge pressures are counted from
 
 
 class Air(NamedTuple):
-    """What one cycle takes from the supply.
+    """Air that one cycle takes from the supply.
 
     Attributes:
         volume: as it is at atmospheric pressure [m^3].
@@ -24,7 +24,7 @@ class Air(NamedTuple):
 
 
 def air_per_cycle(robot: Robot, gait: Gait) -> Air:
-    """Of chambers that are filled from a supply and vented to the atmosphere.
+    """Air of chambers that are filled from a supply and vented to the atmosphere.
 
     A chamber has the volume (5) of [Majidi13] at its pressure and no moment; what a rise of
     pressure adds comes from the supply, and what a fall lets out is lost.

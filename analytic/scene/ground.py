@@ -50,7 +50,7 @@ class Patches:
         return self.surfaces[bisect_right(self.borders, x)]
 
     def extents(self) -> list[tuple[float, float, Surface]]:
-        """Where each surface begins and ends, the outer ones at infinity [m]."""
+        """Places where each surface begins and ends, the outer ones at infinity [m]."""
         places = (-math.inf, *self.borders, math.inf)
         return list(zip(places[:-1], places[1:], self.surfaces, strict=True))
 
@@ -81,7 +81,7 @@ def uniform(ground: Ground) -> Surface:
 
 
 def depends_on_speed(ground: Ground) -> bool:
-    """Whether it resists anywhere by how fast it is slid over."""
+    """Tell whether a ground resists anywhere by how fast it is slid over."""
     return any(surface.depends_on_speed for surface in surfaces_of(ground))
 
 
@@ -93,7 +93,7 @@ def check_adhesion(ground: Ground) -> None:
 
 
 def over(ground: Ground, begin: float, end: float) -> Surface:
-    """What a side contact between two places rests on: the mean of the ground's properties.
+    """Surface under a side contact between two places: the mean of the ground's properties.
 
     Bounds and viscous resistance are linear in them, so that theirs is the sum over the stretch.
     """

@@ -26,7 +26,7 @@ def load_number(robot: Robot) -> float:
 
 
 def with_load(robot: Robot, load: float) -> Robot:
-    """The same robot, so heavy that w L^3 / D0 is the load [1]."""
+    """A robot, made so heavy that w L^3 / D0 is the load [1]."""
     unit = base_rigidity(robot) / robot.length**3
     return replace(robot, weight_per_length=load * unit)
 

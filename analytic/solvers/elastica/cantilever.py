@@ -18,7 +18,7 @@ _FIRST, _LEAST = 0.05, 1e-6  # steps of weight and pressure on the way from the 
 def solve_cantilever(
     robot: Robot, pressure_pa: ArrayLike, links: int = 60, chamber: str = "linearized"
 ) -> tuple[Array, Array]:
-    """Nodes (x, y) of the strip held horizontally at its left end, each (N + 2,) [m].
+    """Nodes (x, y) of the strip clamped horizontally at its left end, each (N + 2,) [m].
 
     Args:
         robot: the strip.

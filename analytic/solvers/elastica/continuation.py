@@ -1,4 +1,4 @@
-"""From one equilibrium to the next by way of those between."""
+"""Continuation: from one equilibrium to the next by way of those between."""
 
 from collections.abc import Callable
 

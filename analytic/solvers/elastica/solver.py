@@ -28,9 +28,9 @@ from analytic.solvers.elastica.stick_slip import StickSlip
 Array = NDArray[np.float64]
 
 _LEAST_STEP = 1e-4  # of the way between two states, below which the branch is taken to end
-_LEAST_GRIPPED = 1e-2  # the same where friction or adhesion may give way, and damped motion follows
+_LEAST_PULLED = 1e-2  # where friction or adhesion may give way, and damped motion follows
 _CURLED = 0.02  # slope that an end in flat contact does not have, even where it lifts off [rad]
-_JUMP = 0.03  # change of a direction at one pressure that is told as a jump [rad]; chosen
+_JUMP = 0.03  # change of a direction at one pressure that is flagged as a jump [rad]; chosen
 _LEAP = 0.3  # change of a direction in one step that may be a leap to another branch [rad]
 
 _FIRST_DRAG, _LEAST_DRAG, _MOST_DRAG = 10.0, 1e-3, 1e6  # over the hinges' stiffness; chosen
@@ -83,8 +83,8 @@ def solve_elastica(
         check_adhesion(ground)
         surface = ground.at(0.0)
     chain = Chain(robot, links, chamber, slope=friction.slope, surface=surface)
-    grip = StickSlip(chain, ground, friction) if ground and friction.tension else None
-    branch = _Branch(chain, grip, may_curl=friction.contacts == "all")
+    traction = StickSlip(chain, ground, friction) if ground and friction.tension else None
+    branch = _Branch(chain, traction, may_curl=friction.contacts == "all")
     points = [branch.step(*row) for row in zip(p, durations.tolist(), strict=True)]
     states = [point.state for point in points]
     theta = np.array([state.theta for state in states])
@@ -108,8 +108,8 @@ def solve_elastica(
         pressures=p,
         residual=np.array([point.residual for point in points]),
         iterations=np.array([point.iterations for point in points]),
-        left=place - place[0] if grip else None,
-        switches=_switches(points) if grip else None,
+        left=place - place[0] if traction else None,
+        switches=_switches(points) if traction else None,
     )
 
 
@@ -136,12 +136,12 @@ class _Branch:
 
     Args:
         chain: of the strip.
-        grip: friction that bends it, if any does.
+        traction: friction that bends it, if any does.
         may_curl: follow states with an end off the ground too, as far as they are wanted.
     """
 
-    def __init__(self, chain: Chain, grip: StickSlip | None, may_curl: bool) -> None:
-        self._chain, self._grip, self._may_curl = chain, grip, may_curl
+    def __init__(self, chain: Chain, traction: StickSlip | None, may_curl: bool) -> None:
+        self._chain, self._traction, self._may_curl = chain, traction, may_curl
         self._path = [(np.zeros(len(chain.robot.segments)), chain.flat())]
         self._ended = False
         blank = np.full(chain.links + 2, np.nan)
@@ -158,7 +158,7 @@ class _Branch:
         chain.load_at(pressure)
         state = self._near(before, duration, self._extrapolated(pressure))
         state = state or self._in_smaller_steps(pressure, duration)
-        if state is None and (self._grip or chain.reach):
+        if state is None and (self._traction or chain.reach):
             chain.load_at(pressure)
             state = self._damped(before)
             if state and _apart(state, before) > _JUMP:
@@ -170,11 +170,11 @@ class _Branch:
         self._path.append((pressure, state))
         if _rolled_up(state) and not self._may_curl:
             return _Point(self._missing, Status.ROLLED_UP, steps)
-        contacts = self._grip.signature() if self._grip else None
+        contacts = self._traction.signature() if self._traction else None
         return _Point(state, status, steps, chain.residual(state), contacts)
 
     def _extrapolated(self, pressure: Array) -> ChainState:
-        """Linear prediction where the path goes on in the same direction, else the last state."""
+        """Linear prediction where the path goes on in the same direction, else the state before."""
         middle, state = self._path[-1]
         if len(self._path) < 3:
             return state
@@ -195,9 +195,9 @@ class _Branch:
         self, state: ChainState, duration: float = math.inf, guess: ChainState | None = None
     ) -> ChainState | None:
         """The equilibrium that follows a state; None far away, where another branch may be."""
-        if self._grip:
-            self._grip.begin(state, duration)
-        candidate = self._chain.equilibrium(guess or state, self._grip)
+        if self._traction:
+            self._traction.begin(state, duration)
+        candidate = self._chain.equilibrium(guess or state, self._traction)
         return None if candidate is None or _apart(candidate, state) > _LEAP else candidate
 
     def _in_smaller_steps(self, pressure: Array, duration: float) -> ChainState | None:
@@ -208,7 +208,7 @@ class _Branch:
             self._chain.load_at(before + end * (pressure - before))
             return self._near(near, (end - begin) * duration)
 
-        least = _LEAST_GRIPPED if self._grip or self._chain.reach else _LEAST_STEP
+        least = _LEAST_PULLED if self._traction or self._chain.reach else _LEAST_STEP
         part, state = follow(state, solve, first=0.25, least=least)
         return state if part >= 1.0 else None
 
