@@ -17,7 +17,7 @@ from analytic.friction.contact_length import flat_length, may_lie_flat
 from analytic.friction.contact_length import ripple as strip_ripple
 from analytic.friction.laws import LAWS
 from analytic.scene.ground import surfaces_of
-from analytic.scene.limbs import TreeRobot
+from analytic.scene.limbs import Limb, TreeRobot
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground, Surface
 from analytic.solvers.limbs.kinematics import Tree
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 _POINTS = (0.5 - 12**-0.5, 0.5 + 12**-0.5)  # of a side: two that resist turning as all of it does
 _NEAR, _WHOLE = 2, 1e-9  # elements from an end that count as there; of a length: all of it
-_HARDLY = 1e-9  # of a length
+_SHORT = 1e-9  # of a length
 _TOUCHES = 1e-6  # of the weight: a node that pushes less hovers
 _INSTANT = 1e-12  # s; a shortest increment
 
@@ -58,86 +58,120 @@ class Contacts:
 
     def __init__(self, tree: Tree, law: str = "constant") -> None:
         self._tree, self._law = tree, LAWS[law]
-        robot = tree.robot
-        self._up = [ripple(limb.strip, tree.elements) for limb in robot.limbs]
-        self._per_limb = tree.elements + 2
-        at_place: dict[tuple[str | None, str], float] = {}
+        robot, per_limb = tree.robot, tree.elements + 2
+        self._slices = [slice(k, k + per_limb) for k in range(0, len(tree.weight) // 2, per_limb)]
+        widths: dict[tuple[str | None, str], float] = {}  # of all limbs that begin at one place
         for limb in robot.limbs:
-            key = (limb.on, limb.at)
-            at_place[key] = at_place.get(key, 0.0) + limb.strip.width
-        self._share = [limb.strip.width / at_place[limb.on, limb.at] for limb in robot.limbs]
-        self._carrier = [-1 if limb.on is None else robot.place(limb.on) for limb in robot.limbs]
-        self._free = [_free_ends(robot, i) for i in range(len(robot.limbs))]
-        self._at = [tree.arclength[self._slice(i)].tolist() for i in range(len(robot.limbs))]
+            widths[limb.on, limb.at] = widths.get((limb.on, limb.at), 0.0) + limb.strip.width
+        self._limbs = [
+            _Limb(
+                limb.strip,
+                tree.arclength[vertices].tolist(),
+                None if limb.on is None else robot.place(limb.on),
+                limb.at,
+                limb.strip.width / widths[limb.on, limb.at],
+                _free_ends(robot, limb),
+                _NEAR * limb.strip.length / tree.elements,
+                ripple(limb.strip, tree.elements),
+            )
+            for limb, vertices in zip(robot.limbs, self._slices, strict=True)
+        ]
         self._least = _TOUCHES * robot.weight
-        self._near = [_NEAR * limb.strip.length / tree.elements for limb in robot.limbs]
 
     def find(self, rest: Rest, pressures: Array) -> list[Contact]:
         """The contacts of a state at pressures of its limbs, (L,) [Pa]."""
-        robot, half = self._tree.robot, len(rest.force) // 2
+        half = len(rest.force) // 2
         # both edges together; a limb that leans lies on one of its edges
         forces = (rest.force[:half] + rest.force[half:]).tolist()
         heights = np.minimum(rest.nodes[:half, 2], rest.nodes[half:, 2]).tolist()
-        may = may_lie_flat(pressures, robot.peak_pressure).tolist()
-        here = [self._slice(i) for i in range(len(robot.limbs))]
-        state = _State([forces[own] for own in here], [heights[own] for own in here], may)
-        found: list[Contact] = []
-        passed: dict[tuple[int, str], float] = {}  # what flat limbs pass on to ends of carriers
-        reached: set[tuple[int, str]] = set()  # ends of carriers where a limb is flat, or nearly
-        for i in range(len(robot.limbs) - 1, -1, -1):  # those that are carried come first
-            own = self._of_limb(state, i, passed, reached)
-            found += own
-        return found
+        may_lie = may_lie_flat(pressures, self._tree.robot.peak_pressure).tolist()
+        state = _State(
+            [forces[vertices] for vertices in self._slices],
+            [heights[vertices] for vertices in self._slices],
+            may_lie,
+            {},
+            set(),
+        )
+        inwards = range(len(may_lie) - 1, -1, -1)  # limbs that are carried come first
+        return [contact for i in inwards for contact in self._of_limb(state, i)]
 
-    def _of_limb(
-        self,
-        state: "_State",
-        i: int,
-        passed: dict[tuple[int, str], float],
-        reached: set[tuple[int, str]],
-    ) -> list[Contact]:
-        """Contacts of one limb; notes what it leaves to its carrier."""
-        limb, force, at = self._tree.robot.limbs[i], state.force[i], self._at[i]
-        length, near, carrier = limb.strip.length, self._near[i], self._carrier[i]
-        found: list[Contact] = []
-        low, high = -1.0, length + 1.0  # what no end's contact explains
+    def _of_limb(self, state: "_State", i: int) -> list[Contact]:
+        """Contacts of one limb; notes the force that it leaves to its carrier."""
+        limb = self._limbs[i]
+        length, near, carrier = limb.strip.length, limb.near, limb.carrier
+        contacts: list[Contact] = []
+        low, high = -1.0, length + 1.0  # where no end's contact explains the forces
         at_tip = False
         for end in ("begin", "end"):
-            free = end in self._free[i]
-            if not free and (i, end) not in passed:
+            if end not in limb.free and (i, end) not in state.passed:
                 continue
-            contact, left = self._at_end(state, i, end, passed.get((i, end), 0.0))
-            if contact is None:
-                continue
-            if found and contact.length > length - found[0].length:
-                continue  # it lies flat as a whole, once
-            found.append(contact)
-            at_tip |= free
+            contact, surplus = self._at_end(state, i, end)
+            if contact is None or (contacts and contact.length > length - contacts[0].length):
+                continue  # a limb that lies flat as a whole does so once
+            contacts.append(contact)
+            at_tip |= end in limb.free
             if end == "begin":
                 low = contact.length + near
-            else:
-                high = length - contact.length - near
-                if carrier >= 0:
-                    key = (carrier, limb.at)
-                    if contact.length >= length - near:
-                        reached.add(key)
-                    if contact.length >= length * (1 - _WHOLE):
-                        passed[key] = passed.get(key, 0.0) + left
+                continue
+            high = length - contact.length - near
+            if carrier is not None:
+                joint = carrier, limb.at
+                if contact.length >= length - near:
+                    state.reached.add(joint)
+                if contact.length >= length * (1 - _WHOLE):
+                    state.passed[joint] = state.passed.get(joint, 0.0) + surplus
+        if at_tip and carrier is not None:
+            return contacts
         # a joint belongs to the limb that is flat there, and else to the carrier
-        if (i, "begin") in reached or carrier >= 0:
+        if (i, "begin") in state.reached or carrier is not None:
             low = max(low, near)
-        if (i, "end") in reached:
+        if (i, "end") in state.reached:
             high = min(high, length - near)
-        if at_tip and carrier >= 0:
-            return found
         load = moment = 0.0
-        for push, place in zip(force, at, strict=True):
+        for push, place in zip(state.force[i], limb.arclength, strict=True):
             if push > self._least and low < place < high:
                 load += push
                 moment += push * place
-        if load:  # a belly that touches, no end: a side of hardly any length, where it pushes
-            found.append(Contact(i, _HARDLY * length, (moment / load,), load))
-        return found
+        if load:  # an underside that touches, no end: a side of nearly no length, where it pushes
+            contacts.append(Contact(i, _SHORT * length, (moment / load,), load))
+        return contacts
+
+    def _at_end(self, state: "_State", i: int, end: str) -> tuple[Contact | None, float]:
+        """The contact that begins at an end of a limb, and the force that it passes on [N]."""
+        limb, force = self._limbs[i], state.force[i]
+        strip, order = limb.strip, 1 if end == "begin" else -1
+        tip = limb.arclength[::order][0]
+        total, moment, whole = state.passed.get((i, end), 0.0), 0.0, end == "end"
+        for push, height, place in zip(
+            force[::order], state.height[i][::order], limb.arclength[::order], strict=True
+        ):
+            if height > limb.ripple:
+                whole = False
+                break
+            total += push
+            moment += push * abs(place - tip)
+        if total <= self._least:
+            return None, 0.0
+        if not state.may_lie[i]:
+            if end not in limb.free:
+                return None, 0.0
+            # bent by pressure it stands on its tip alone; only a trunk may have two
+            return Contact(i, 0.0, (tip,), total if limb.carrier is None else sum(force)), 0.0
+        if whole and limb.carrier is not None:
+            # limb and carrier share a joint, and which of them the ground pushes there is open
+            carrier, ahead = limb.carrier, 1 if limb.at == "begin" else -1
+            joint = limb.share * state.force[carrier][::ahead][0]
+            whole = max(state.height[carrier][::ahead][:3]) <= self._limbs[carrier].ripple
+            if not whole:
+                total, moment = total + joint, moment + joint * strip.length
+        else:
+            whole = False
+        weight, length = strip.weight_per_length, strip.length
+        side = length if whole else min(float(flat_length(weight, total, moment)), length)
+        if side <= 0:
+            return Contact(i, 0.0, (tip,), total), 0.0
+        points = tuple(abs(tip - side * part) for part in _POINTS)
+        return Contact(i, side, points, total), total - weight * side
 
     def weights(self, contacts: list[Contact]) -> Array:
         """Weights of the nodes in the points of all contacts that resist, (C, P)."""
@@ -158,84 +192,56 @@ class Contacts:
         """Bound of friction [N] and viscous resistance [N s/m] of each point of a contact."""
         strip, points = self._tree.robot.limbs[contact.limb].strip, len(contact.at)
         width = strip.width
-        if 0 < contact.length <= _HARDLY * strip.length and not self._law.needs_load:
+        if 0 < contact.length <= _SHORT * strip.length and not self._law.needs_load:
             # no area: what rounding leaves would be the only bound there is
             return 0.0, 0.0
         bound = self._law.bound(surface, width, contact.length, contact.load)
         if not contact.length and not self._law.needs_load:
-            bound *= self._share[contact.limb]
+            bound *= self._limbs[contact.limb].share
         return float(bound) / points, float(surface.drag(width, contact.length)) / points
 
-    def _slice(self, limb: int) -> slice:
-        return slice(limb * self._per_limb, (limb + 1) * self._per_limb)
 
-    def _beyond(self, state: "_State", limb: int) -> tuple[float, bool]:
-        """Of the carrier where a limb begins: the push there, and whether it is flat on from there.
+class _Limb(NamedTuple):
+    """A limb as the search for its contacts needs it.
 
-        The two share a joint, and which of them the ground pushes there is open.
-        """
-        carrier = self._carrier[limb]
-        if carrier < 0:
-            return 0.0, False
-        force, height = state.force[carrier], state.height[carrier]
-        at_end = self._tree.robot.limbs[limb].at == "end"
-        push, near = (force[-1], height[-3:]) if at_end else (force[0], height[:3])
-        return self._share[limb] * push, max(near) <= self._up[carrier]
+    Attributes:
+        strip: its geometry and weight.
+        arclength: of its vertices [m].
+        carrier, at: place of the limb that carries it, None for the trunk, and its end there.
+        share: part of the width of all limbs that begin at the same place.
+        free: ends that no limb begins at and that no limb carries.
+        near: distance from an end that counts as there [m].
+        ripple: height below which a vertex is on the ground [m].
+    """
 
-    def _at_end(
-        self, state: "_State", i: int, end: str, passed: float
-    ) -> tuple[Contact | None, float]:
-        """The contact that begins at an end of a limb, and what it does not carry itself [N].
-
-        Args:
-            state: of all limbs.
-            i, end: the limb and which end.
-            passed: force that limbs which begin there do not carry [N].
-        """
-        strip, at, up = self._tree.robot.limbs[i].strip, self._at[i], self._up[i]
-        force, height, length = state.force[i], state.height[i], strip.length
-        count = len(at)
-        total, moment, run = passed, 0.0, 0
-        for k in range(count) if end == "begin" else range(count - 1, -1, -1):
-            if height[k] > up:
-                break
-            total += force[k]
-            moment += force[k] * (at[k] if end == "begin" else length - at[k])
-            run += 1
-        if total <= self._least:
-            return None, 0.0
-        tip = at[0 if end == "begin" else -1]
-        if not state.may[i]:
-            if end not in self._free[i]:
-                return None, 0.0
-            # bent by pressure it stands on its tip alone; only a trunk may have two
-            return Contact(i, 0.0, (tip,), sum(force) if self._carrier[i] >= 0 else total), 0.0
-        whole = False
-        if run == count and end == "end":
-            joint, whole = self._beyond(state, i)
-            if not whole:
-                total, moment = total + joint, moment + joint * length
-        weight = strip.weight_per_length
-        side = length if whole else min(float(flat_length(weight, total, moment)), length)
-        if side <= 0:
-            return Contact(i, 0.0, (tip,), total), 0.0
-        points = tuple(side * p if end == "begin" else length - side * p for p in _POINTS)
-        return Contact(i, side, points, total), total - weight * side
+    strip: Robot
+    arclength: list[float]
+    carrier: int | None
+    at: str
+    share: float
+    free: tuple[str, ...]
+    near: float
+    ripple: float
 
 
 class _State(NamedTuple):
-    """Forces and heights of each limb's vertices, and whether it may lie flat."""
+    """Forces [N] and heights [m] of each limb's vertices, and whether it may lie flat.
+
+    Noted during the search: forces that limbs which lie flat pass on to ends of carriers, and ends
+    of carriers where a limb is flat, or nearly.
+    """
 
     force: list[list[float]]
     height: list[list[float]]
-    may: list[bool]
+    may_lie: list[bool]
+    passed: dict[tuple[int, str], float]
+    reached: set[tuple[int, str]]
 
 
-def _free_ends(robot: TreeRobot, limb: int) -> tuple[str, ...]:
-    """Ends of a limb that nothing is fast to."""
-    own = robot.limbs[limb]
-    taken = {other.at for other in robot.limbs if other.on == own.name}
-    ends = ("begin", "end") if own.on is None else ("end",)
+def _free_ends(robot: TreeRobot, limb: Limb) -> tuple[str, ...]:
+    """Ends of a limb that no other limb is attached to."""
+    taken = {carried.at for carried in robot.limbs if carried.on == limb.name}
+    ends = ("begin", "end") if limb.on is None else ("end",)
     return tuple(end for end in ends if end not in taken)
 
 
@@ -246,13 +252,13 @@ def ripple(strip: Robot, elements: int) -> float:
 
 
 def check_ground(ground: Ground) -> None:
-    """Raise ValueError for ground that limbs are not told of: sticky, or stronger at rest."""
+    """Raise ValueError for ground that limbs do not know: sticky, or stronger at rest."""
     for surface in surfaces_of(ground):
         if surface.adhesion or surface.static_ratio > 1:
-            what = "adhesion" if surface.adhesion else "static_ratio"
+            field = "adhesion" if surface.adhesion else "static_ratio"
             raise ValueError(
-                f"{what} of surface {surface.name!r} is for strips, not for robots of limbs; got "
-                f"{getattr(surface, what)!r}"
+                f"{field} of surface {surface.name!r} is for strips, not for robots of limbs; got "
+                f"{getattr(surface, field)!r}"
             )
 
 
