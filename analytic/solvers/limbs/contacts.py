@@ -58,8 +58,7 @@ class Contacts:
 
     def __init__(self, tree: Tree, law: str = "constant") -> None:
         self._tree, self._law = tree, LAWS[law]
-        robot, per_limb = tree.robot, tree.elements + 2
-        self._slices = [slice(k, k + per_limb) for k in range(0, len(tree.weight) // 2, per_limb)]
+        robot = tree.robot
         widths: dict[tuple[str | None, str], float] = {}  # of all limbs that begin at one place
         for limb in robot.limbs:
             widths[limb.on, limb.at] = widths.get((limb.on, limb.at), 0.0) + limb.strip.width
@@ -74,7 +73,7 @@ class Contacts:
                 _NEAR * limb.strip.length / tree.elements,
                 ripple(limb.strip, tree.elements),
             )
-            for limb, vertices in zip(robot.limbs, self._slices, strict=True)
+            for limb, vertices in zip(robot.limbs, tree.vertices, strict=True)
         ]
         self._least = _TOUCHES * robot.weight
 
@@ -86,8 +85,8 @@ class Contacts:
         heights = np.minimum(rest.nodes[:half, 2], rest.nodes[half:, 2]).tolist()
         may_lie = may_lie_flat(pressures, self._tree.robot.peak_pressure).tolist()
         state = _State(
-            [forces[vertices] for vertices in self._slices],
-            [heights[vertices] for vertices in self._slices],
+            [forces[vertices] for vertices in self._tree.vertices],
+            [heights[vertices] for vertices in self._tree.vertices],
             may_lie,
             {},
             set(),
