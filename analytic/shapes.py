@@ -54,7 +54,6 @@ class Shapes:
         contact_left: length of side contact at the left end, 0 for a tip, shape (B,) [m].
         contact_right: the same at the right end, shape (B,) [m].
         amplitude: greatest height of the strip, shape (B,) [m].
-        mode: contact mode, shape (B,), values of Mode; without meaning where the rest is NaN.
         status: shape (B,), values of Status.
         curve: material points s of shape (S,) [m] -> (x, y), each of shape (B, S) [m], with x
             measured from the left end.
@@ -65,12 +64,28 @@ class Shapes:
     contact_left: Array
     contact_right: Array
     amplitude: Array
-    mode: NDArray[np.int_]
     status: NDArray[np.int_]
     curve: Callable[[Array], tuple[Array, Array]]
 
     def __len__(self) -> int:
         return len(self.separation)
+
+    @property
+    def mode(self) -> NDArray[np.int_]:
+        """Contact mode by the ends' contact lengths, shape (B,), values of Mode; TIP if NaN.
+
+        Segments are counted from the left; the third stands for all beyond it too.
+        """
+        left, right, length = self.contact_left, self.contact_right, self.robot.length
+        inner = self.robot.borders[1:-1]
+        reach = length * (1 + 1e-9)  # lengths come with rounding
+        in_left = np.minimum(np.searchsorted(inner, left / reach, side="right"), 2)
+        in_right = np.minimum(np.searchsorted(inner, 1 - right / length, side="right"), 2)
+        mode = np.full(len(left), int(Mode.TIP))
+        mode = np.where(left > 0, Mode.LEFT_1 + in_left, mode)
+        mode = np.where(right > 0, Mode.RIGHT_1 + in_right, mode)
+        mode = np.where((left > 0) & (right > 0), Mode.BOTH, mode)
+        return np.where(left + right >= length * (1 - 1e-9), Mode.FLAT, mode)
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Contact lengths and modes that follow from the contact forces on nodes, for many states."""
+"""Contact lengths that follow from the contact forces on nodes, for one or many states."""
 
 from typing import Any
 
@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from analytic.scene import pneunet
 from analytic.scene.robot import Robot
-from analytic.shapes import Mode
 
 Array = NDArray[np.float64]
 
@@ -109,19 +108,3 @@ def end_loads(force: Array, height: Array) -> tuple[Array, Array]:
     left, right = (np.where(side, force, 0.0).sum(axis=1) for side in (first, ~first))
     # an end that carries less by rounding only carries no less
     return left, np.where(np.isclose(left, right, rtol=1e-9, atol=0), left, right)
-
-
-def contact_mode(robot: Robot, left: Array, right: Array) -> NDArray[np.int_]:
-    """Mode by the ends' contact lengths, shape (B,); BOTH where both lie flat.
-
-    Segments are counted from the left; the third stands for all beyond it too.
-    """
-    reach = robot.length * (1 + 1e-9)  # lengths come with rounding
-    inner = robot.borders[1:-1]
-    in_left = np.minimum(np.searchsorted(inner, left / reach, side="right"), 2)
-    in_right = np.minimum(np.searchsorted(inner, 1 - right / robot.length, side="right"), 2)
-    mode = np.full(len(left), int(Mode.TIP))
-    mode = np.where(left > 0, Mode.LEFT_1 + in_left, mode)
-    mode = np.where(right > 0, Mode.RIGHT_1 + in_right, mode)
-    mode = np.where((left > 0) & (right > 0), Mode.BOTH, mode)
-    return np.where(left + right >= robot.length * (1 - 1e-9), Mode.FLAT, mode)

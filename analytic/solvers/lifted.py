@@ -21,7 +21,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.friction.contact_length import contact_mode
 from analytic.scene import pneunet
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
@@ -110,15 +109,12 @@ def solve_lifted(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
     lying = np.diff(beam.borders) - curve.spans > _TOLERANCE
     status[lies & (lying & (beam.curvature > _FLAT)).any(axis=1)] |= int(Status.HELD_FLAT)
 
-    left = np.where(flat, 0.5, np.where(mirrored, 0.0, xi)) * blank
-    right = np.where(flat, 0.5, np.where(mirrored, xi, 0.0)) * blank
     return Shapes(
         robot=robot,
         separation=np.where(flat, 1.0, xi + curve.x[:, -1, -1]) * blank,
-        contact_left=left,
-        contact_right=right,
+        contact_left=np.where(flat, 0.5, np.where(mirrored, 0.0, xi)) * blank,
+        contact_right=np.where(flat, 0.5, np.where(mirrored, xi, 0.0)) * blank,
         amplitude=np.where(flat, 0.0, curve.height.max(axis=(1, 2))) * blank,
-        mode=contact_mode(robot, np.nan_to_num(left), np.nan_to_num(right)),
         status=status,
         curve=curve,
     )

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import solveh_banded
 from scipy.linalg.blas import dsbmv
 
-from analytic.friction.contact_length import contact_mode, side_contact
+from analytic.friction.contact_length import side_contact
 from analytic.scene import pneunet
 from analytic.scene.chain import segment_overlap, segments_fit
 from analytic.scene.pressures import check_pressures
@@ -75,7 +75,6 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
         contact_left=left * blank,
         contact_right=right * blank,
         amplitude=curve.height() * blank,
-        mode=contact_mode(robot, np.nan_to_num(left), np.nan_to_num(right)),
         status=status,
         curve=curve,
         nodes=nodes,

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.friction.contact_length import contact_mode, side_contact
+from analytic.friction.contact_length import side_contact
 from analytic.friction.laws import Friction
 from analytic.scene.chain import link_lengths, node_positions
 from analytic.scene.ground import check_adhesion
@@ -100,7 +100,6 @@ def solve_elastica(
         contact_left=left,
         contact_right=right,
         amplitude=height.max(axis=1),
-        mode=contact_mode(robot, np.nan_to_num(left), np.nan_to_num(right)),
         status=np.array([int(point.status) for point in points]),
         curve=_Curve(nodes, lengths, theta, height),
         nodes=nodes,

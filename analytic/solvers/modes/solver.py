@@ -3,7 +3,6 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.friction.contact_length import contact_mode
 from analytic.scene import pneunet
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
@@ -57,15 +56,13 @@ def solve_modes(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
     status |= np.where(~flat & (on_ground & (k > _FLAT)).any(axis=1), Status.HELD_FLAT, 0)
 
     scale = robot.length * np.where(status & Status.NO_ROOT, np.nan, 1.0)
-    left, right = scale * np.where(flat, 0.5, a), scale * np.where(flat, 0.5, 1 - b)
     shortened = beam.shortening(lifted, np.ones(1))[:, 0]
     return Shapes(
         robot=robot,
         separation=scale * np.where(flat, 1.0, 1 - shortened),
-        contact_left=left,
-        contact_right=right,
+        contact_left=scale * np.where(flat, 0.5, a),
+        contact_right=scale * np.where(flat, 0.5, 1 - b),
         amplitude=scale * np.where(flat, 0.0, highest),
-        mode=contact_mode(robot, np.nan_to_num(left), np.nan_to_num(right)),
         status=status,
         curve=_Curve(robot.length, lifted, flat, scale),
     )
