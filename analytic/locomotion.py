@@ -13,6 +13,7 @@ from analytic.scene.surface import Ground, Surface
 from analytic.shapes import ContactShapes, Shapes
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 Direction = Literal["forward", "backward", "none"]
 
 STANDSTILL = 0.002  # |Delta|/L below which a cycle counts as no travel; chosen, 0.26 mm on 130 mm
@@ -57,24 +58,46 @@ def displacements(
         raise ValueError(
             f"need at least two states and one cycle, got {len(shapes)} states, {cycles} cycles"
         )
-    change = np.diff(shapes.separation)
-    if friction.tension and isinstance(shapes, ContactShapes) and shapes.left is not None:
-        left = shapes.left
-    elif friction.contacts == "all":
-        left = motion(shapes, ground, friction).left
-    elif isinstance(ground, Surface):
-        left = np.concatenate([[0.0], np.cumsum(-mean_slip(shapes, ground, friction) * change)])
-    else:
-        left = along(shapes, ground, friction)[0]
+    left, _ = left_end(shapes, ground, friction)
     right = left + (shapes.separation - shapes.separation[0])
     return Locomotion(left, right, float(left[-1] / cycles))
 
 
-def along(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, NDArray[np.bool_]]:
-    """Displacement of the left end where the ground changes under the robot, (B,) [m].
+def left_end(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, Mask]:
+    """Apply the rule of `displacements`, and see where the anchor changes.
 
-    Also the increments in which another end begins to stick, (B - 1,).
+    Returns:
+        Displacement of the left end since the first state, (B,) [m]; and the increments in which
+        another contact begins to stick, (B - 1,).
     """
+    if (
+        friction.tension
+        and isinstance(shapes, ContactShapes)
+        and shapes.left is not None
+        and shapes.switches is not None
+    ):
+        return shapes.left, shapes.switches
+    if friction.contacts == "all":
+        return motion(shapes, ground, friction)
+    if isinstance(ground, Surface):
+        return _on_uniform(shapes, ground, friction)
+    return _along(shapes, ground, friction)
+
+
+def _on_uniform(shapes: Shapes, surface: Surface, friction: Friction) -> tuple[Array, Mask]:
+    """See `left_end`."""
+    left, right = bounds(shapes, surface, friction.law)
+    change, downhill = np.diff(shapes.separation), friction.downhill(shapes.robot)
+    before = slip_fraction(left[:-1], right[:-1], downhill, change > 0)
+    after = slip_fraction(left[1:], right[1:], downhill, change > 0)
+    slip = 0.5 * (before + after)
+    switches = np.diff(slip_fraction(left, right)) != 0
+    switches |= np.abs(slip - np.round(2 * slip) / 2) > 0
+    return np.concatenate([[0.0], np.cumsum(-slip * change)]), switches
+
+
+def _along(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, Mask]:
+    """See `left_end`, for ground that changes under the robot."""
     law, width = LAWS[friction.law], shapes.robot.width
     contact, load = _ends(shapes, friction.law)
     downhill = friction.downhill(shapes.robot)
@@ -96,19 +119,10 @@ def along(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, ND
     return left, changes
 
 
-def mean_slip(shapes: Shapes, surface: Surface, friction: Friction = WEAK) -> Array:
-    """Part of each change of separation that the left end takes up, (B - 1,): 0 to 1."""
-    left, right = bounds(shapes, surface, friction.law)
-    downhill, growing = friction.downhill(shapes.robot), np.diff(shapes.separation) > 0
-    before = slip_fraction(left[:-1], right[:-1], downhill, growing)
-    after = slip_fraction(left[1:], right[1:], downhill, growing)
-    return np.asarray(0.5 * (before + after))
-
-
 def state_slip(shapes: Shapes, surface: Surface, law: str = "constant") -> Array:
     """Part of a change of separation that the left end takes up at each state, (B,): 0, 1/2, 1.
 
-    On level ground; see `mean_slip` for slopes.
+    On level ground.
     """
     return np.asarray(slip_fraction(*bounds(shapes, surface, law)))
 

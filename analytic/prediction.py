@@ -10,13 +10,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from analytic.checks import one_of
 from analytic.friction.laws import Friction
-from analytic.friction.motion import motion
-from analytic.locomotion import WEAK, Locomotion, along, displacements, mean_slip, state_slip
+from analytic.locomotion import WEAK, Locomotion, displacements, left_end
 from analytic.scene.gait import Gait
 from analytic.scene.ground import depends_on_speed, surfaces_of
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground, Surface
-from analytic.shapes import ContactShapes, Shapes, Status
+from analytic.shapes import Shapes, Status
 
 Array = NDArray[np.float64]
 
@@ -263,7 +262,7 @@ class _Walk(NamedTuple):
         """Predictions on grounds that shapes are alike on, at pressures (B, S) and times (B,)."""
         shapes = self._shapes(grounds[0], path, clock)
         changes = np.flatnonzero(
-            np.any([_anchor_changes(shapes, ground, self.friction) for ground in grounds], axis=0)
+            np.any([left_end(shapes, ground, self.friction)[1] for ground in grounds], axis=0)
         )
         if len(changes) and self.refinement > 1:
             path, clock = (_refined(values, changes, self.refinement) for values in (path, clock))
@@ -289,16 +288,3 @@ def _refined(values: Array, changes: NDArray[np.int_], parts: int) -> Array:
     part = np.linspace(0, 1, parts + 1)[1:-1].reshape(-1, *[1] * (values.ndim - 1))
     between = [values[i] + part * (values[i + 1] - values[i]) for i in changes]
     return np.insert(values, np.repeat(changes + 1, parts - 1), np.concatenate(between), axis=0)
-
-
-def _anchor_changes(shapes: Shapes, ground: Ground, friction: Friction) -> NDArray[np.bool_]:
-    """Increments in which the anchor changes, (B - 1,)."""
-    if isinstance(shapes, ContactShapes) and shapes.switches is not None:
-        return shapes.switches
-    if friction.contacts == "all":
-        return motion(shapes, ground, friction).changes
-    if not isinstance(ground, Surface):
-        return along(shapes, ground, friction)[1]
-    slip = mean_slip(shapes, ground, friction)
-    change = np.diff(state_slip(shapes, ground, friction.law)) != 0
-    return np.asarray(change | (np.abs(slip - np.round(2 * slip) / 2) > 0))

@@ -1,7 +1,5 @@
 """Motion of a strip by friction at every contact, along a sequence of shapes."""
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,23 +11,15 @@ from analytic.scene.surface import Ground
 from analytic.shapes import ContactShapes, Shapes
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 
-class StripMotion(NamedTuple):
-    """Motion of a strip along B states.
+def motion(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, Mask]:
+    """Motion of least dissipation over all contacts, its mean at the two states of an increment.
 
-    Attributes:
-        left: displacement of the left end since the first state, (B,) [m]; NaN from where a shape
-            is missing.
-        changes: increments in which another contact begins to stick, (B - 1,).
-    """
-
-    left: Array
-    changes: NDArray[np.bool_]
-
-
-def motion(shapes: Shapes, ground: Ground, friction: Friction) -> StripMotion:
-    """Least dissipation over all contacts, the mean of it at the two states of each increment.
+    Returns:
+        Displacement of the left end since the first state, (B,) [m], NaN from where a shape is
+        missing; and the increments in which another contact begins to stick, (B - 1,).
 
     Raises:
         ValueError: the shapes have no contact forces.
@@ -58,7 +48,7 @@ def motion(shapes: Shapes, ground: Ground, friction: Friction) -> StripMotion:
         left[i + 1] = left[i] + 0.5 * (begin + end)
         moved = abs(begin_stuck - end_stuck) > 1.5 * float(np.diff(shapes.nodes).max())
         changes[i] = moved or begin_open != end_open
-    return StripMotion(left, changes)
+    return left, changes
 
 
 def _slide(

@@ -87,8 +87,8 @@ def depends_on_speed(ground: Ground) -> bool:
 
 def check_adhesion(ground: Ground) -> None:
     """Raise ValueError for ground that changes along x and is adhesive anywhere."""
-    sticky = any(surface.adhesion for surface in surfaces_of(ground))
-    if sticky and not isinstance(ground, Surface):
+    adhesive = any(surface.adhesion for surface in surfaces_of(ground))
+    if adhesive and not isinstance(ground, Surface):
         raise ValueError(f"adhesion must be of uniform ground, got {ground.name!r}")
 
 

@@ -106,14 +106,7 @@ RESISTANCES = ("tip_force", "shear_strength", "friction", "tip_friction", "visco
 
 
 class Ground(Protocol):
-    """A field of surfaces along x.
-
-    Attributes:
-        name: how files and tables call it.
-        surfaces: all that can occur; of a field without steps one of each kind: a wet one if it is
-            wet anywhere, one that resists under the friction law. Which laws and solvers serve a
-            ground is asked of these, wherever the robot begins.
-    """
+    """A field of surfaces along x."""
 
     @property
     def name(self) -> str:
@@ -122,7 +115,11 @@ class Ground(Protocol):
 
     @property
     def surfaces(self) -> tuple[Surface, ...]:
-        """All surfaces that can occur."""
+        """All surfaces that can occur, which tell the laws and solvers that serve a ground.
+
+        Of a field without steps, one of each kind: a wet one if it is wet anywhere, one that
+        resists under the friction law.
+        """
         ...
 
     def at(self, x: float) -> Surface:

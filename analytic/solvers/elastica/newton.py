@@ -74,11 +74,11 @@ class Chain:
         self.weight[1:] += half
         # the weight's part downhill adds to the tension of the tractions
         self.hanging = math.sin(slope) * np.cumsum(self.weight)[:-1]
-        self.sticky, self.reach = np.zeros(links + 2), 0.0
+        self.adhesion, self.reach = np.zeros(links + 2), 0.0
         if surface and surface.adhesion:
             self.reach = surface.adhesion_reach / robot.length
             per_weight = surface.press(robot.width) / robot.weight_per_length
-            self.sticky = per_weight * self.weight
+            self.adhesion = per_weight * self.weight
         self.weight *= math.cos(slope)
         self.stiffness, self.rest = np.zeros(links), np.zeros(links)
         self.pressure = np.zeros(len(robot.segments))
@@ -167,7 +167,7 @@ class Chain:
         band[6, 0::3] = state.active
         band[4, 2::3] = free[:-1]  # V_k in the row of node k
         band[7, 2::3] = -1.0 * free[1:]  # V_k in the row of node k + 1
-        right[0::3, 0] = (self.weight + self.sticky * state.near) * free
+        right[0::3, 0] = (self.weight + self.adhesion * state.near) * free
         # moments, row 3 i + 1
         band[6, 1::3] = bend[:-1] + bend[1:] + geometric
         band[9, 1:-3:3] = -bend[1:-1]
@@ -201,7 +201,7 @@ class Chain:
         """Force of the ground on each node, shape (N + 2,)."""
         before = np.concatenate([[0.0], state.shear])
         after = np.concatenate([state.shear, [0.0]])
-        down = self.weight + self.sticky * state.near
+        down = self.weight + self.adhesion * state.near
         return np.where(state.active, down + before - after, 0.0)
 
     def _revise(self, state: ChainState, revisions: int) -> ChainState | None:
@@ -240,7 +240,7 @@ class Chain:
             moment[:-1] - moment[1:] - state.shear * cosine + (state.tension + self.hanging) * sine
         )
         kinematic = np.diff(state.y) - sine
-        pulled = self.sticky @ state.near / total
+        pulled = self.adhesion @ state.near / total
         parts = (-state.y, -force, np.abs(force * state.y), np.abs(torque) / total,
                  np.abs(kinematic), [abs(force.sum() - 1 - pulled)])  # fmt: skip
         return max(float(np.max(part)) for part in parts)

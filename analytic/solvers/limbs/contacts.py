@@ -251,7 +251,7 @@ def ripple(strip: Robot, elements: int) -> float:
 
 
 def check_ground(ground: Ground) -> None:
-    """Raise ValueError for ground that limbs do not know: sticky, or stronger at rest."""
+    """Raise ValueError for ground that limbs do not know: adhesive, or stronger at rest."""
     for surface in surfaces_of(ground):
         if surface.adhesion or surface.static_ratio > 1:
             field = "adhesion" if surface.adhesion else "static_ratio"
