@@ -15,7 +15,7 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve, eigh
 from analytic.scene.chain import joint_springs
 from analytic.scene.limbs import rotation
 from analytic.solvers.limbs.friction import ContactFriction
-from analytic.solvers.limbs.kinematics import HEIGHT, IN_PLAN, WHOLE, Pose, Tree
+from analytic.solvers.limbs.kinematics import HEIGHT, IN_PLAN, WHOLE, Tree
 
 Array = NDArray[np.float64]
 
@@ -90,58 +90,30 @@ class Statics:
             friction: on the way there; none if None.
         """
         stiffness, rest = self.springs(pressures)
-        q, force = guess.q.copy(), guess.force.copy()
-        sharpness = _SMOOTH * self.length
+        q, sharpness = guess.q.copy(), _SMOOTH * self.length
+        lagrangian = _Lagrangian(
+            self.tree, self._ground, stiffness, rest, friction, guess.force, sharpness
+        )
+        settled = (_SETTLED if friction is None else _SETTLED_SHARP) * self._weight
         for _ in range(_OUTER):
-            q, still = self._minimise(q, force, (stiffness, rest), friction, sharpness)
-            pose = self.tree.pose(q)
-            new = np.maximum(0.0, force - self._ground * pose.nodes[:, 2])
-            change = float(np.abs(new - force).max())
-            force = new
+            q, still = self._minimise(q, lagrangian)
+            nodes = self.tree.pose(q).nodes
+            force = lagrangian.push(nodes)
+            change = float(np.abs(force - lagrangian.multiplier).max())
             if friction is not None and sharpness > _SHARP * self.length:
                 sharpness = max(_SHARPER * sharpness, _SHARP * self.length)
-            elif (
-                still and change < (_SETTLED if friction is None else _SETTLED_SHARP) * self._weight
-            ):
-                return Rest(q, pose.nodes, force, True)
-        return Rest(q, self.tree.pose(q).nodes, force, False)
+            elif still and change < settled:
+                return Rest(q, nodes, force, True)
+            lagrangian = lagrangian._replace(multiplier=force, sharpness=sharpness)
+        return Rest(q, nodes, force, False)
 
-    def _minimise(
-        self,
-        q: Array,
-        multiplier: Array,
-        springs: tuple[Array, Array],
-        friction: ContactFriction | None,
-        sharpness: float,
-    ) -> tuple[Array, bool]:
-        """Newton's method on the Lagrangian at given multipliers."""
-        tree, ground, (stiffness, rest) = self.tree, self._ground, springs
-        still = (_STILL if friction is None else _STILL_SHARP) * self._weight * self.length
-
-        def energy(at: Array) -> float:
-            nodes = tree.pose(at).nodes
-            height = nodes[:, 2]
-            push = np.maximum(0.0, multiplier - ground * height)
-            bent = at[WHOLE:] - rest
-            stored = 0.5 * stiffness @ bent**2 + tree.weight @ height + 0.5 * push @ push / ground
-            return float(stored) + (friction.cost(nodes, sharpness) if friction else 0.0)
-
-        value = energy(q)
+    def _minimise(self, q: Array, lagrangian: "_Lagrangian") -> tuple[Array, bool]:
+        """Newton's method on the Lagrangian at given multipliers; True where it is still."""
+        unit, sharp = self._weight * self.length, lagrangian.friction is not None
+        still = (_STILL_SHARP if sharp else _STILL) * unit
+        energy = lagrangian.energy(q)
         for _ in range(_INNER):
-            pose = tree.pose(q)
-            push = np.maximum(0.0, multiplier - ground * pose.nodes[:, 2])
-            rise = tree.heights(pose)
-            net = tree.weight - push
-            gradient = rise.T @ net
-            gradient[WHOLE:] += stiffness * (q[WHOLE:] - rest)
-            hessian = self._hessian(pose, net, rise[push > 0], stiffness)
-            if friction is None:
-                gradient[list(IN_PLAN)] = 0.0
-                hessian[IN_PLAN, :] = hessian[:, IN_PLAN] = 0.0
-                hessian[IN_PLAN, IN_PLAN] = ground
-            else:
-                pull, stiff = friction.slopes(tree, pose, sharpness)
-                gradient, hessian = gradient + pull, hessian + stiff
+            gradient, hessian = lagrangian.slopes(q)
             gradient *= self._scale
             if np.abs(gradient).max() < still:
                 return q, True
@@ -149,26 +121,70 @@ class Statics:
             step = -_solved(hessian, gradient)
             step *= min(1.0, _LONGEST / float(np.abs(step).max()))
             fall, part = float(gradient @ step), 1.0
-            if friction is not None and -fall < _GAIN_SHARP * self._weight * self.length:
+            if sharp and -fall < _GAIN_SHARP * unit:
                 return q, True
-            rounding = 1e-13 * abs(value)
-            while (trial := energy(q + part * self._scale * step)) > (
-                value + 1e-4 * part * fall + rounding
+            step, rounding = self._scale * step, 1e-13 * abs(energy)
+            while (trial := lagrangian.energy(q + part * step)) > (
+                energy + 1e-4 * part * fall + rounding
             ):
                 part *= 0.5
                 if part < _SHORTEST:
                     return q, False
-            q, value = q + part * self._scale * step, trial
+            q, energy = q + part * step, trial
         return q, False
 
-    def _hessian(self, pose: Pose, net: Array, pushed: Array, stiffness: Array) -> Array:
-        """Hessian of springs, weight and the ground's push, whose nodes rise by `pushed` (., Q)."""
+
+class _Lagrangian(NamedTuple):
+    """Energy of a tree and its augmented constraints on the ground.
+
+    Attributes:
+        tree: its links.
+        ground: stiffness of the constraints [N/m].
+        stiffness, rest: of the hinges' springs [N m/rad, rad].
+        friction: on the way there; none if None.
+        multiplier: forces of the ground so far, (P,) [N].
+        sharpness: of the friction [m].
+    """
+
+    tree: Tree
+    ground: float
+    stiffness: Array
+    rest: Array
+    friction: ContactFriction | None
+    multiplier: Array
+    sharpness: float
+
+    def push(self, nodes: Array) -> Array:
+        """Forces of the ground on nodes at places (P, 3) [m], (P,) [N]."""
+        return np.maximum(0.0, self.multiplier - self.ground * nodes[:, 2])
+
+    def energy(self, q: Array) -> float:
+        """Lagrangian at coordinates (Q,) [J]."""
+        nodes = self.tree.pose(q).nodes
+        push, bent = self.push(nodes), q[WHOLE:] - self.rest
+        stored = 0.5 * self.stiffness @ bent**2 + self.tree.weight @ nodes[:, 2]
+        stored += 0.5 * push @ push / self.ground
+        return float(stored) + (self.friction.cost(nodes, self.sharpness) if self.friction else 0.0)
+
+    def slopes(self, q: Array) -> tuple[Array, Array]:
+        """Gradient, (Q,), and Hessian, (Q, Q), by the coordinates."""
+        pose = self.tree.pose(q)
+        push, rise = self.push(pose.nodes), self.tree.heights(pose)
         force = np.zeros_like(pose.nodes)
-        force[:, 2] = net
-        hessian = self.tree.bending(pose, force) + self._ground * pushed.T @ pushed
+        force[:, 2] = self.tree.weight - push
+        gradient = rise.T @ force[:, 2]
+        gradient[WHOLE:] += self.stiffness * (q[WHOLE:] - self.rest)
+        pushed = rise[push > 0]
+        hessian = self.tree.bending(pose, force) + self.ground * pushed.T @ pushed
         hinges = np.arange(WHOLE, len(hessian))
-        hessian[hinges, hinges] += stiffness
-        return np.asarray(hessian)
+        hessian[hinges, hinges] += self.stiffness
+        if self.friction is None:
+            gradient[list(IN_PLAN)] = 0.0
+            hessian[IN_PLAN, :] = hessian[:, IN_PLAN] = 0.0
+            hessian[IN_PLAN, IN_PLAN] = self.ground
+            return gradient, hessian
+        pull, stiff = self.friction.slopes(self.tree, pose, self.sharpness)
+        return gradient + pull, hessian + stiff
 
 
 def _solved(hessian: Array, gradient: Array) -> Array:
