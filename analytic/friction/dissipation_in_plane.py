@@ -58,13 +58,11 @@ class PlanarMotion(NamedTuple):
         shift: of the origin, (2,) [m].
         turn: to the left [rad].
         slip: of each contact, (C, 2) [m].
-        dissipated: by all of them [J].
     """
 
     shift: Array
     turn: float
     slip: Array
-    dissipated: float
 
 
 def least_dissipation_in_plane(
@@ -90,7 +88,7 @@ def least_dissipation_in_plane(
         )
     size = float(np.abs(moves).max())
     if size == 0.0:
-        return PlanarMotion(np.zeros(2), 0.0, np.zeros_like(moves), 0.0)
+        return PlanarMotion(np.zeros(2), 0.0, np.zeros_like(moves))
     centre = places.mean(axis=0)
     arms = places - centre
     reach = float(np.abs(arms).max()) or 1.0
@@ -105,10 +103,7 @@ def least_dissipation_in_plane(
     slip = size * (moves / size + lever @ motion)
     turn = float(size * motion[2] / reach)
     shift = size * motion[:2] - turn * np.array([-centre[1], centre[0]])
-    lost = bounds @ np.hypot(*slip.T)
-    if viscous is not None:
-        lost += np.asarray(viscous) @ (slip**2).sum(axis=1)
-    return PlanarMotion(shift, turn, slip, float(lost))
+    return PlanarMotion(shift, turn, slip)
 
 
 def _minimise(friction: SmoothFriction, lever: Array, moves: Array) -> Array:

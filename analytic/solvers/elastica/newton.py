@@ -193,10 +193,6 @@ class Chain:
         more = state._replace(y=x[0::3, 1:], theta=x[1::3, 1:], shear=x[2::3, 1:], tension=columns)
         return traction.resolve(state, new, more)
 
-    def separation(self, state: ChainState) -> float:
-        """Horizontal distance of the two ends over L."""
-        return float(self.length @ np.cos(state.theta))
-
     def ground_force(self, state: ChainState) -> Array:
         """Force of the ground on each node, shape (N + 2,)."""
         before = np.concatenate([[0.0], state.shear])

@@ -91,7 +91,7 @@ def _lifted_part(k: Array, g: Array, up: Mask) -> tuple[Array, Array, NDArray[np
 class _Curve:
     """Material points of the strip, on demand (see Shapes.curve)."""
 
-    def __init__(self, length: float, lifted: beam.Lifted, flat: Mask, scale: Array) -> None:
+    def __init__(self, length: float, lifted: beam.LiftedPart, flat: Mask, scale: Array) -> None:
         self._length, self._lifted = length, lifted
         self._flat, self._scale = flat[:, None], scale[:, None]
 
