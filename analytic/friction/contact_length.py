@@ -39,25 +39,21 @@ def side_contact(
         Two arrays of shape (B,) [m]; half the length each where no node is in the air, NaN where
         a force is.
     """
-    up = lifted_nodes(robot, nodes, height)
+    up = height > ripple(robot, nodes)
+    finite, half = np.isfinite(force).all(axis=1), 0.5 * robot.length
     weight = robot.weight_per_length + press
-    left = _from_left(weight, nodes, force, up)
-    right = _from_left(weight, nodes[-1] - nodes[::-1], force[:, ::-1], up[:, ::-1])
-    flat = ~up.any(axis=1)
-    half = 0.5 * robot.length
-    blank = np.where(np.isfinite(force).all(axis=1), 1.0, np.nan)
-    left, right = np.where(flat, half, left), np.where(flat, half, right)
-    if not press:
-        left, right = (
-            _if_flat(pressures[:, 0], robot, left),
-            _if_flat(pressures[:, -1], robot, right),
-        )
-    return blank * left, blank * right
-
-
-def lifted_nodes(robot: Robot, nodes: Array, height: Array) -> NDArray[np.bool_]:
-    """Nodes that are in the air: higher than a flat stretch ripples between those that push it."""
-    return np.asarray(height > ripple(robot, nodes))
+    lengths = []
+    for order in (1, -1):
+        distance, push, air = nodes[::order], force[:, ::order], up[:, ::order]
+        begun = np.cumsum(push > 0, axis=1) > 0  # the outermost node may hover by a rounding of h
+        push = push * (np.cumsum(begun & air, axis=1) == 0)
+        moment = push @ np.abs(distance - distance[0])
+        length = np.where(up.any(axis=1), flat_length(weight, push.sum(axis=1), moment), half)
+        if not press:
+            may_lie = may_lie_flat(pressures[:, ::order][:, 0], robot.peak_pressure)
+            length = np.where(may_lie, length, 0.0)
+        lengths.append(np.where(finite, length, np.nan))
+    return lengths[0], lengths[1]
 
 
 def ripple(robot: Robot, nodes: Array) -> float:
@@ -65,16 +61,6 @@ def ripple(robot: Robot, nodes: Array) -> float:
     spacing = float(np.diff(nodes).max())
     unit = robot.weight_per_length * robot.length * spacing**3 / pneunet.base_rigidity(robot)
     return _RIPPLE * unit
-
-
-def _if_flat(pressure: Array, robot: Robot, contact: Array) -> Array:
-    return np.where(may_lie_flat(pressure, robot.peak_pressure), contact, 0.0)
-
-
-def _from_left(weight: float, nodes: Array, force: Array, up: NDArray[np.bool_]) -> Array:
-    begun = np.cumsum(force > 0, axis=1) > 0  # the outermost node may hover by a rounding of h
-    carrying = force * (np.cumsum(begun & up, axis=1) == 0)
-    return np.asarray(flat_length(weight, carrying.sum(axis=1), carrying @ nodes))
 
 
 def flat_length(weight: Any, total: Any, moment: Any) -> Any:
