@@ -156,12 +156,12 @@ class Chain:
         bend[1:-1] = stiffness
         turn = np.zeros(n + 1)
         turn[1:-1] = stiffness * rest
-        columns = None if traction is None else traction.tensions()
+        columns = np.zeros((n, 0)) if traction is None else traction.tensions()
         tension = state.tension + self.hanging
         geometric = state.shear * sine + tension * cosine
         # general band storage: entry (i, j) at [kl + ku + i - j, j], kl = ku = 3
         band = np.zeros((10, size))
-        right = np.zeros((size, 1 if columns is None else 1 + columns.shape[1]), order="F")
+        right = np.zeros((size, 1 + columns.shape[1]), order="F")
         free = ~state.active
         # nodes, row 3 k: y_k = 0, or V_k - V_{k-1} = W_k
         band[6, 0::3] = state.active
@@ -173,22 +173,21 @@ class Chain:
         band[9, 1:-3:3] = -bend[1:-1]
         band[3, 4::3] = -bend[1:-1]
         band[5, 2::3] = -cosine
-        pulling = tension if columns is None else self.hanging
+        pulling = tension if traction is None else self.hanging
         right[1::3, 0] = turn[:-1] - turn[1:] + geometric * state.theta - pulling * sine
         # kinematics, row 3 i + 2
         band[5, 3::3] = 1.0
         band[8, 0:-1:3] = -1.0
         band[7, 1::3] = -cosine
         right[2::3, 0] = sine - cosine * state.theta
-        if columns is not None:
-            right[1::3, 1:] = -columns * sine[:, None]
+        right[1::3, 1:] = -columns * sine[:, None]
         if self.clamped:
             band[[6, 3, 5], [1, 4, 2]], right[1] = (1.0, 0.0, 0.0), 0.0
         _, _, x, info = dgbsv(3, 3, band, right, overwrite_ab=True, overwrite_b=True)
         if info != 0:
             return None
         new = state._replace(y=x[0::3, 0], theta=x[1::3, 0], shear=x[2::3, 0])
-        if traction is None or columns is None:
+        if traction is None:
             return new
         more = state._replace(y=x[0::3, 1:], theta=x[1::3, 1:], shear=x[2::3, 1:], tension=columns)
         return traction.resolve(state, new, more)

@@ -3,7 +3,7 @@
 In an increment of pressure each contact sticks or slides, and the tractions that the ground then
 exerts bend the strip and so move the contacts. Newton's method finds shape, tractions and place
 together, see analytic.solvers.elastica.tractions. As the friction goes to 0 the tractions bend
-nothing any more and only decide who slides: section 2.2 of [Majidi13].
+nothing any more and only decide which contact slides: section 2.2 of [Majidi13].
 """
 
 import math

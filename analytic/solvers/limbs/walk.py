@@ -93,8 +93,8 @@ def walk(
         elements: hinges of each limb, even.
         cycles: how many.
         law: of friction, a name of analytic.friction.laws.LAWS.
-        bent: whether friction bends the robot; else it only decides who slides, as in the limit of
-            weak friction.
+        bent: whether friction bends the robot; else it only decides which contacts slide, as in
+            the limit of weak friction.
 
     Raises:
         ValueError: the gait is not for so many limbs.
