@@ -34,9 +34,9 @@ def modes_error(prediction: Prediction) -> float:
     """Bound on the error that the modes' assumed contacts make in the displacement per cycle [m].
 
     Where no state is flagged, the modes are the equilibria of exact contact and the bound is 0. In
-    increments that begin or end in a state that is no equilibrium (UNSOUND) either end may slide, and
-    all change of separation in them may be wrong; measured on random gaits, the bound is about five
-    times the error against exact contact and nowhere less. Without a displacement, infinite.
+    increments that begin or end in a state that is no equilibrium (UNSOUND) either end may slide,
+    and all change of separation in them may be wrong; measured on random gaits, the bound is about
+    five times the error against exact contact and nowhere less. Without a displacement, infinite.
     Solvers with exact contact raise none of these flags: 0.
     """
     return flagged_change(prediction, UNSOUND)

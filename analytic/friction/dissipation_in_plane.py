@@ -52,7 +52,7 @@ class SmoothFriction(NamedTuple):
 
 
 class PlanarMotion(NamedTuple):
-    """Motion of the whole.
+    """Motion of a whole robot in the plane.
 
     Attributes:
         shift: of the origin, (2,) [m].

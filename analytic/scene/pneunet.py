@@ -1,4 +1,4 @@
-"""Pneu-net laws: what pressure does to curvature and flexural rigidity ([Majidi13], section 2.1).
+"""Pneu-net laws: curvature and flexural rigidity by pressure ([Majidi13], section 2.1).
 
 Pressures p and curvatures k may be scalars or arrays of any one shape; results have that shape.
 Lengths along the strip enter only as the ratio c/x, so energies and volumes are given per unit

@@ -58,7 +58,7 @@ class StickSlip:
         self._changes = 0
 
     def begin(self, state: ChainState, duration: float = math.inf) -> None:
-        """An increment of so many seconds begins at a state, the chain being loaded for its end."""
+        """Begin an increment of so many seconds at a state, the chain being loaded for its end."""
         self._before, self._search, self._changes = self._places(state), None, 0
         self._speed = self._chain.robot.length / duration  # of a slip of 1
         self.update(state)

@@ -33,7 +33,7 @@ _INSTANT = 1e-12  # s; a shortest increment
 
 
 class Contact(NamedTuple):
-    """One limb on the ground.
+    """Contact of one limb with the ground.
 
     Attributes:
         limb: its place.

@@ -66,7 +66,7 @@ class Statics:
         self._ground = _STIFF * self._weight / self.length
 
     def flat(self) -> Rest:
-        """Lying on the ground without pressure."""
+        """The tree flat on the ground, without pressure."""
         q = np.zeros(len(self.tree.parent))
         return Rest(q, self.tree.pose(q).nodes, self.tree.weight.copy(), True)
 
