@@ -37,7 +37,7 @@ class Patches:
         for border in self.borders:
             if not is_number(border):
                 raise ValueError(f"borders of patches must be finite numbers [m], got {border!r}")
-        if any(two <= one for one, two in zip(self.borders, self.borders[1:], strict=False)):
+        if any(after <= before for before, after in pairwise(self.borders)):
             raise ValueError(f"borders of patches must ascend, got {self.borders!r}")
         if len(self.surfaces) != len(self.borders) + 1:
             raise ValueError(

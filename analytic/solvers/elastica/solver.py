@@ -234,8 +234,8 @@ class _Branch:
 def _switches(points: list[_Point]) -> NDArray[np.bool_]:
     """Increments between states of unlike contacts, (B - 1,)."""
     return np.array([
-        one.contacts != two.contacts and None not in (one.contacts, two.contacts)
-        for one, two in pairwise(points)
+        before.contacts != after.contacts and None not in (before.contacts, after.contacts)
+        for before, after in pairwise(points)
     ], dtype=bool)  # fmt: skip
 
 
@@ -245,9 +245,9 @@ def _rolled_up(state: ChainState) -> bool:
     return any(y > 1e-9 and abs(theta) > _CURLED for y, theta in ends)
 
 
-def _apart(one: ChainState, two: ChainState) -> float:
+def _apart(state: ChainState, reference: ChainState) -> float:
     """Greatest difference of a direction [rad]."""
-    return float(np.abs(one.theta - two.theta).max())
+    return float(np.abs(state.theta - reference.theta).max())
 
 
 class _Curve:
