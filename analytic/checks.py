@@ -9,18 +9,18 @@ _LONGEST_WORD = 60  # of a file name
 
 
 def is_number(value: Any) -> bool:
-    """Whether it is a finite real number, of Python or NumPy, and no truth value."""
+    """Tell whether a value is a finite real number, of Python or NumPy, and no truth value."""
     return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def positive(name: str, value: Any, unit: str = "") -> None:
-    """Raise ValueError unless it is a number above 0."""
+    """Raise ValueError unless the value is a number above 0."""
     if not (is_number(value) and value > 0):
         raise ValueError(f"{name} must be a positive finite number{_of(unit)}, got {_shown(value)}")
 
 
 def not_negative(name: str, value: Any, unit: str = "") -> None:
-    """Raise ValueError unless it is a number of 0 or more."""
+    """Raise ValueError unless the value is a number of 0 or more."""
     if not (is_number(value) and value >= 0):
         raise ValueError(
             f"{name} must be a finite number{_of(unit)}, at least 0, got {_shown(value)}"
@@ -28,7 +28,7 @@ def not_negative(name: str, value: Any, unit: str = "") -> None:
 
 
 def whole(name: str, value: Any, least: int, most: int | None = None) -> None:
-    """Raise ValueError unless it is a whole number within bounds, both included."""
+    """Raise ValueError unless the value is a whole number within bounds, both included."""
     number = isinstance(value, Integral) and not isinstance(value, bool)
     if not (number and value >= least and (most is None or value <= most)):
         bounds = f"of at least {least}" if most is None else f"from {least} to {most}"
@@ -36,23 +36,23 @@ def whole(name: str, value: Any, least: int, most: int | None = None) -> None:
 
 
 def one_of(name: str, value: Any, valid: Iterable[str]) -> None:
-    """Raise ValueError unless it is one of the valid words."""
+    """Raise ValueError unless the value is one of the valid words."""
     if isinstance(value, str) and isinstance(valid, Collection) and value in valid:
         return  # a registry need not look for all that it has
-    known = list(valid)
-    if value not in known:
-        raise ValueError(f"{name} must be one of {', '.join(known)}; got {value!r}")
+    words = list(valid)
+    if value not in words:
+        raise ValueError(f"{name} must be one of {', '.join(words)}; got {value!r}")
 
 
 def slope(value: Any) -> None:
-    """Raise ValueError unless it is the angle of a slope, less steep than a right angle [rad]."""
+    """Raise ValueError unless the value is the angle of a slope, below a right angle [rad]."""
     if not (is_number(value) and abs(value) < math.pi / 2):
         shown = f"{math.degrees(value):g} degrees" if isinstance(value, Real) else repr(value)
         raise ValueError(f"slope must be less steep than 90 degrees, got {shown}")
 
 
 def file_word(name: str, value: Any) -> None:
-    """Raise ValueError unless it can stand in a file name."""
+    """Raise ValueError unless the value can stand in a file name."""
     fine = isinstance(value, str) and value.isprintable() and "/" not in value
     if not (fine and 0 < len(value) <= _LONGEST_WORD):
         raise ValueError(
@@ -65,5 +65,5 @@ def _of(unit: str) -> str:
 
 
 def _shown(value: Any) -> str:
-    """As people write it: NumPy's numbers without their type."""
+    """Written form of a value: NumPy's numbers without their type."""
     return repr(value.item()) if hasattr(value, "item") else repr(value)

@@ -1,4 +1,4 @@
-"""From a sequence of shapes and a ground to the way the robot goes ([Majidi13], section 2.2)."""
+"""Locomotion of a robot along a sequence of shapes on a ground ([Majidi13], section 2.2)."""
 
 from typing import Literal, NamedTuple
 
@@ -13,6 +13,7 @@ from analytic.scene.surface import Ground, Surface
 from analytic.shapes import ContactShapes, Shapes
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 Direction = Literal["forward", "backward", "none"]
 
 STANDSTILL = 0.002  # |Delta|/L below which a cycle counts as no travel; chosen, 0.26 mm on 130 mm
@@ -46,7 +47,7 @@ def displacements(
     Args:
         shapes: states in order of time, evenly or unevenly spaced; finer is more accurate.
         ground: under the left end at x = 0 and on both sides of it.
-        cycles: number of cycles that the sequence holds.
+        cycles: number of cycles in the sequence.
         friction: law and slope.
 
     Raises:
@@ -57,29 +58,51 @@ def displacements(
         raise ValueError(
             f"need at least two states and one cycle, got {len(shapes)} states, {cycles} cycles"
         )
-    change = np.diff(shapes.separation)
-    if friction.tension and isinstance(shapes, ContactShapes) and shapes.left is not None:
-        left = shapes.left
-    elif friction.contacts == "all":
-        left = motion(shapes, ground, friction).left
-    elif isinstance(ground, Surface):
-        left = np.concatenate([[0.0], np.cumsum(-mean_slip(shapes, ground, friction) * change)])
-    else:
-        left = along(shapes, ground, friction)[0]
+    left, _ = left_end(shapes, ground, friction)
     right = left + (shapes.separation - shapes.separation[0])
     return Locomotion(left, right, float(left[-1] / cycles))
 
 
-def along(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, NDArray[np.bool_]]:
-    """Displacement of the left end where the ground changes under the robot, (B,) [m].
+def left_end(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, Mask]:
+    """Apply the rule of `displacements`, and see where the anchor changes.
 
-    Also the increments in which another end begins to hold, (B - 1,).
+    Returns:
+        Displacement of the left end since the first state, (B,) [m]; and the increments in which
+        another contact begins to stick, (B - 1,).
     """
+    if (
+        friction.tension
+        and isinstance(shapes, ContactShapes)
+        and shapes.left is not None
+        and shapes.switches is not None
+    ):
+        return shapes.left, shapes.switches
+    if friction.contacts == "all":
+        return motion(shapes, ground, friction)
+    if isinstance(ground, Surface):
+        return _on_uniform(shapes, ground, friction)
+    return _along(shapes, ground, friction)
+
+
+def _on_uniform(shapes: Shapes, surface: Surface, friction: Friction) -> tuple[Array, Mask]:
+    """See `left_end`."""
+    left, right = bounds(shapes, surface, friction.law)
+    change, downhill = np.diff(shapes.separation), friction.downhill(shapes.robot)
+    before = slip_fraction(left[:-1], right[:-1], downhill, change > 0)
+    after = slip_fraction(left[1:], right[1:], downhill, change > 0)
+    slip = 0.5 * (before + after)
+    switches = np.diff(slip_fraction(left, right)) != 0
+    switches |= np.abs(slip - np.round(2 * slip) / 2) > 0
+    return np.concatenate([[0.0], np.cumsum(-slip * change)]), switches
+
+
+def _along(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, Mask]:
+    """See `left_end`, for ground that changes under the robot."""
     law, width = LAWS[friction.law], shapes.robot.width
     contact, load = _ends(shapes, friction.law)
     downhill = friction.downhill(shapes.robot)
     left = np.zeros(len(shapes))
-    changes, last = np.zeros(len(shapes) - 1, dtype=bool), 0.5
+    changes, before = np.zeros(len(shapes) - 1, dtype=bool), 0.5
     for i, separation in enumerate(shapes.separation[:-1]):
         change = shapes.separation[i + 1] - separation
         slips, surfaces, x = [], [], left[i]
@@ -91,24 +114,15 @@ def along(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, ND
             surfaces.append((ground.at(x), ground.at(right)))
             x = left[i] - slips[0] * change  # where the second state would be by the first's rule
         left[i + 1] = left[i] - 0.5 * sum(slips) * change
-        changes[i] = slips[0] != slips[1] or slips[0] != last or surfaces[0] != surfaces[1]
-        last = slips[1]
+        changes[i] = slips[0] != slips[1] or slips[0] != before or surfaces[0] != surfaces[1]
+        before = slips[1]
     return left, changes
-
-
-def mean_slip(shapes: Shapes, surface: Surface, friction: Friction = WEAK) -> Array:
-    """Part of each change of separation that the left end takes up, (B - 1,): 0 to 1."""
-    left, right = bounds(shapes, surface, friction.law)
-    downhill, growing = friction.downhill(shapes.robot), np.diff(shapes.separation) > 0
-    before = slip_fraction(left[:-1], right[:-1], downhill, growing)
-    after = slip_fraction(left[1:], right[1:], downhill, growing)
-    return np.asarray(0.5 * (before + after))
 
 
 def state_slip(shapes: Shapes, surface: Surface, law: str = "constant") -> Array:
     """Part of a change of separation that the left end takes up at each state, (B,): 0, 1/2, 1.
 
-    On level ground; see `mean_slip` for slopes.
+    On level ground.
     """
     return np.asarray(slip_fraction(*bounds(shapes, surface, law)))
 
@@ -138,7 +152,7 @@ def _ends(shapes: Shapes, law: str) -> tuple[tuple[Array, Array], tuple[Array, A
 
 
 def undecided(shapes: Shapes, surface: Surface, law: str = "coulomb", alike: float = 0.0) -> float:
-    """How much of the displacement along a sequence the law leaves open, either way [m].
+    """Displacement along a sequence that the law leaves open, either way [m].
 
     Where both ends resist alike, by nothing or to the last digit, Coulomb's law does not say which
     one slides: the whole change of separation may be the left end's or the right end's, and
@@ -146,12 +160,12 @@ def undecided(shapes: Shapes, surface: Surface, law: str = "coulomb", alike: flo
 
     Args:
         shapes, surface, law: the walk.
-        alike: part of the larger bound by which two may differ and count as a tie [1].
+        alike: part of the larger bound by which two may differ and count as equal [1].
     """
     left, right = bounds(shapes, surface, law)
     near = np.abs(left - right) <= alike * np.maximum(left, right)
-    tied = near[1:] & near[:-1]
-    return float(0.5 * np.abs(np.diff(shapes.separation))[tied].sum())
+    equal = near[1:] & near[:-1]
+    return float(0.5 * np.abs(np.diff(shapes.separation))[equal].sum())
 
 
 def direction(displacement: float, length: float, error: float = 0.0) -> Direction:

@@ -1,4 +1,4 @@
-"""How far a robot goes in a cycle, by any solver, with the changes of anchor resolved."""
+"""Displacement of a robot in a cycle, by any solver, with the changes of anchor resolved."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
@@ -10,13 +10,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from analytic.checks import one_of
 from analytic.friction.laws import Friction
-from analytic.friction.motion import motion
-from analytic.locomotion import WEAK, Locomotion, along, displacements, mean_slip, state_slip
+from analytic.locomotion import WEAK, Locomotion, displacements, left_end
 from analytic.scene.gait import Gait
 from analytic.scene.ground import depends_on_speed, surfaces_of
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground, Surface
-from analytic.shapes import ContactShapes, Shapes, Status
+from analytic.shapes import Shapes, Status
 
 Array = NDArray[np.float64]
 
@@ -165,7 +164,7 @@ class Prediction(NamedTuple):
 
     @property
     def cycles(self) -> int:
-        """How many cycles the states are of."""
+        """Number of cycles of the states."""
         return len(self.by_cycle)
 
 
@@ -195,7 +194,7 @@ def predict(
         friction: law, tension and slope; "coulomb" needs a solver that knows forces, and elastica
             alone lets friction bend the strip.
         path: pressures to follow instead of the gait's, (B, S) [Pa].
-        cycles: how many cycles of equal duration, or of equally many rows, the path holds.
+        cycles: number of cycles in the path, of equal duration or of equally many rows.
         times: of the path's states, (B,) [s]; the gait's if there is no path.
 
     Raises:
@@ -207,32 +206,21 @@ def predict(
         one_of("solver", solver, SOLVERS)
         solver = SOLVERS[solver]()
     if path is None:
-        if depends_on_speed(ground):  # which may creep while a pressure is held
+        if depends_on_speed(ground):  # which may creep while a pressure is constant
             fractions = gait.pressures(states_per_ramp, cycles)
             times = gait.times(states_per_ramp, cycles)
         else:
             fractions, times = gait.path(states_per_ramp, cycles)
         path = robot.peak_pressure * fractions
     path = np.asarray(path, dtype=float)
-    when = None if times is None else np.asarray(times, dtype=float)
-    clock = np.arange(float(len(path))) if when is None else when
-    if depends_on_speed(ground) and (not friction.tension or when is None):
+    clock = np.asarray(np.arange(len(path)) if times is None else times, dtype=float)
+    if depends_on_speed(ground) and (not friction.tension or times is None):
         raise ValueError(
             f"ground {ground.name!r} resists by speed: friction must have a tension above 0, and a "
             "path its times"
         )
-    shapes = solver.solve(robot, path, ground, friction, when)
-    changes = np.flatnonzero(_anchor_changes(shapes, ground, friction))
-    if len(changes) and refinement > 1:
-        path, clock = _refined(path, changes, refinement), _refined(clock, changes, refinement)
-        shapes = solver.solve(robot, path, ground, friction, None if when is None else clock)
-    flags = Status(int(np.bitwise_or.reduce(shapes.status)))
-    locomotion = displacements(shapes, ground, cycles, friction)
-    ends = np.linspace(clock[0], clock[-1], cycles + 1)
-    by_cycle = np.diff(np.interp(ends, clock, locomotion.left))
-    if isinstance(ground, Surface):
-        locomotion = locomotion._replace(per_cycle=float(by_cycle[-1]))
-    return Prediction(path, shapes, locomotion, flags, by_cycle)
+    walk = _Walk(robot, solver, friction, refinement, cycles, timed=times is not None)
+    return walk.on([ground], path, clock)[0]
 
 
 def predict_grounds(
@@ -244,7 +232,7 @@ def predict_grounds(
     refinement: int = 32,
     friction: Friction = WEAK,
 ) -> list[Prediction]:
-    """The same walk on several grounds, whose friction bends nothing: the shapes are found once.
+    """Walk on several grounds, whose friction bends nothing, with shapes that are solved for once.
 
     Args:
         robot, gait, solver, states_per_ramp, refinement: see predict.
@@ -256,16 +244,43 @@ def predict_grounds(
     """
     friction = replace(friction, tension=0.0)
     path = robot.peak_pressure * gait.path(states_per_ramp)[0]
-    shapes = solver.solve(robot, path, grounds[0], friction, None)
-    changes = np.flatnonzero(
-        np.any([_anchor_changes(shapes, ground, friction) for ground in grounds], axis=0)
-    )
-    if len(changes) and refinement > 1:
-        path = _refined(path, changes, refinement)
-        shapes = solver.solve(robot, path, grounds[0], friction, None)
-    flags = Status(int(np.bitwise_or.reduce(shapes.status)))
-    walks = [displacements(shapes, ground, 1, friction) for ground in grounds]
-    return [Prediction(path, shapes, walk, flags, walk.left[-1:]) for walk in walks]
+    walk = _Walk(robot, solver, friction, refinement, cycles=1, timed=False)
+    return walk.on(grounds, path, np.arange(float(len(path))))
+
+
+class _Walk(NamedTuple):
+    """Options of a walk, see predict; `timed` if its states have times that matter."""
+
+    robot: Robot
+    solver: Solver
+    friction: Friction
+    refinement: int
+    cycles: int
+    timed: bool
+
+    def on(self, grounds: Sequence[Ground], path: Array, clock: Array) -> list[Prediction]:
+        """Predictions on grounds that shapes are alike on, at pressures (B, S) and times (B,)."""
+        shapes = self._shapes(grounds[0], path, clock)
+        changes = np.flatnonzero(
+            np.any([left_end(shapes, ground, self.friction)[1] for ground in grounds], axis=0)
+        )
+        if len(changes) and self.refinement > 1:
+            path, clock = (_refined(values, changes, self.refinement) for values in (path, clock))
+            shapes = self._shapes(grounds[0], path, clock)
+        flags = Status(int(np.bitwise_or.reduce(shapes.status)))
+        ends = np.linspace(clock[0], clock[-1], self.cycles + 1)
+        predictions = []
+        for ground in grounds:
+            locomotion = displacements(shapes, ground, self.cycles, self.friction)
+            by_cycle = np.diff(np.interp(ends, clock, locomotion.left))
+            if isinstance(ground, Surface):
+                locomotion = locomotion._replace(per_cycle=float(by_cycle[-1]))
+            predictions.append(Prediction(path, shapes, locomotion, flags, by_cycle))
+        return predictions
+
+    def _shapes(self, ground: Ground, path: Array, clock: Array) -> Shapes:
+        times = clock if self.timed else None
+        return self.solver.solve(self.robot, path, ground, self.friction, times)
 
 
 def _refined(values: Array, changes: NDArray[np.int_], parts: int) -> Array:
@@ -273,16 +288,3 @@ def _refined(values: Array, changes: NDArray[np.int_], parts: int) -> Array:
     part = np.linspace(0, 1, parts + 1)[1:-1].reshape(-1, *[1] * (values.ndim - 1))
     between = [values[i] + part * (values[i + 1] - values[i]) for i in changes]
     return np.insert(values, np.repeat(changes + 1, parts - 1), np.concatenate(between), axis=0)
-
-
-def _anchor_changes(shapes: Shapes, ground: Ground, friction: Friction) -> NDArray[np.bool_]:
-    """Increments in which the anchor changes, (B - 1,)."""
-    if isinstance(shapes, ContactShapes) and shapes.switches is not None:
-        return shapes.switches
-    if friction.contacts == "all":
-        return motion(shapes, ground, friction).changes
-    if not isinstance(ground, Surface):
-        return along(shapes, ground, friction)[1]
-    slip = mean_slip(shapes, ground, friction)
-    change = np.diff(state_slip(shapes, ground, friction.law)) != 0
-    return np.asarray(change | (np.abs(slip - np.round(2 * slip) / 2) > 0))

@@ -13,11 +13,11 @@ T = TypeVar("T")
 
 
 class Registry(MutableMapping[str, T]):
-    """What is known by name; its names are all there are, its values are imported when asked for.
+    """Values by name; its names are all there are, its values are imported when asked for.
 
     Args:
         group: of entry points, each a class without arguments or an instance with that `name`.
-        builtin: where what is built in is, by name, as "module:attribute".
+        builtin: places of the built-in values, by name, as "module:attribute".
     """
 
     def __init__(self, group: str, builtin: Mapping[str, str]) -> None:
@@ -33,7 +33,7 @@ class Registry(MutableMapping[str, T]):
 
     @property
     def registered(self) -> dict[str, T]:
-        """What this process registered."""
+        """Values that this process registered."""
         return dict(self._registered)
 
     def refuse(self, name: str, why: str) -> None:
@@ -41,11 +41,11 @@ class Registry(MutableMapping[str, T]):
         self._refused[name] = why
 
     def __getitem__(self, name: str) -> T:
-        """What has a name.
+        """The value of a name.
 
         Raises:
-            KeyError: nothing has.
-            ValueError: it cannot be had here; the message says why.
+            KeyError: there is no such name.
+            ValueError: the value cannot be had here; the message says why.
         """
         if name in self._registered:
             return self._registered[name]
@@ -85,10 +85,10 @@ class Registry(MutableMapping[str, T]):
 def _imported(point: EntryPoint) -> Any:
     where = f"entry point {point.name} = {point.value!r} of {point.group!r}"
     try:
-        found = point.load()
-        found = found() if isinstance(found, type) else found
+        value = point.load()
+        value = value() if isinstance(value, type) else value
     except Exception as error:  # whatever a package does while it is imported
         raise ValueError(f"{where} cannot be had: {type(error).__name__}: {error}") from error
-    if getattr(found, "name", None) != point.name:
-        raise ValueError(f"{where} must have that name, got {getattr(found, 'name', None)!r}")
-    return found
+    if getattr(value, "name", None) != point.name:
+        raise ValueError(f"{where} must have that name, got {getattr(value, 'name', None)!r}")
+    return value

@@ -1,4 +1,4 @@
-"""What every quasi-static solver returns: the strip's shape and contact at a batch of states."""
+"""Results of every quasi-static solver: the strip's shape and contact at a batch of states."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class Mode(IntEnum):
 
 
 class Status(IntFlag):
-    """How far a state can be trusted; flags add up.
+    """Flags of a state that say how far it can be trusted; they add up.
 
     Values are NaN with NO_ROOT, NOT_CONVERGED, BRANCH_END and ROLLED_UP, else numbers.
     """
@@ -35,13 +35,13 @@ class Status(IntFlag):
     OK = 0
     NO_ROOT = 1  # no lift-off point exists with one end flat: no equilibrium of the assumed kind
     SEVERAL_ROOTS = 2  # several lift-off points balance; the one with least contact was taken
-    PENETRATES = 4  # the shape dips below the ground between its contacts
+    PENETRATES = 4  # the shape sinks below the ground between its contacts
     BOTH_FLAT = 8  # the end in point contact slopes into the ground: both ends want to lie flat
-    HELD_FLAT = 16  # a part that lies flat is inflated: no moment in the paper's modes holds it so
+    HELD_FLAT = 16  # a part that lies flat is inflated: the paper's modes have no moment for that
     NOT_CONVERGED = 32  # the iteration gave up
     BRANCH_END = 64  # the stable equilibrium that the sequence followed ended before this state
     ROLLED_UP = 128  # an end curls up off the ground: neither tip nor side, so no law of friction
-    JUMPED = 256  # friction let go at once; this is where slow motion with damping comes to rest
+    JUMPED = 256  # friction gave way at once; this is where slow motion with damping comes to rest
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,6 @@ class Shapes:
         contact_left: length of side contact at the left end, 0 for a tip, shape (B,) [m].
         contact_right: the same at the right end, shape (B,) [m].
         amplitude: greatest height of the strip, shape (B,) [m].
-        mode: contact mode, shape (B,), values of Mode; without meaning where the rest is NaN.
         status: shape (B,), values of Status.
         curve: material points s of shape (S,) [m] -> (x, y), each of shape (B, S) [m], with x
             measured from the left end.
@@ -65,12 +64,28 @@ class Shapes:
     contact_left: Array
     contact_right: Array
     amplitude: Array
-    mode: NDArray[np.int_]
     status: NDArray[np.int_]
     curve: Callable[[Array], tuple[Array, Array]]
 
     def __len__(self) -> int:
         return len(self.separation)
+
+    @property
+    def mode(self) -> NDArray[np.int_]:
+        """Contact mode by the ends' contact lengths, shape (B,), values of Mode; TIP if NaN.
+
+        Segments are counted from the left; the third stands for all beyond it too.
+        """
+        left, right, length = self.contact_left, self.contact_right, self.robot.length
+        inner = self.robot.borders[1:-1]
+        reach = length * (1 + 1e-9)  # lengths come with rounding
+        in_left = np.minimum(np.searchsorted(inner, left / reach, side="right"), 2)
+        in_right = np.minimum(np.searchsorted(inner, 1 - right / length, side="right"), 2)
+        mode = np.full(len(left), int(Mode.TIP))
+        mode = np.where(left > 0, Mode.LEFT_1 + in_left, mode)
+        mode = np.where(right > 0, Mode.RIGHT_1 + in_right, mode)
+        mode = np.where((left > 0) & (right > 0), Mode.BOTH, mode)
+        return np.where(left + right >= length * (1 - 1e-9), Mode.FLAT, mode)
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""How sure a predicted displacement is: what the modes assume, and what a finer solver changes."""
+"""Uncertainty of a predicted displacement: where it rests on states that carry flags."""
 
 import math
 
@@ -7,7 +7,7 @@ import numpy as np
 from analytic.prediction import Prediction
 from analytic.shapes import Status
 
-# flags of shapes that are no equilibrium: somewhere the ground would have to pull, or hold a
+# flags of shapes that are no equilibrium: somewhere the ground would have to pull, or exert a
 # moment. Several roots alone are no such thing, the one taken is the stable one
 UNSOUND = Status.NO_ROOT | Status.PENETRATES | Status.BOTH_FLAT | Status.HELD_FLAT
 
@@ -34,8 +34,8 @@ def modes_error(prediction: Prediction) -> float:
     """Bound on the error that the modes' assumed contacts make in the displacement per cycle [m].
 
     Where no state is flagged, the modes are the equilibria of exact contact and the bound is 0. In
-    increments that begin or end in a state that is no equilibrium (UNSOUND) nothing is known of who
-    slides, and all change of separation in them may be wrong; measured on random gaits, it is about
+    increments that begin or end in a state that is no equilibrium (UNSOUND) either end may slide,
+    and all change of separation in them may be wrong; measured on random gaits, the bound is about
     five times the error against exact contact and nowhere less. Without a displacement, infinite.
     Solvers with exact contact raise none of these flags: 0.
     """

@@ -1,1 +1,1 @@
-"""Friction: laws, contacts, and who slides by least dissipation ([Majidi13], section 2.2)."""
+"""Friction: laws, contacts, and motion by least dissipation ([Majidi13], section 2.2)."""

@@ -1,4 +1,4 @@
-"""From the contact forces on nodes to contact lengths and modes, for one or many states."""
+"""Contact lengths that follow from the contact forces on nodes, for one or many states."""
 
 from typing import Any
 
@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from analytic.scene import pneunet
 from analytic.scene.robot import Robot
-from analytic.shapes import Mode
 
 Array = NDArray[np.float64]
 
@@ -33,49 +32,35 @@ def side_contact(
         force: of the ground on each, 0 where it does not touch, shape (B, S) [N].
         height: of each, shape (B, S) [m].
         pressures: of the segments, shape (B, S) [Pa].
-        press: with which adhesion pulls at a flat stretch besides its weight; with any an inflated
-            end may lie flat too [N/m].
+        press: pull of adhesion on a flat stretch, besides its weight; with any an inflated end may
+            lie flat too [N/m].
 
     Returns:
         Two arrays of shape (B,) [m]; half the length each where no node is in the air, NaN where
         a force is.
     """
-    up = lifted_nodes(robot, nodes, height)
+    up = height > ripple(robot, nodes)
+    finite, half = np.isfinite(force).all(axis=1), 0.5 * robot.length
     weight = robot.weight_per_length + press
-    left = _from_left(weight, nodes, force, up)
-    right = _from_left(weight, nodes[-1] - nodes[::-1], force[:, ::-1], up[:, ::-1])
-    flat = ~up.any(axis=1)
-    half = 0.5 * robot.length
-    blank = np.where(np.isfinite(force).all(axis=1), 1.0, np.nan)
-    left, right = np.where(flat, half, left), np.where(flat, half, right)
-    if not press:
-        left, right = (
-            _if_flat(pressures[:, 0], robot, left),
-            _if_flat(pressures[:, -1], robot, right),
-        )
-    return blank * left, blank * right
-
-
-def lifted_nodes(robot: Robot, nodes: Array, height: Array) -> NDArray[np.bool_]:
-    """Nodes that are in the air: higher than a flat stretch ripples between those that push it."""
-    return np.asarray(height > ripple(robot, nodes))
+    lengths = []
+    for order in (1, -1):
+        distance, push, air = nodes[::order], force[:, ::order], up[:, ::order]
+        begun = np.cumsum(push > 0, axis=1) > 0  # the outermost node may hover by a rounding of h
+        push = push * (np.cumsum(begun & air, axis=1) == 0)
+        moment = push @ np.abs(distance - distance[0])
+        length = np.where(up.any(axis=1), flat_length(weight, push.sum(axis=1), moment), half)
+        if not press:
+            may_lie = may_lie_flat(pressures[:, ::order][:, 0], robot.peak_pressure)
+            length = np.where(may_lie, length, 0.0)
+        lengths.append(np.where(finite, length, np.nan))
+    return lengths[0], lengths[1]
 
 
 def ripple(robot: Robot, nodes: Array) -> float:
-    """How high a flat stretch ripples between nodes that push it, a bound [m]."""
+    """Bound of the height to which a flat stretch ripples between nodes that push it [m]."""
     spacing = float(np.diff(nodes).max())
     unit = robot.weight_per_length * robot.length * spacing**3 / pneunet.base_rigidity(robot)
     return _RIPPLE * unit
-
-
-def _if_flat(pressure: Array, robot: Robot, contact: Array) -> Array:
-    return np.where(may_lie_flat(pressure, robot.peak_pressure), contact, 0.0)
-
-
-def _from_left(weight: float, nodes: Array, force: Array, up: NDArray[np.bool_]) -> Array:
-    begun = np.cumsum(force > 0, axis=1) > 0  # the outermost node may hover by a rounding of h
-    held = force * (np.cumsum(begun & up, axis=1) == 0)
-    return np.asarray(flat_length(weight, held.sum(axis=1), held @ nodes))
 
 
 def flat_length(weight: Any, total: Any, moment: Any) -> Any:
@@ -91,7 +76,7 @@ def flat_length(weight: Any, total: Any, moment: Any) -> Any:
 
 
 def may_lie_flat(pressure: Any, peak_pressure: Any) -> Any:
-    """Whether an end segment at this pressure [Pa] may lie on its side: with next to none."""
+    """Tell whether an end segment at this pressure [Pa] may lie on its side: with next to none."""
     return abs(pressure) <= PASSIVE * peak_pressure
 
 
@@ -109,19 +94,3 @@ def end_loads(force: Array, height: Array) -> tuple[Array, Array]:
     left, right = (np.where(side, force, 0.0).sum(axis=1) for side in (first, ~first))
     # an end that carries less by rounding only carries no less
     return left, np.where(np.isclose(left, right, rtol=1e-9, atol=0), left, right)
-
-
-def contact_mode(robot: Robot, left: Array, right: Array) -> NDArray[np.int_]:
-    """Mode by the ends' contact lengths, shape (B,); BOTH where both lie flat.
-
-    Segments are counted from the left; the third stands for all beyond it too.
-    """
-    reach = robot.length * (1 + 1e-9)  # lengths come with rounding
-    inner = robot.borders[1:-1]
-    in_left = np.minimum(np.searchsorted(inner, left / reach, side="right"), 2)
-    in_right = np.minimum(np.searchsorted(inner, 1 - right / robot.length, side="right"), 2)
-    mode = np.full(len(left), int(Mode.TIP))
-    mode = np.where(left > 0, Mode.LEFT_1 + in_left, mode)
-    mode = np.where(right > 0, Mode.RIGHT_1 + in_right, mode)
-    mode = np.where((left > 0) & (right > 0), Mode.BOTH, mode)
-    return np.where(left + right >= robot.length * (1 - 1e-9), Mode.FLAT, mode)

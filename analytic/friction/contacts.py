@@ -1,4 +1,4 @@
-"""Where a strip touches the ground: its contacts from end to end, each a tip or a side.
+"""Contacts of a strip with the ground, from end to end, each a tip or a side.
 
 Plain floats, since this is asked at every step of a simulation, and numpy is slow on a few numbers.
 """
@@ -19,8 +19,8 @@ _FLAT = 1e-3  # rad; less steep than this is flat, as in the simulation; chosen
 _POINT = 2  # nodes in a row that push in one point of contact, as it may fall between two
 
 
-class Patch(NamedTuple):
-    """One contact.
+class StripContact(NamedTuple):
+    """One contact of a strip.
 
     Attributes:
         nodes, share: of the strip that move with it and their parts in its motion: of an end the
@@ -35,7 +35,7 @@ class Patch(NamedTuple):
     load: float
 
     def extent(self, x: Array) -> tuple[float, float]:
-        """Where it begins and ends, from the places of all nodes (N,) [m]."""
+        """Places where the contact begins and ends, from those of all nodes, (N,) [m]."""
         place = float(np.dot(self.share, x[self.nodes]))
         if self.nodes == [0]:
             return place, place + self.length
@@ -60,13 +60,13 @@ class Finder:
 
     def find(
         self, force: Sequence[float], height: Sequence[float], lengths: tuple[float, float]
-    ) -> list[Patch]:
+    ) -> list[StripContact]:
         """The contacts of one state, left first.
 
         The two ends are tips or sides as in analytic.friction.contact_length, unless they curl up.
         Between them a run of nodes on the ground is a tip if it is one point, else a side whose
         length follows from its forces, as that of an end: either half of it carries its weight and
-        a push. There an inflated part may lie flat too, held by the weight on both sides of it.
+        a push. There an inflated part may lie flat too, by the weight on both sides of it.
 
         Args:
             force: of the ground on the nodes, (N,) [N].
@@ -93,22 +93,22 @@ class Finder:
                 length = lengths[1 if end else 0]
                 if length and not whole:
                     length = self._side(run, push, self._place[end])
-                contacts.append(Patch([end], [1.0], length, load))
+                contacts.append(StripContact([end], [1.0], length, load))
             else:
                 share = [part / load for part in push]
-                contacts.append(Patch(run, share, self._length_between(run, push), load))
+                contacts.append(StripContact(run, share, self._length_between(run, push), load))
         return contacts
 
     def _runs(self, pushing: list[int], height: Sequence[float]) -> list[list[int]]:
         """Nodes that push with no air between them."""
-        runs, last = [[pushing[0]]], pushing[0]
+        runs = [[pushing[0]]]
         for node in pushing[1:]:
-            if node > last + 1:
-                top = max(height[last + 1 : node])
-                if top > self._lifted and top > _FLAT * (self._place[node] - self._place[last]):
+            before = runs[-1][-1]
+            if node > before + 1:
+                top = max(height[before + 1 : node])
+                if top > self._lifted and top > _FLAT * (self._place[node] - self._place[before]):
                     runs.append([])
             runs[-1].append(node)
-            last = node
         return runs
 
     def _side(self, run: list[int], push: list[float], end: float) -> float:
@@ -132,7 +132,7 @@ class Finder:
         return length
 
 
-def patches_of(shapes: ContactShapes, height: Array, state: int) -> list[Patch]:
+def contacts_of(shapes: ContactShapes, height: Array, state: int) -> list[StripContact]:
     """The contacts of one of several states, its nodes at heights of shape (B, N) [m]."""
     lengths = float(shapes.contact_left[state]), float(shapes.contact_right[state])
     finder = Finder(shapes.robot, shapes.nodes)

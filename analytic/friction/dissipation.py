@@ -1,4 +1,4 @@
-"""Who slides where a soft robot touches the ground: the way of least dissipation.
+"""Least dissipation along a line: which contacts of a soft robot slide.
 
 The robot's shape moves its contacts by dX_j along x while the whole moves by dU. The ground resists
 at each by a bound V_j, and the motion is the one that dissipates least,
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_ALIKE = 1e-9  # part of the whole bound that two halves may differ by and count as a tie; chosen
+_ALIKE = 1e-9  # part of the whole bound that two halves may differ by and count as equal; chosen
 
 
 def least_dissipation(bounds: Array, moves: Array) -> float:
@@ -49,5 +49,5 @@ def minimisers(bounds: Sequence[float], moves: Sequence[float]) -> tuple[float, 
             first = -move
         if below >= (0.5 + _ALIKE) * total:
             return (-move if first is None else first), -move
-    last = -ordered[-1][0]
-    return (last if first is None else first), last
+    farthest = -ordered[-1][0]
+    return (farthest if first is None else first), farthest

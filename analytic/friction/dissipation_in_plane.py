@@ -1,4 +1,4 @@
-"""Who slides where a robot touches the ground in the plane: the way of least dissipation.
+"""Least dissipation in the plane: which contacts of a robot slide, and how the whole moves.
 
 As analytic.friction.dissipation along one line: the robot's shape moves its contacts at r_j by m_j,
 while the whole shifts by t and turns by a small angle w. The ground resists at each by a bound V_j
@@ -18,33 +18,57 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_SMOOTHEST, _SHARPEST = 1.0, 1e-10  # slips that are told apart from 0, of the largest move
+_SMOOTHEST, _SHARPEST = 1.0, 1e-10  # slips that count beside 0, over the largest move
 _CLOSER = 0.2  # ratio of one to the next
 _VISCOSITY = 1e-7  # force at the largest move, of the largest bound: vanishes
 _MOST_STEPS, _ENOUGH = 60, 1e-13
 _SHORTEST = 1e-12  # of a step that a line search tries
 
 
-class Motion(NamedTuple):
-    """How the whole moves.
+class SmoothFriction(NamedTuple):
+    """Friction of contacts in the plane, |u| taken as sqrt(u^2 + sharpness^2).
+
+    Attributes:
+        bounds: V_j, (C,) [N].
+        viscous: k_j, (C,) [N/m].
+    """
+
+    bounds: Array
+    viscous: Array
+
+    def cost(self, slips: Array, sharpness: float) -> float:
+        """Dissipation of slips, (C, 2) [m] -> [J]."""
+        square = (slips**2).sum(axis=1)
+        return float(self.bounds @ np.sqrt(square + sharpness**2) + 0.5 * self.viscous @ square)
+
+    def slopes(self, slips: Array, sharpness: float) -> tuple[Array, Array]:
+        """Slopes of the cost by the slips, (C, 2) [N], and their slopes, (C, 2, 2) [N/m]."""
+        length = np.sqrt((slips**2).sum(axis=1) + sharpness**2)
+        stiff = self.bounds / length
+        across = np.einsum("ci,cj->cij", slips, slips) / (length**2)[:, None, None]
+        curvature = stiff[:, None, None] * (np.eye(2) - across)
+        curvature += self.viscous[:, None, None] * np.eye(2)
+        return (stiff + self.viscous)[:, None] * slips, curvature
+
+
+class PlanarMotion(NamedTuple):
+    """Motion of a whole robot in the plane.
 
     Attributes:
         shift: of the origin, (2,) [m].
         turn: to the left [rad].
         slip: of each contact, (C, 2) [m].
-        dissipated: by all of them [J].
     """
 
     shift: Array
     turn: float
     slip: Array
-    dissipated: float
 
 
 def least_dissipation_in_plane(
     bounds: Array, places: Array, moves: Array, viscous: Array | None = None
-) -> Motion:
-    """The motion of the whole.
+) -> PlanarMotion:
+    """The motion of the whole that dissipates least.
 
     Args:
         bounds: V_j of the contacts, at least 0, shape (C,) [N].
@@ -53,7 +77,7 @@ def least_dissipation_in_plane(
         viscous: k_j, at least 0, shape (C,) [N/m]; none if None.
 
     Raises:
-        ValueError: they are not alike many, or there is no contact.
+        ValueError: the arrays are not of one number of contacts, or there is no contact.
     """
     bounds, places, moves = (np.asarray(a, dtype=float) for a in (bounds, places, moves))
     count = len(bounds)
@@ -64,68 +88,56 @@ def least_dissipation_in_plane(
         )
     size = float(np.abs(moves).max())
     if size == 0.0:
-        return Motion(np.zeros(2), 0.0, np.zeros_like(moves), 0.0)
+        return PlanarMotion(np.zeros(2), 0.0, np.zeros_like(moves))
     centre = places.mean(axis=0)
     arms = places - centre
     reach = float(np.abs(arms).max()) or 1.0
     thick = np.zeros(count) if viscous is None else np.asarray(viscous, dtype=float) * size
     strongest = float(max(bounds.max(), thick.max())) or 1.0
-    weights, thick = bounds / strongest, thick / strongest + _VISCOSITY
+    friction = SmoothFriction(bounds / strongest, thick / strongest + _VISCOSITY)
     # how the slips, over the largest move, follow from the shift and the turn of the centre
     lever = np.zeros((count, 2, 3))
     lever[:, 0, 0] = lever[:, 1, 1] = 1.0
     lever[:, 0, 2], lever[:, 1, 2] = -arms[:, 1] / reach, arms[:, 0] / reach
-    found = _minimise(weights, thick, lever, moves / size)
-    slip = size * (moves / size + lever @ found)
-    turn = float(size * found[2] / reach)
-    shift = size * found[:2] - turn * np.array([-centre[1], centre[0]])
-    lost = bounds @ np.hypot(*slip.T)
-    if viscous is not None:
-        lost += np.asarray(viscous) @ (slip**2).sum(axis=1)
-    return Motion(shift, turn, slip, float(lost))
+    motion = _minimise(friction, lever, moves / size)
+    slip = size * (moves / size + lever @ motion)
+    turn = float(size * motion[2] / reach)
+    shift = size * motion[:2] - turn * np.array([-centre[1], centre[0]])
+    return PlanarMotion(shift, turn, slip)
 
 
-def _minimise(weights: Array, thick: Array, lever: Array, moves: Array) -> Array:
-    """Newton's method on ever sharper corners: |u| as sqrt(u^2 + sharpness^2)."""
+def _minimise(friction: SmoothFriction, lever: Array, moves: Array) -> Array:
+    """Shift and turn of least dissipation, (3,), by Newton's method on ever sharper corners."""
     # by viscosity alone: least squares
-    root = np.sqrt(np.repeat(thick, 2))
+    root = np.sqrt(np.repeat(friction.viscous, 2))
     flat = root[:, None] * lever.reshape(-1, 3)
     motion: Array = np.asarray(
         np.linalg.lstsq(flat, -root * moves.ravel(), rcond=None)[0], dtype=float
     )
     sharpness = _SMOOTHEST
-    while sharpness > _SHARPEST and weights.any():
+    while sharpness > _SHARPEST and friction.bounds.any():
         sharpness *= _CLOSER
-        motion = _newton(weights, thick, lever, moves, motion, sharpness)
+        motion = _newton(friction, lever, moves, motion, sharpness)
     return motion
 
 
 def _newton(
-    weights: Array, thick: Array, lever: Array, moves: Array, motion: Array, sharpness: float
+    friction: SmoothFriction, lever: Array, moves: Array, motion: Array, sharpness: float
 ) -> Array:
-    def cost(at: Array) -> float:
-        slip = moves + lever @ at
-        square = (slip**2).sum(axis=1)
-        smooth = float(weights @ np.sqrt(square + sharpness**2))
-        return smooth + 0.5 * float(thick @ square)
-
-    now = cost(motion)
+    cost = friction.cost(moves + lever @ motion, sharpness)
     for _ in range(_MOST_STEPS):
-        slip = moves + lever @ motion
-        length = np.sqrt((slip**2).sum(axis=1) + sharpness**2)
-        pull = (weights / length + thick)[:, None] * slip
+        pull, stiff = friction.slopes(moves + lever @ motion, sharpness)
         gradient = np.einsum("cij,ci->j", lever, pull)
-        across = np.einsum("ci,cj->cij", slip, slip) / (length**2)[:, None, None]
-        stiff = (weights / length)[:, None, None] * (np.eye(2) - across)
-        stiff += thick[:, None, None] * np.eye(2)
         hessian = np.einsum("cik,cij,cjl->kl", lever, stiff, lever)
         step = -np.linalg.lstsq(hessian, gradient, rcond=1e-15)[0]
         fall, part = float(gradient @ step), 1.0
-        if -fall <= _ENOUGH * max(now, sharpness):
+        if -fall <= _ENOUGH * max(cost, sharpness):
             break
-        while (then := cost(motion + part * step)) > now + 1e-4 * part * fall:
+        while (new := friction.cost(moves + lever @ (motion + part * step), sharpness)) > (
+            cost + 1e-4 * part * fall
+        ):
             part *= 0.5
             if part < _SHORTEST:
                 return motion
-        motion, now = motion + part * step, then
+        motion, cost = motion + part * step, new
     return motion

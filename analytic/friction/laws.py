@@ -16,7 +16,7 @@ Number = Any  # a float or an array of floats
 
 
 class TractionLaw(Protocol):
-    """How strongly a contact resists sliding.
+    """Rule of how strongly a contact resists sliding.
 
     Attributes:
         name: how commands and files call it.
@@ -38,7 +38,7 @@ class TractionLaw(Protocol):
         ...
 
     def acts_on(self, surface: Surface) -> bool:
-        """Whether any contact resists at all."""
+        """Tell whether any contact resists at all."""
         ...
 
 
@@ -86,20 +86,20 @@ def register(law: TractionLaw) -> None:
 
 @dataclass(frozen=True)
 class Friction:
-    """How quasi-static theory takes the friction between a robot and the ground.
+    """Friction between a robot and the ground, as quasi-static theory takes it.
 
     Args:
         law: a name of LAWS.
         tension: part of the friction that bends the strip [1]: 1 all of it; 0 none, the limit of
-            friction weak beside stiffness ([Majidi13], section 2.2), where it only decides who
-            slides.
+            friction weak beside stiffness ([Majidi13], section 2.2), where it only decides which
+            contact slides.
         slope: angle by which the ground rises towards +x [rad].
         contacts: where friction acts: at the two "ends", as in [Majidi13], or at "all" places where
             the strip touches the ground, which is more between the ends of a long robot.
 
     Raises:
         ValueError: there is no such law, tension is not in [0, 1], the slope is a right angle or
-            more, or there is a slope and no tension to stand on it by.
+            more, or there is a slope and no tension that keeps the robot on it.
     """
 
     law: str = "constant"

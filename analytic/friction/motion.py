@@ -1,11 +1,9 @@
-"""How a robot moves by friction at every contact, along a sequence of shapes."""
-
-from typing import NamedTuple
+"""Motion of a strip by friction at every contact, along a sequence of shapes."""
 
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contacts import Patch, patches_of
+from analytic.friction.contacts import StripContact, contacts_of
 from analytic.friction.dissipation import least_dissipation, minimisers
 from analytic.friction.laws import LAWS, Friction
 from analytic.scene.ground import over
@@ -13,25 +11,15 @@ from analytic.scene.surface import Ground
 from analytic.shapes import ContactShapes, Shapes
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 
-class Motion(NamedTuple):
-    """Motion along B states.
+def motion(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, Mask]:
+    """Motion of least dissipation over all contacts, its mean at the two states of an increment.
 
-    Attributes:
-        left: displacement of the left end since the first state, (B,) [m]; NaN from where a shape
-            is missing.
-        changes: increments in which another contact begins to hold, (B - 1,).
-        most: most contacts that a state has.
-    """
-
-    left: Array
-    changes: NDArray[np.bool_]
-    most: int
-
-
-def motion(shapes: Shapes, ground: Ground, friction: Friction) -> Motion:
-    """Least dissipation over all contacts, the mean of it at the two states of each increment.
+    Returns:
+        Displacement of the left end since the first state, (B,) [m], NaN from where a shape is
+        missing; and the increments in which another contact begins to stick, (B - 1,).
 
     Raises:
         ValueError: the shapes have no contact forces.
@@ -43,39 +31,43 @@ def motion(shapes: Shapes, ground: Ground, friction: Friction) -> Motion:
     x, height = shapes.curve(shapes.nodes)
     count = len(shapes)
     left = np.zeros(count)
-    changes, most = np.zeros(count - 1, dtype=bool), 0
+    changes = np.zeros(count - 1, dtype=bool)
     contacts = [
-        patches_of(shapes, height, i) if np.isfinite(shapes.separation[i]) else []
+        contacts_of(shapes, height, i) if np.isfinite(shapes.separation[i]) else []
         for i in range(count)
     ]
     for i in range(count - 1):
-        here, there = contacts[i], contacts[i + 1]
-        if not (here and there):
+        pair = contacts[i : i + 2]
+        if not all(pair):
             left[i + 1 :] = np.nan
             break
-        most = max(most, len(here), len(there))
         step = x[i + 1] - x[i]
         sides = [_slide(state, x[i] + left[i], step, ground, shapes.robot.width, friction)
-                 for state in (here, there)]  # fmt: skip
-        (before, tied, still), (after, tied_there, still_there) = sides
-        left[i + 1] = left[i] + 0.5 * (before + after)
-        moved = abs(still - still_there) > 1.5 * float(np.diff(shapes.nodes).max())
-        changes[i] = moved or tied != tied_there
-    return Motion(left, changes, most)
+                 for state in pair]  # fmt: skip
+        (begin, begin_open, begin_stuck), (end, end_open, end_stuck) = sides
+        left[i + 1] = left[i] + 0.5 * (begin + end)
+        moved = abs(begin_stuck - end_stuck) > 1.5 * float(np.diff(shapes.nodes).max())
+        changes[i] = moved or begin_open != end_open
+    return left, changes
 
 
 def _slide(
-    contacts: list[Patch], x: Array, step: Array, ground: Ground, width: float, friction: Friction
+    contacts: list[StripContact],
+    x: Array,
+    step: Array,
+    ground: Ground,
+    width: float,
+    friction: Friction,
 ) -> tuple[float, bool, float]:
-    """The motion of an increment [m], whether a tie decides it, and where a contact stays [m]."""
+    """Motion in an increment [m], whether bounds leave it open, and where a contact sticks [m]."""
     law = LAWS[friction.law]
     bounds = np.array([
-        law.bound(over(ground, *patch.extent(x)), width, patch.length, patch.load)
-        for patch in contacts
+        law.bound(over(ground, *contact.extent(x)), width, contact.length, contact.load)
+        for contact in contacts
     ])  # fmt: skip
-    moves = np.array([patch.share @ step[patch.nodes] for patch in contacts])
+    moves = np.array([contact.share @ step[contact.nodes] for contact in contacts])
     low, high = minimisers(bounds.tolist(), moves.tolist())
-    going = least_dissipation(bounds, moves)
-    stays = contacts[int(np.argmin(np.abs(going + moves)))]
-    place = float(stays.share @ x[stays.nodes])
-    return going, high > low and moves.max() > moves.min(), place
+    whole = least_dissipation(bounds, moves)
+    stuck = contacts[int(np.argmin(np.abs(whole + moves)))]
+    place = float(stuck.share @ x[stuck.nodes])
+    return whole, high > low and moves.max() > moves.min(), place

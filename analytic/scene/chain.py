@@ -28,7 +28,7 @@ CHAMBER_LAWS = ("linearized", "sealed", "constant-pressure")
 
 
 def check_chamber(robot: Robot, links: int, chamber: str) -> None:
-    """Whether a chain can bend by a chamber law.
+    """Check that a chain can bend by a chamber law.
 
     Raises:
         ValueError: there is no such law; sealed chambers are no whole elements, or not known by
@@ -64,7 +64,7 @@ def node_positions(robot: Robot, links: int) -> Array:
 
 
 def segments_fit(robot: Robot, parts: float) -> bool:
-    """Whether every segment ends where one of so many equal parts of the strip does."""
+    """Tell whether every segment ends where one of so many equal parts of the strip does."""
     at = np.array(robot.borders) * parts
     return bool(np.abs(at - np.round(at)).max() < 1e-9)
 

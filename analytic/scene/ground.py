@@ -37,7 +37,7 @@ class Patches:
         for border in self.borders:
             if not is_number(border):
                 raise ValueError(f"borders of patches must be finite numbers [m], got {border!r}")
-        if any(two <= one for one, two in zip(self.borders, self.borders[1:], strict=False)):
+        if any(after <= before for before, after in pairwise(self.borders)):
             raise ValueError(f"borders of patches must ascend, got {self.borders!r}")
         if len(self.surfaces) != len(self.borders) + 1:
             raise ValueError(
@@ -50,7 +50,7 @@ class Patches:
         return self.surfaces[bisect_right(self.borders, x)]
 
     def extents(self) -> list[tuple[float, float, Surface]]:
-        """Where each surface begins and ends, the outer ones at infinity [m]."""
+        """Places where each surface begins and ends, the outer ones at infinity [m]."""
         places = (-math.inf, *self.borders, math.inf)
         return list(zip(places[:-1], places[1:], self.surfaces, strict=True))
 
@@ -81,14 +81,14 @@ def uniform(ground: Ground) -> Surface:
 
 
 def depends_on_speed(ground: Ground) -> bool:
-    """Whether it resists anywhere by how fast it is slid over."""
+    """Tell whether a ground resists anywhere by how fast it is slid over."""
     return any(surface.depends_on_speed for surface in surfaces_of(ground))
 
 
 def check_adhesion(ground: Ground) -> None:
     """Raise ValueError for ground that changes along x and is adhesive anywhere."""
-    sticky = any(surface.adhesion for surface in surfaces_of(ground))
-    if sticky and not isinstance(ground, Surface):
+    adhesive = any(surface.adhesion for surface in surfaces_of(ground))
+    if adhesive and not isinstance(ground, Surface):
         raise ValueError(f"adhesion must be of uniform ground, got {ground.name!r}")
 
 
@@ -104,7 +104,7 @@ def check_for_limbs(ground: Ground) -> None:
 
 
 def over(ground: Ground, begin: float, end: float) -> Surface:
-    """What a side contact between two places rests on: the mean of the ground's properties.
+    """Surface under a side contact between two places: the mean of the ground's properties.
 
     Bounds and viscous resistance are linear in them, so that theirs is the sum over the stretch.
     """

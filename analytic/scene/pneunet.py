@@ -1,4 +1,4 @@
-"""Pneu-net laws: what pressure does to curvature and flexural rigidity ([Majidi13], section 2.1).
+"""Pneu-net laws: curvature and flexural rigidity by pressure ([Majidi13], section 2.1).
 
 Pressures p and curvatures k may be scalars or arrays of any one shape; results have that shape.
 Lengths along the strip enter only as the ratio c/x, so energies and volumes are given per unit
@@ -26,7 +26,7 @@ def load_number(robot: Robot) -> float:
 
 
 def with_load(robot: Robot, load: float) -> Robot:
-    """The same robot, so heavy that w L^3 / D0 is the load [1]."""
+    """A robot, made so heavy that w L^3 / D0 is the load [1]."""
     unit = base_rigidity(robot) / robot.length**3
     return replace(robot, weight_per_length=load * unit)
 

@@ -1,4 +1,4 @@
-"""Ground in SI units: what resists at a place, whatever walks there."""
+"""Ground in SI units: the surface at a place, whatever walks there."""
 
 from dataclasses import dataclass, fields, replace
 from typing import Any, Protocol
@@ -64,7 +64,7 @@ class Surface:
             )
 
     def at(self, x: float) -> "Surface":
-        """What resists at a place: the same everywhere."""
+        """Itself, as the surface at any place [m]."""
         return self
 
     @property
@@ -73,12 +73,12 @@ class Surface:
         return (self,)
 
     def scaled(self, factor: float) -> "Surface":
-        """The same surface, so many times as resistant in every way."""
+        """A surface so many times as resistant in every way."""
         return replace(self, **{name: factor * getattr(self, name) for name in RESISTANCES})
 
     @property
     def depends_on_speed(self) -> bool:
-        """Whether it resists differently at different speeds."""
+        """True if it resists differently at different speeds."""
         return self.viscosity > 0 or self.static_ratio > 1
 
     def at_speed(self, speed: Any) -> Any:
@@ -106,23 +106,20 @@ RESISTANCES = ("tip_force", "shear_strength", "friction", "tip_friction", "visco
 
 
 class Ground(Protocol):
-    """A field of surfaces along x.
-
-    Attributes:
-        name: how files and tables call it.
-        surfaces: all that can occur; of a field without steps one of each kind: a wet one if it is
-            wet anywhere, one that resists under the friction law. Which laws and solvers serve a
-            ground is asked of these, wherever the robot begins.
-    """
+    """A field of surfaces along x."""
 
     @property
     def name(self) -> str:
-        """How files and tables call it."""
+        """Name in files and tables."""
         ...
 
     @property
     def surfaces(self) -> tuple[Surface, ...]:
-        """All surfaces that can occur."""
+        """All surfaces that can occur, which tell the laws and solvers that serve a ground.
+
+        Of a field without steps, one of each kind: a wet one if it is wet anywhere, one that
+        resists under the friction law.
+        """
         ...
 
     def at(self, x: float) -> Surface:

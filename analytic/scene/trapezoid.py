@@ -1,6 +1,6 @@
 """The family of gaits in which every segment inflates alike, one after the other.
 
-A segment's pressure is a periodic trapezoid: it rises, is held, falls and is held at rest. The
+A segment's pressure is a periodic trapezoid: it rises, is constant, falls and is none. The
 three named gaits belong to it: wave is trapezoid(1/5, 2/5, 1/5), full-wave (1/6, 1/2, 1/6), pulse
 (1/4, 1/4, 1/4).
 """
@@ -25,7 +25,7 @@ def trapezoid(
 
     Args:
         lag: from one segment to the next on its right, in (-1, 1); below 0 the wave runs left.
-        duty: for which a segment holds more than half the peak pressure, in (0, 1).
+        duty: for which a segment has more than half the peak pressure, in (0, 1).
         ramp: that a rise or a fall takes, at most duty and at most 1 - duty.
         segments: number of segments.
         period: of the cycle [s].
@@ -69,8 +69,8 @@ def staggered(
 
     Args:
         starts: when each begins to rise, left segment first, of any size.
-        duties, ramps: see trapezoid, one a segment.
-        fractions: of the peak pressure that each holds, 0 to 1.
+        duties, ramps: see trapezoid, one per segment.
+        fractions: of the peak pressure at the top of each trapezoid, 0 to 1.
         period: of the cycle [s].
         name: of the gait.
 
@@ -78,7 +78,7 @@ def staggered(
         ValueError: they are not alike many, or a value is out of its range.
     """
     if not len(starts) == len(duties) == len(ramps) == len(fractions) > 0:
-        raise ValueError("starts, duties, ramps and fractions must be one a segment")
+        raise ValueError("starts, duties, ramps and fractions must be one per segment")
     for duty, ramp in zip(duties, ramps, strict=True):
         trapezoid(0.0, duty, ramp, 1, period)
     stages, times = _stages(np.asarray(starts, dtype=float), duties, ramps, fractions, period)
@@ -104,7 +104,7 @@ def _stages(
         fraction * np.interp(since[:, i], [*corners[i], 1.0], [0.0, 1.0, 1.0, 0.0, 0.0])
         for i, fraction in enumerate(fractions)
     ]
-    found = np.stack(columns, axis=1)
-    found = np.clip(found.round(8), 0.0, 1.0)  # what is left of the rounding of times
-    found[-1] = found[0]
-    return tuple(map(tuple, found.tolist())), period * np.diff(times)
+    stages = np.stack(columns, axis=1)
+    stages = np.clip(stages.round(8), 0.0, 1.0)  # without the rounding of times
+    stages[-1] = stages[0]
+    return tuple(map(tuple, stages.tolist())), period * np.diff(times)

@@ -21,7 +21,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.friction.contact_length import contact_mode
 from analytic.scene import pneunet
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
@@ -86,7 +85,7 @@ def solve_lifted(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
     count = len(p)
     xi, status = np.zeros(count), np.full(count, int(Status.OK))
     flat: Mask = np.asarray((beam.curvature <= _FLAT).all(axis=1))
-    slope, done = _tips(beam)
+    slope, converged = _tips(beam)
     into_left, into_right = -slope[:, 0, 0], slope[:, -1, -1]
     lies = (np.maximum(into_left, into_right) > _TOLERANCE) & ~flat
     mirrored: Mask = np.asarray(lies & (into_right > into_left + _TOLERANCE))
@@ -97,29 +96,27 @@ def solve_lifted(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
             curvature=np.where(turned, beam.curvature[rows, ::-1], beam.curvature[rows]),
             rigidity=np.where(turned, beam.rigidity[rows, ::-1], beam.rigidity[rows]),
         )
-        xi[rows], slope[rows], found, done[rows] = _one_flat(part, mirrored[rows])
-        status[rows[~found]] |= int(Status.NO_ROOT)
-    status[~done & (status == 0)] |= int(Status.NOT_CONVERGED)
+        xi[rows], slope[rows], exists, converged[rows] = _one_flat(part, mirrored[rows])
+        status[rows[~exists]] |= int(Status.NO_ROOT)
+    status[~converged & (status == 0)] |= int(Status.NOT_CONVERGED)
+    blank = np.where(status & int(Status.NO_ROOT | Status.NOT_CONVERGED), np.nan, robot.length)
 
-    lifted = _Lifted(beam, mirrored, xi, slope, flat)
+    curve = _Curve(robot.length, beam, mirrored, xi, slope, flat, blank)
     # an end that lies flat has slope 0 there, so this looks at the ends in point contact only
     sinking = np.maximum(-slope[:, 0, 0], slope[:, -1, -1]) > 100 * _TOLERANCE
     status[sinking & ~flat] |= int(Status.BOTH_FLAT)
-    status[~flat & (lifted.height.min(axis=(1, 2)) < -10 * _TOLERANCE)] |= int(Status.PENETRATES)
-    status[lies & lifted.held()] |= int(Status.HELD_FLAT)
+    status[~flat & (curve.height.min(axis=(1, 2)) < -10 * _TOLERANCE)] |= int(Status.PENETRATES)
+    lying = np.diff(beam.borders) - curve.spans > _TOLERANCE
+    status[lies & (lying & (beam.curvature > _FLAT)).any(axis=1)] |= int(Status.HELD_FLAT)
 
-    blank = np.where(status & int(Status.NO_ROOT | Status.NOT_CONVERGED), np.nan, robot.length)
-    left = np.where(flat, 0.5, np.where(mirrored, 0.0, xi)) * blank
-    right = np.where(flat, 0.5, np.where(mirrored, xi, 0.0)) * blank
     return Shapes(
         robot=robot,
-        separation=np.where(flat, 1.0, xi + lifted.x[:, -1, -1]) * blank,
-        contact_left=left,
-        contact_right=right,
-        amplitude=np.where(flat, 0.0, lifted.height.max(axis=(1, 2))) * blank,
-        mode=contact_mode(robot, np.nan_to_num(left), np.nan_to_num(right)),
+        separation=np.where(flat, 1.0, xi + curve.x[:, -1, -1]) * blank,
+        contact_left=np.where(flat, 0.5, np.where(mirrored, 0.0, xi)) * blank,
+        contact_right=np.where(flat, 0.5, np.where(mirrored, xi, 0.0)) * blank,
+        amplitude=np.where(flat, 0.0, curve.height.max(axis=(1, 2))) * blank,
         status=status,
-        curve=_Curve(lifted, robot.length, blank),
+        curve=curve,
     )
 
 
@@ -151,9 +148,9 @@ def _tips(beam: _Beam) -> tuple[Array, Mask]:
         rows = np.flatnonzero(moved > _CONVERGED)
         if not len(rows):
             break
-        bent, here = _bent(beam.rows(rows), spans[rows], slope[rows]), spans[rows]
-        rise = _cumulative(np.sin(bent), here)[:, -1, -1]
-        run = _cumulative(np.cos(bent), here)[:, -1, -1]
+        bent = _bent(beam.rows(rows), spans[rows], slope[rows])
+        rise = _cumulative(np.sin(bent), spans[rows])[:, -1, -1]
+        run = _cumulative(np.cos(bent), spans[rows])[:, -1, -1]
         bent -= np.arctan2(rise, run)[:, None, None]  # so that the far end is at the ground
         moved[rows] = np.abs(bent - slope[rows]).max(axis=(1, 2))
         slope[rows] = bent
@@ -161,7 +158,7 @@ def _tips(beam: _Beam) -> tuple[Array, Mask]:
 
 
 def _one_flat(beam: _Beam, mirrored: Mask) -> tuple[Array, Array, Mask, Mask]:
-    """Lift-off points and slopes with the left end flat, whether one exists, and converged.
+    """Lift-off points and slopes with the left end flat, which of them exist and which converged.
 
     Args:
         beam: the states as seen from their flat end.
@@ -178,14 +175,14 @@ def _one_flat(beam: _Beam, mirrored: Mask) -> tuple[Array, Array, Mask, Mask]:
         return np.asarray(_cumulative(np.sin(slope[rows]), spans)[:, -1, -1])
 
     slope = np.zeros((count, segments, _NODES))
-    xi, found = _first_guess(beam, borders)
+    xi, exists = _first_guess(beam, borders)
     before = np.clip(xi - 0.002, 0.0, 1.0)
     everything = np.arange(count)
     end_height(everything, before)  # twice, as the first passes begin from a straight strip
     height_before, height = end_height(everything, before), end_height(everything, xi)
-    moved = np.where(found, np.inf, 0.0)
+    moved = np.where(exists, np.inf, 0.0)
     for _ in range(_SECANTS):
-        rows = np.flatnonzero((moved > _CONVERGED) | (found & (np.abs(height) > _CLOSED)))
+        rows = np.flatnonzero((moved > _CONVERGED) | (exists & (np.abs(height) > _CLOSED)))
         if not len(rows):
             break
         rise = height[rows] - height_before[rows]
@@ -197,11 +194,11 @@ def _one_flat(beam: _Beam, mirrored: Mask) -> tuple[Array, Array, Mask, Mask]:
         moved[rows] = np.abs(xi[rows] - before[rows])
         height[rows] = end_height(rows, xi[rows])
     slope[mirrored] = -slope[mirrored, ::-1, ::-1]
-    return xi, slope, found, np.abs(height) <= _CLOSED
+    return xi, slope, exists, np.abs(height) <= _CLOSED
 
 
 def _first_guess(beam: _Beam, borders: Array) -> tuple[Array, Mask]:
-    """Lift-off points nearest the flat end by small slopes, and whether there is one.
+    """Lift-off points nearest the flat end by small slopes, and which states have one.
 
     With X = 1 - xi the end's height is F(X) = int_0^X v (-kappa + g v (X - v) / 2) dv, v from the
     far end (Appendix A), over the rigidity of each segment.
@@ -216,54 +213,43 @@ def _first_guess(beam: _Beam, borders: Array) -> tuple[Array, Mask]:
     )
     height = -square + 0.5 * x * cube - 0.5 * fourth
     crossing = (height[:, 1:] > 0) != (height[:, :-1] > 0)
-    last = crossing.shape[1] - 1 - np.argmax(crossing[:, ::-1], axis=1)
+    nearest = crossing.shape[1] - 1 - np.argmax(crossing[:, ::-1], axis=1)
     rows = np.arange(len(height))
-    one, two = height[rows, last], height[rows, last + 1]
-    part = one / np.where(one == two, 1.0, one - two)
-    found = crossing.any(axis=1)
-    at = x[last] + np.clip(part, 0, 1) * (x[1] - x[0])
-    return np.where(found, 1.0 - at, 0.5), found
-
-
-class _Lifted:
-    """Places of the lifted part's nodes, from its left end, and its material points on demand."""
-
-    def __init__(self, beam: _Beam, mirrored: Mask, xi: Array, slope: Array, flat: Mask) -> None:
-        self.beam, self.flat = beam, flat
-        self.first = np.where(mirrored, 0.0, xi)  # where it begins and ends, from the left
-        self.last = np.where(mirrored, 1.0 - xi, 1.0)
-        self.low = np.clip(beam.borders[:-1], self.first[:, None], self.last[:, None])
-        high = np.clip(beam.borders[1:], self.first[:, None], self.last[:, None])
-        self.spans = high - self.low
-        self.x = _cumulative(np.cos(slope), self.spans)
-        self.height = _cumulative(np.sin(slope), self.spans)
-
-    def held(self) -> Mask:
-        """Whether a part that lies flat is inflated."""
-        flat = np.diff(self.beam.borders) - self.spans > _TOLERANCE
-        return np.asarray((flat & (self.beam.curvature > _FLAT)).any(axis=1))
+    low, high = height[rows, nearest], height[rows, nearest + 1]
+    part = np.clip(low / np.where(low == high, 1.0, low - high), 0, 1)
+    exists = crossing.any(axis=1)
+    return np.where(exists, 1.0 - (x[nearest] + part * (x[1] - x[0])), 0.5), exists
 
 
 class _Curve:
-    """Material points, by the polynomials through the nodes."""
+    """Places of the lifted part's nodes, from its left end, and the strip's points on demand."""
 
-    def __init__(self, lifted: _Lifted, length: float, blank: Array) -> None:
-        self._of, self._length, self._blank = lifted, length, blank
+    def __init__(
+        self, length: float, beam: _Beam, mirrored: Mask, xi: Array, slope: Array, flat: Mask,
+        blank: Array,
+    ) -> None:  # fmt: skip
+        self._length = length
+        self._flat, self._blank, self._borders = flat[:, None], blank[:, None], beam.borders
+        # where the lifted part begins and ends, from the left
+        self._begin = np.where(mirrored, 0.0, xi)[:, None]
+        self._end = np.where(mirrored, 1.0 - xi, 1.0)[:, None]
+        self._low = np.clip(beam.borders[:-1], self._begin, self._end)
+        self.spans = np.clip(beam.borders[1:], self._begin, self._end) - self._low
+        self.x = _cumulative(np.cos(slope), self.spans)
+        self.height = _cumulative(np.sin(slope), self.spans)
 
     def __call__(self, s: Array) -> tuple[Array, Array]:
-        """See Shapes.curve."""
-        of = self._of
+        """See Shapes.curve; by the polynomials through the nodes."""
         u = np.asarray(s, dtype=float) / self._length
-        segment = np.clip(np.searchsorted(of.beam.borders, u, side="right") - 1, 0,
-                          of.spans.shape[1] - 1)  # fmt: skip
-        span = of.spans[:, segment]
-        within = np.clip((u - of.low[:, segment]) / np.where(span > 0, span, 1.0), 0.0, 1.0)
+        segment = np.clip(np.searchsorted(self._borders, u, side="right") - 1, 0,
+                          self.spans.shape[1] - 1)  # fmt: skip
+        span = self.spans[:, segment]
+        within = np.clip((u - self._low[:, segment]) / np.where(span > 0, span, 1.0), 0.0, 1.0)
         powers = within[..., None] ** np.arange(_NODES)
         x, y = ((powers * (values @ _TO_POWERS.T)[:, segment]).sum(axis=-1)
-                for values in (of.x, of.height))  # fmt: skip
-        before = np.minimum(u, of.first[:, None])
-        after = np.maximum(u - of.last[:, None], 0.0)
+                for values in (self.x, self.height))  # fmt: skip
+        before = np.minimum(u, self._begin)
+        after = np.maximum(u - self._end, 0.0)
         x, y = before + x + after, np.where(after > 0, 0.0, y)
-        lying = of.flat[:, None]
-        scale = self._blank[:, None]
-        return scale * np.where(lying, u, x), scale * np.where(lying, 0.0, y)
+        x, y = np.where(self._flat, u, x), np.where(self._flat, 0.0, y)
+        return self._blank * x, self._blank * y

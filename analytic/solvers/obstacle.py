@@ -13,8 +13,9 @@ Dimensionless inside: lengths over L, forces over D0 / L^2.
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import solveh_banded
+from scipy.linalg.blas import dsbmv
 
-from analytic.friction.contact_length import contact_mode, side_contact
+from analytic.friction.contact_length import side_contact
 from analytic.scene import pneunet
 from analytic.scene.chain import segment_overlap, segments_fit
 from analytic.scene.pressures import check_pressures
@@ -55,11 +56,11 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
     force = np.zeros((len(p), elements + 1))
     status = np.full(len(p), int(Status.OK))
     iterations = np.zeros(len(p), dtype=int)
-    last = np.zeros((elements + 1, 2))
+    state = np.zeros((elements + 1, 2))
     for i in range(len(p)):
-        last, force[i], iterations[i], done = _solve(rigidity[i], curvature[i], load, last)
-        values[i] = last
-        if not done:
+        state, force[i], iterations[i], converged = _solve(rigidity[i], curvature[i], load, state)
+        values[i] = state
+        if not converged:
             status[i] = Status.NOT_CONVERGED
 
     nodes = np.linspace(0.0, robot.length, elements + 1)
@@ -67,15 +68,13 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
     height = values[..., 0] * robot.length
     left, right = side_contact(robot, nodes, newtons, height, p)
     curve = _Curve(robot.length, values, load / rigidity)
-    lost = status != Status.OK
-    blank = np.where(lost, np.nan, 1.0)
+    blank = np.where(status == Status.OK, 1.0, np.nan)
     return ContactShapes(
         robot=robot,
         separation=curve(np.array([robot.length]))[0][:, 0] * blank,
         contact_left=left * blank,
         contact_right=right * blank,
         amplitude=curve.height() * blank,
-        mode=contact_mode(robot, np.nan_to_num(left), np.nan_to_num(right)),
         status=status,
         curve=curve,
         nodes=nodes,
@@ -118,15 +117,6 @@ def _load(rigidity: Array, curvature: Array, weight: float) -> Array:
     return load
 
 
-def _times(band: Array, u: Array) -> Array:
-    """Symmetric banded matrix times vector."""
-    product = band[3] * u
-    for k in (1, 2, 3):
-        product[:-k] += band[3 - k, k:] * u[k:]
-        product[k:] += band[3 - k, k:] * u[:-k]
-    return product
-
-
 def _solve(
     rigidity: Array, curvature: Array, weight: float, start: Array
 ) -> tuple[Array, Array, int, bool]:
@@ -134,8 +124,8 @@ def _solve(
 
     Returns values, forces, the number of minima looked for, and whether the last one is right.
 
-    A node is let go only at the minimum for the nodes held, so that the energy falls from one such
-    minimum to the next and none comes back: the method cannot cycle.
+    A node is set free only at the minimum for the active nodes, so that the energy falls from one
+    such minimum to the next and none comes back: the method cannot cycle.
     """
     band, load = _stiffness(rigidity), _load(rigidity, curvature, weight)
     u = start.ravel().copy()
@@ -152,7 +142,7 @@ def _solve(
             active[first] = True
             continue
         u = target
-        force = np.where(active, (_times(band, u) - load)[0::2], 0.0)
+        force = np.where(active, (dsbmv(3, 1.0, band, u) - load)[0::2], 0.0)
         if force.min() >= -_ROUNDING * weight:
             return u.reshape(-1, 2), force, count, True
         active[int(np.argmin(force))] = False
@@ -160,7 +150,7 @@ def _solve(
 
 
 def _minimum(band: Array, load: Array, active: Mask) -> Array:
-    """Minimiser with the active nodes held at y = 0, shape (2 n + 2,)."""
+    """Minimiser with y = 0 at the active nodes, shape (2 n + 2,)."""
     clamped = np.zeros(len(load), dtype=bool)
     clamped[0::2] = active
     free = np.where(clamped, 0.0, 1.0)

@@ -10,7 +10,7 @@ import math
 
 import mujoco
 
-from analytic.friction.contacts import Finder, Patch
+from analytic.friction.contacts import Finder, StripContact
 from analytic.friction.dissipation import minimisers
 from analytic.scene.chain import node_positions
 from mjsim.friction.traction import Bounded, ContactFriction
@@ -174,7 +174,7 @@ class BoundedContacts(Bounded):
             self._bounds[self._anchors.held[0]] += self._tie
 
 
-def _middle(contact: Patch) -> int:
+def _middle(contact: StripContact) -> int:
     """The node that moves with a contact."""
     if len(contact.nodes) == 1:
         return contact.nodes[0]

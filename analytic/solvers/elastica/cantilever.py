@@ -6,7 +6,9 @@ from numpy.typing import ArrayLike, NDArray
 from analytic.scene.chain import link_lengths
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
+from analytic.solvers.elastica.continuation import follow
 from analytic.solvers.elastica.newton import Chain
+from analytic.solvers.elastica.state import ChainState
 
 Array = NDArray[np.float64]
 
@@ -16,7 +18,7 @@ _FIRST, _LEAST = 0.05, 1e-6  # steps of weight and pressure on the way from the 
 def solve_cantilever(
     robot: Robot, pressure_pa: ArrayLike, links: int = 60, chamber: str = "linearized"
 ) -> tuple[Array, Array]:
-    """Nodes (x, y) of the strip held horizontally at its left end, each (N + 2,) [m].
+    """Nodes (x, y) of the strip clamped horizontally at its left end, each (N + 2,) [m].
 
     Args:
         robot: the strip.
@@ -30,18 +32,15 @@ def solve_cantilever(
     """
     (pressure,) = check_pressures(robot, pressure_pa, both_ways=chamber != "sealed")
     chain = Chain(robot, links, chamber, clamped=True)
-    weight, state = chain.weight, chain.flat()
-    done, step = 0.0, _FIRST
-    while done < 1.0:
-        step = min(step, 1.0 - done)
-        chain.weight = (done + step) * weight
-        chain.load_at((done + step) * pressure)
-        candidate = chain.equilibrium(state)
-        if candidate is None:
-            step *= 0.5
-            if step < _LEAST:
-                raise ArithmeticError(f"no stable equilibrium beyond {done:.2%} of the load")
-        else:
-            state, done, step = candidate, done + step, 2 * step
+    weight = chain.weight
+
+    def solve(_: float, end: float, near: ChainState) -> ChainState | None:
+        chain.weight = end * weight
+        chain.load_at(end * pressure)
+        return chain.equilibrium(near)
+
+    part, state = follow(chain.flat(), solve, _FIRST, _LEAST)
+    if part < 1.0:
+        raise ArithmeticError(f"no stable equilibrium beyond {part:.2%} of the load")
     x = np.concatenate([[0.0], np.cumsum(link_lengths(robot, links) * np.cos(state.theta))])
     return x, robot.length * state.y

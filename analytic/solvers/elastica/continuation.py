@@ -1,4 +1,4 @@
-"""From one equilibrium to the next by way of those between."""
+"""Continuation: from one equilibrium to the next by way of those between."""
 
 from collections.abc import Callable
 
@@ -6,31 +6,28 @@ from analytic.solvers.elastica.state import ChainState
 
 
 def follow(
-    start: ChainState,
-    solve: Callable[[float, ChainState], ChainState | None],
+    state: ChainState,
+    solve: Callable[[float, float, ChainState], ChainState | None],
     first: float,
-    shrink: float,
     least: float,
-) -> ChainState | None:
-    """The equilibrium at the end of a way; None if the branch ends on it.
+) -> tuple[float, ChainState]:
+    """Follow a branch of equilibria as far as it goes: the part of the way, and the state there.
 
-    Steps double where they succeed and shrink where they fail.
+    Steps double where they succeed and halve where they fail.
 
     Args:
-        start: the equilibrium where the way begins.
-        solve: the equilibrium a part of the way along, in (0, 1], from one near it; None if none.
+        state: the equilibrium where the way begins.
+        solve: the equilibrium at the end of a step, from where the step begins and ends, as parts
+            of the way in [0, 1], and the equilibrium at its beginning; None if there is none.
         first: step to begin with, as a part of the way.
-        shrink: factor on a step that failed.
         least: step below which the branch is taken to end.
     """
-    done, step, state = 0.0, first, start
-    while done < 1.0:
-        step = min(step, 1.0 - done)
-        candidate = solve(done + step, state)
+    part, step = 0.0, first
+    while part < 1.0 and step >= least:
+        step = min(step, 1.0 - part)
+        candidate = solve(part, part + step, state)
         if candidate is None:
-            step *= shrink
-            if step < least:
-                return None
+            step *= 0.5
         else:
-            state, done, step = candidate, done + step, 2 * step
-    return state
+            state, part, step = candidate, part + step, 2 * step
+    return part, state

@@ -25,14 +25,14 @@ from analytic.scene.chain import check_chamber, joint_springs, link_lengths, sea
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Surface
 from analytic.solvers.elastica.stability import stable
-from analytic.solvers.elastica.state import ChainState, Grip, Mask
+from analytic.solvers.elastica.state import ChainState, GroundTraction, Mask
 
 Array = NDArray[np.float64]
 
 _CONVERGED = 1e-10  # change of an angle in the last Newton step [rad]
 _SETTLED = 0.05  # change below which the contact set may be revised [rad]
 _ITERATIONS = 40
-_LOOKS = 50  # most times that contacts are read anew for one equilibrium
+_UPDATES = 50  # most times that contacts are read anew for one equilibrium
 _ROUNDING = 1e-11  # of heights over L
 
 
@@ -43,7 +43,7 @@ class Chain:
         robot: the strip.
         links: N.
         chamber: law of the chambers, see analytic.scene.chain.
-        clamped: hold the first node and the direction of the first link, which is that of the
+        clamped: fix the first node and the direction of the first link, which is that of the
             strip's end, and take the ground away: a heavy cantilever, to verify the rest by.
         slope: angle by which the ground rises towards +x [rad].
         surface: whose adhesion pulls at nodes within its reach, by constant forces, so that peeling
@@ -74,11 +74,11 @@ class Chain:
         self.weight[1:] += half
         # the weight's part downhill adds to the tension of the tractions
         self.hanging = math.sin(slope) * np.cumsum(self.weight)[:-1]
-        self.sticky, self.reach = np.zeros(links + 2), 0.0
+        self.adhesion, self.reach = np.zeros(links + 2), 0.0
         if surface and surface.adhesion:
             self.reach = surface.adhesion_reach / robot.length
             per_weight = surface.press(robot.width) / robot.weight_per_length
-            self.sticky = per_weight * self.weight
+            self.adhesion = per_weight * self.weight
         self.weight *= math.cos(slope)
         self.stiffness, self.rest = np.zeros(links), np.zeros(links)
         self.pressure = np.zeros(len(robot.segments))
@@ -88,10 +88,10 @@ class Chain:
     def flat(self) -> ChainState:
         """The strip without pressure on the ground, or sticking out from the wall."""
         n = self.links
-        held = np.ones(n + 2, bool)
-        held[1:] = not self.clamped
+        active = np.ones(n + 2, bool)
+        active[1:] = not self.clamped
         zero = np.zeros(n + 1)
-        return ChainState(np.zeros(n + 2), zero, zero, held, zero, 0.0, held)
+        return ChainState(np.zeros(n + 2), zero, zero, active, zero, 0.0, active)
 
     def load_at(self, pressure: Array) -> None:
         """Set the hinges from segment pressures, shape (S,) [Pa]."""
@@ -114,16 +114,18 @@ class Chain:
         """Let the hinges resist turning from a state, at drag times their stiffness; 0 ends it."""
         self._damping = (drag, np.diff(state.theta)) if drag and state else None
 
-    def equilibrium(self, guess: ChainState, grip: Grip | None = None) -> ChainState | None:
+    def equilibrium(
+        self, guess: ChainState, traction: GroundTraction | None = None
+    ) -> ChainState | None:
         """The stable equilibrium that Newton's method finds from a guess, or None.
 
         Args:
-            guess: near it; without a grip its tension stays as it is.
-            grip: the ground's traction, which then decides tension and place.
+            guess: near it; without traction its tension stays as it is.
+            traction: of the ground, which then decides tension and place.
         """
-        state, revisions, looks = guess, 0, 0
-        for _ in range(_ITERATIONS + _LOOKS * (grip is not None)):
-            new = self._newton(state, grip)
+        state, revisions, updates = guess, 0, 0
+        for _ in range(_ITERATIONS + _UPDATES * (traction is not None)):
+            new = self._newton(state, traction)
             if new is None:
                 return None
             change = float(np.abs(new.theta - state.theta).max())
@@ -137,14 +139,14 @@ class Chain:
                 revisions += 1
                 state = revised
                 continue
-            if grip is not None and looks < _LOOKS and not grip.look(state):
-                looks += 1
+            if traction is not None and updates < _UPDATES and not traction.update(state):
+                updates += 1
             elif change < _CONVERGED:
-                return state if stable(self, state, grip) else None
+                return state if stable(self, state, traction) else None
         return None
 
-    def _newton(self, state: ChainState, grip: Grip | None) -> ChainState | None:
-        """One step for the nodes held, all unknowns at once."""
+    def _newton(self, state: ChainState, traction: GroundTraction | None) -> ChainState | None:
+        """One step for the active nodes, all unknowns at once."""
         self.iterations += 1
         n, l = self.links + 1, self.length  # noqa: E741
         size = 3 * n + 1
@@ -154,56 +156,51 @@ class Chain:
         bend[1:-1] = stiffness
         turn = np.zeros(n + 1)
         turn[1:-1] = stiffness * rest
-        columns = None if grip is None else grip.columns()
+        columns = np.zeros((n, 0)) if traction is None else traction.tensions()
         tension = state.tension + self.hanging
         geometric = state.shear * sine + tension * cosine
         # general band storage: entry (i, j) at [kl + ku + i - j, j], kl = ku = 3
         band = np.zeros((10, size))
-        right = np.zeros((size, 1 if columns is None else 1 + columns.shape[1]), order="F")
+        right = np.zeros((size, 1 + columns.shape[1]), order="F")
         free = ~state.active
         # nodes, row 3 k: y_k = 0, or V_k - V_{k-1} = W_k
         band[6, 0::3] = state.active
         band[4, 2::3] = free[:-1]  # V_k in the row of node k
         band[7, 2::3] = -1.0 * free[1:]  # V_k in the row of node k + 1
-        right[0::3, 0] = (self.weight + self.sticky * state.near) * free
+        right[0::3, 0] = (self.weight + self.adhesion * state.near) * free
         # moments, row 3 i + 1
         band[6, 1::3] = bend[:-1] + bend[1:] + geometric
         band[9, 1:-3:3] = -bend[1:-1]
         band[3, 4::3] = -bend[1:-1]
         band[5, 2::3] = -cosine
-        pulling = tension if columns is None else self.hanging
+        pulling = tension if traction is None else self.hanging
         right[1::3, 0] = turn[:-1] - turn[1:] + geometric * state.theta - pulling * sine
         # kinematics, row 3 i + 2
         band[5, 3::3] = 1.0
         band[8, 0:-1:3] = -1.0
         band[7, 1::3] = -cosine
         right[2::3, 0] = sine - cosine * state.theta
-        if columns is not None:
-            right[1::3, 1:] = -columns * sine[:, None]
+        right[1::3, 1:] = -columns * sine[:, None]
         if self.clamped:
             band[[6, 3, 5], [1, 4, 2]], right[1] = (1.0, 0.0, 0.0), 0.0
         _, _, x, info = dgbsv(3, 3, band, right, overwrite_ab=True, overwrite_b=True)
         if info != 0:
             return None
         new = state._replace(y=x[0::3, 0], theta=x[1::3, 0], shear=x[2::3, 0])
-        if grip is None or columns is None:
+        if traction is None:
             return new
         more = state._replace(y=x[0::3, 1:], theta=x[1::3, 1:], shear=x[2::3, 1:], tension=columns)
-        return grip.settle(state, new, more)
-
-    def separation(self, state: ChainState) -> float:
-        """Horizontal distance of the two ends over L."""
-        return float(self.length @ np.cos(state.theta))
+        return traction.resolve(state, new, more)
 
     def ground_force(self, state: ChainState) -> Array:
         """Force of the ground on each node, shape (N + 2,)."""
         before = np.concatenate([[0.0], state.shear])
         after = np.concatenate([state.shear, [0.0]])
-        down = self.weight + self.sticky * state.near
+        down = self.weight + self.adhesion * state.near
         return np.where(state.active, down + before - after, 0.0)
 
     def _revise(self, state: ChainState, revisions: int) -> ChainState | None:
-        """With other nodes held or pulled, or None if these are right."""
+        """The state with other nodes active or pulled, or None if these are right."""
         active = None if self.clamped else self._other_nodes(state, revisions)
         near = state.active | (state.y < self.reach)
         if self.reach and (near != state.near).any():
@@ -211,7 +208,7 @@ class Chain:
         return None if active is None else state._replace(active=active)
 
     def _other_nodes(self, state: ChainState, revisions: int) -> Mask | None:
-        """Other nodes to hold, or None if these are right; one at a time after many tries."""
+        """Other active nodes, or None if these are right; one at a time after many tries."""
         sinking = ~state.active & (state.y < -_ROUNDING)
         force = self.ground_force(state)
         pulled = force < -_ROUNDING * self.weight.sum()
@@ -238,7 +235,7 @@ class Chain:
             moment[:-1] - moment[1:] - state.shear * cosine + (state.tension + self.hanging) * sine
         )
         kinematic = np.diff(state.y) - sine
-        pulled = self.sticky @ state.near / total
+        pulled = self.adhesion @ state.near / total
         parts = (-state.y, -force, np.abs(force * state.y), np.abs(torque) / total,
                  np.abs(kinematic), [abs(force.sum() - 1 - pulled)])  # fmt: skip
         return max(float(np.max(part)) for part in parts)

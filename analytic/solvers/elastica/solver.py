@@ -5,13 +5,14 @@ every one is tested for stability. So the branch of equilibria that begins with 
 is followed as far as it is stable, and no other is ever returned.
 """
 
-from collections.abc import Sequence
+import math
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.friction.contact_length import contact_mode, side_contact
+from analytic.friction.contact_length import side_contact
 from analytic.friction.laws import Friction
 from analytic.scene.chain import link_lengths, node_positions
 from analytic.scene.ground import check_adhesion
@@ -27,9 +28,9 @@ from analytic.solvers.elastica.stick_slip import StickSlip
 Array = NDArray[np.float64]
 
 _LEAST_STEP = 1e-4  # of the way between two states, below which the branch is taken to end
-_LEAST_GRIPPED = 1e-2  # the same where friction or adhesion may let go, and damped motion goes on
+_LEAST_PULLED = 1e-2  # where friction or adhesion may give way, and damped motion follows
 _CURLED = 0.02  # slope that an end in flat contact does not have, even where it lifts off [rad]
-_JUMP = 0.03  # change of a direction at one pressure that is told as a jump [rad]; chosen
+_JUMP = 0.03  # change of a direction at one pressure that is flagged as a jump [rad]; chosen
 _LEAP = 0.3  # change of a direction in one step that may be a leap to another branch [rad]
 
 _FIRST_DRAG, _LEAST_DRAG, _MOST_DRAG = 10.0, 1e-3, 1e6  # over the hinges' stiffness; chosen
@@ -63,8 +64,8 @@ def solve_elastica(
         Shapes of B states. From where the stable branch ends (the strip rolls up, topples, snaps,
         or slides down a slope as a whole) the states are NaN with BRANCH_END, and where an end
         curls up off the ground, with ROLLED_UP; the last one before tells the pressure. Where
-        friction held the strip until it let go at once, the first state after, which is where
-        damped hinges lead, has JUMPED.
+        friction gives way at once, the first state after, which is where damped hinges lead, has
+        JUMPED.
 
     Raises:
         ValueError: the pressures are bad, there is no such chamber law, links is below 6, or
@@ -82,155 +83,171 @@ def solve_elastica(
         check_adhesion(ground)
         surface = ground.at(0.0)
     chain = Chain(robot, links, chamber, slope=friction.slope, surface=surface)
-    stick_slip = None
-    if ground and friction.tension:
-        stick_slip = StickSlip(chain, ground, friction)
-    count = len(p)
-    y, theta = np.full((count, links + 2), np.nan), np.full((count, links + 1), np.nan)
-    force = np.full((count, links + 2), np.nan)
-    residual = np.full(count, np.nan)
-    status = np.full(count, int(Status.BRANCH_END))
-    iterations = np.zeros(count, dtype=int)
-    place, signs = np.full(count, np.nan), []
-
-    state, last, here = chain.flat(), None, np.zeros(len(robot.segments))
-    for i in range(count):
-        begun = chain.iterations
-        chain.load_at(p[i])
-        guess = state if last is None else _extrapolate(last, state, p, i)
-        if stick_slip:
-            stick_slip.begin(state, durations[i])
-        candidate = _unless_it_leaps(state, chain.equilibrium(guess, stick_slip))
-        if candidate is None:
-            candidate = _in_smaller_steps(chain, state, here, p[i], stick_slip, durations[i])
-        jumped = False
-        if candidate is None and (stick_slip or chain.reach):
-            chain.load_at(p[i])
-            candidate = _damped(chain, state, stick_slip)
-            jumped = candidate is not None and _apart(candidate, state) > _JUMP
-        iterations[i] = chain.iterations - begun
-        if candidate is None:
-            break
-        last, state, here = state, candidate, p[i]
-        if friction.contacts == "ends" and _rolled_up(candidate):
-            status[i] = Status.ROLLED_UP
-            continue
-        y[i], theta[i] = candidate.y, candidate.theta
-        status[i] = Status.JUMPED if jumped else Status.OK
-        force[i] = chain.ground_force(candidate)
-        residual[i] = chain.residual(candidate)
-        place[i] = candidate.left * robot.length
-        signs.append(stick_slip.signature() if stick_slip else ())
-
-    nodes = node_positions(robot, links)
-    newtons = force * chain.force_unit
+    traction = StickSlip(chain, ground, friction) if ground and friction.tension else None
+    branch = _Branch(chain, traction, may_curl=friction.contacts == "all")
+    points = [branch.step(*row) for row in zip(p, durations.tolist(), strict=True)]
+    states = [point.state for point in points]
+    theta = np.array([state.theta for state in states])
+    height = np.array([state.y for state in states]) * robot.length
+    force = np.array([chain.ground_force(state) for state in states]) * chain.force_unit
+    place = np.array([state.left for state in states]) * robot.length
+    nodes, lengths = node_positions(robot, links), link_lengths(robot, links)
     press = surface.press(robot.width) if surface else 0.0
-    left, right = side_contact(robot, nodes, newtons, y * robot.length, p, press)
-    lengths = link_lengths(robot, links)
+    left, right = side_contact(robot, nodes, force, height, p, press)
     return ContactShapes(
         robot=robot,
         separation=np.cos(theta) @ lengths,
         contact_left=left,
         contact_right=right,
-        amplitude=y.max(axis=1) * robot.length,
-        mode=contact_mode(robot, np.nan_to_num(left), np.nan_to_num(right)),
-        status=status,
-        curve=_Curve(nodes, lengths, theta, y * robot.length),
+        amplitude=height.max(axis=1),
+        status=np.array([int(point.status) for point in points]),
+        curve=_Curve(nodes, lengths, theta, height),
         nodes=nodes,
-        force=newtons,
+        force=force,
         pressures=p,
-        residual=residual,
-        iterations=iterations,
-        left=place - place[0] if stick_slip else None,
-        switches=_switches(signs, count) if stick_slip else None,
+        residual=np.array([point.residual for point in points]),
+        iterations=np.array([point.iterations for point in points]),
+        left=place - place[0] if traction else None,
+        switches=_switches(points) if traction else None,
     )
 
 
-def _switches(signs: Sequence[tuple[object, ...]], count: int) -> NDArray[np.bool_]:
-    """Increments between unlike signs; none from where states are missing."""
-    unlike = [one != two for one, two in pairwise(signs)]
-    return np.array(unlike + [False] * (count - 1 - len(unlike)), dtype=bool)
+class _Point(NamedTuple):
+    """A state of the branch, NaN where it is missing.
+
+    Attributes:
+        state: shape and forces.
+        status: flag of it.
+        iterations: Newton steps to it.
+        residual: see ContactShapes.
+        contacts: tips and sides, each sticking or sliding, see StickSlip.signature.
+    """
+
+    state: ChainState
+    status: Status
+    iterations: int = 0
+    residual: float = np.nan
+    contacts: tuple[object, ...] | None = None
 
 
-def _extrapolate(before: ChainState, now: ChainState, p: Array, i: int) -> ChainState:
-    """Linear prediction where the path goes on in the same direction, else the last state."""
-    if i < 2:
-        return now
-    step, previous = p[i] - p[i - 1], p[i - 1] - p[i - 2]
-    size = float(previous @ previous)
-    if size == 0:
-        return now
-    ratio = float(step @ previous) / size
-    if np.abs(step - ratio * previous).max() > 1e-6 * np.abs(step).max() or not 0 < ratio <= 2:
-        return now
-    return now._replace(
-        theta=now.theta + ratio * (now.theta - before.theta),
-        shear=now.shear + ratio * (now.shear - before.shear),
-    )
+class _Branch:
+    """The stable branch of equilibria that begins with the strip flat and without pressure.
+
+    Args:
+        chain: of the strip.
+        traction: friction that bends it, if any does.
+        may_curl: follow states with an end off the ground too, as far as they are wanted.
+    """
+
+    def __init__(self, chain: Chain, traction: StickSlip | None, may_curl: bool) -> None:
+        self._chain, self._traction, self._may_curl = chain, traction, may_curl
+        self._path = [(np.zeros(len(chain.robot.segments)), chain.flat())]
+        self._ended = False
+        blank = np.full(chain.links + 2, np.nan)
+        self._missing = chain.flat()._replace(
+            y=blank, theta=blank[1:], shear=blank[1:], left=math.nan
+        )
+
+    def step(self, pressure: Array, duration: float) -> _Point:
+        """The state at the next pressure (S,) [Pa], so long after the one before [s]."""
+        if self._ended:
+            return _Point(self._missing, Status.BRANCH_END)
+        chain, (_, before) = self._chain, self._path[-1]
+        steps, status = chain.iterations, Status.OK
+        chain.load_at(pressure)
+        state = self._near(before, duration, self._extrapolated(pressure))
+        state = state or self._in_smaller_steps(pressure, duration)
+        if state is None and (self._traction or chain.reach):
+            chain.load_at(pressure)
+            state = self._damped(before)
+            if state and _apart(state, before) > _JUMP:
+                status = Status.JUMPED
+        steps = chain.iterations - steps
+        if state is None:
+            self._ended = True
+            return _Point(self._missing, Status.BRANCH_END, steps)
+        self._path.append((pressure, state))
+        if _rolled_up(state) and not self._may_curl:
+            return _Point(self._missing, Status.ROLLED_UP, steps)
+        contacts = self._traction.signature() if self._traction else None
+        return _Point(state, status, steps, chain.residual(state), contacts)
+
+    def _extrapolated(self, pressure: Array) -> ChainState:
+        """Linear prediction where the path goes on in the same direction, else the state before."""
+        middle, state = self._path[-1]
+        if len(self._path) < 3:
+            return state
+        start, before = self._path[-2]
+        step, previous = pressure - middle, middle - start
+        size = float(previous @ previous)
+        if size == 0:
+            return state
+        ratio = float(step @ previous) / size
+        if np.abs(step - ratio * previous).max() > 1e-6 * np.abs(step).max() or not 0 < ratio <= 2:
+            return state
+        return state._replace(
+            theta=state.theta + ratio * (state.theta - before.theta),
+            shear=state.shear + ratio * (state.shear - before.shear),
+        )
+
+    def _near(
+        self, state: ChainState, duration: float = math.inf, guess: ChainState | None = None
+    ) -> ChainState | None:
+        """The equilibrium that follows a state; None far away, where another branch may be."""
+        if self._traction:
+            self._traction.begin(state, duration)
+        candidate = self._chain.equilibrium(guess or state, self._traction)
+        return None if candidate is None or _apart(candidate, state) > _LEAP else candidate
+
+    def _in_smaller_steps(self, pressure: Array, duration: float) -> ChainState | None:
+        """The next state by continuation; None if the branch ends on the way."""
+        before, state = self._path[-1]
+
+        def solve(begin: float, end: float, near: ChainState) -> ChainState | None:
+            self._chain.load_at(before + end * (pressure - before))
+            return self._near(near, (end - begin) * duration)
+
+        least = _LEAST_PULLED if self._traction or self._chain.reach else _LEAST_STEP
+        part, state = follow(state, solve, first=0.25, least=least)
+        return state if part >= 1.0 else None
+
+    def _damped(self, state: ChainState) -> ChainState | None:
+        """The state that hinges lead to that resist turning, ever less; None if they reach none."""
+        drag = _FIRST_DRAG
+        for _ in range(_FLOW_STEPS):
+            self._chain.damp(drag, state)
+            candidate = self._near(state)
+            self._chain.damp(0.0)
+            if candidate is None:
+                drag *= 4.0
+                if drag >= _MOST_DRAG:
+                    return None
+                continue
+            if _apart(candidate, state) < _LEAP / 3:
+                drag *= 0.5
+            state = candidate
+            if drag < _LEAST_DRAG:
+                return self._near(state)
+        return None
+
+
+def _switches(points: list[_Point]) -> NDArray[np.bool_]:
+    """Increments between states of unlike contacts, (B - 1,)."""
+    return np.array([
+        before.contacts != after.contacts and None not in (before.contacts, after.contacts)
+        for before, after in pairwise(points)
+    ], dtype=bool)  # fmt: skip
 
 
 def _rolled_up(state: ChainState) -> bool:
-    """Whether an end is off the ground and not for lying nearly flat."""
+    """Tell whether an end is off the ground and not for lying nearly flat."""
     ends = ((state.y[0], state.theta[0]), (state.y[-1], state.theta[-1]))
     return any(y > 1e-9 and abs(theta) > _CURLED for y, theta in ends)
 
 
-def _unless_it_leaps(before: ChainState, candidate: ChainState | None) -> ChainState | None:
-    """An equilibrium near the last one, or None: one far away may lie on another branch."""
-    return None if candidate is None or _apart(candidate, before) > _LEAP else candidate
-
-
-def _apart(one: ChainState, two: ChainState) -> float:
+def _apart(state: ChainState, reference: ChainState) -> float:
     """Greatest difference of a direction [rad]."""
-    return float(np.abs(one.theta - two.theta).max())
-
-
-def _in_smaller_steps(
-    chain: Chain,
-    start: ChainState,
-    from_p: Array,
-    to_p: Array,
-    grip: StickSlip | None,
-    duration: float,
-) -> ChainState | None:
-    """Go from one state to the next by continuation; None if the branch ends on the way."""
-    done = 0.0
-
-    def solve(part: float, near: ChainState) -> ChainState | None:
-        nonlocal done
-        chain.load_at(from_p + part * (to_p - from_p))
-        if grip:
-            grip.begin(near, (part - done) * duration)
-        found = _unless_it_leaps(near, chain.equilibrium(near, grip))
-        done = done if found is None else part
-        return found
-
-    least = _LEAST_GRIPPED if grip or chain.reach else _LEAST_STEP
-    return follow(start, solve, first=0.25, shrink=0.5, least=least)
-
-
-def _damped(chain: Chain, state: ChainState, grip: StickSlip | None) -> ChainState | None:
-    """Where hinges that resist turning, ever less, lead to at one pressure; None if nowhere."""
-    drag, steps = _FIRST_DRAG, 0
-    while drag < _MOST_DRAG and steps < _FLOW_STEPS:
-        steps += 1
-        chain.damp(drag, state)
-        if grip:
-            grip.begin(state)
-        candidate = _unless_it_leaps(state, chain.equilibrium(state, grip))
-        chain.damp(0.0)
-        if candidate is None:
-            drag *= 4.0
-            continue
-        moved = _apart(candidate, state)
-        state = candidate
-        if moved < _LEAP / 3:
-            drag *= 0.5
-        if drag < _LEAST_DRAG:
-            if grip:
-                grip.begin(state)
-            return _unless_it_leaps(state, chain.equilibrium(state, grip))
-    return None
+    return float(np.abs(state.theta - reference.theta).max())
 
 
 class _Curve:

@@ -1,4 +1,4 @@
-"""Whether an equilibrium of the chain is one that lasts: the second variation of its energy."""
+"""Stability of an equilibrium of the chain: the second variation of its energy."""
 
 from typing import Protocol
 
@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cholesky_banded, null_space
 
-from analytic.solvers.elastica.state import ChainState, Grip
+from analytic.solvers.elastica.state import ChainState, GroundTraction
 
 Array = NDArray[np.float64]
 
@@ -14,7 +14,7 @@ _PENALTY = 1e7  # stands for a rigid constraint
 
 
 class Springs(Protocol):
-    """What of a chain the test needs; see analytic.solvers.elastica.newton."""
+    """Properties of a chain that the test needs; see analytic.solvers.elastica.newton."""
 
     links: int
     length: Array
@@ -26,10 +26,10 @@ class Springs(Protocol):
         ...
 
 
-def stable(chain: Springs, state: ChainState, grip: Grip | None) -> bool:
-    """Whether the energy has a minimum here, on the nodes held: a penalised Hessian's test.
+def stable(chain: Springs, state: ChainState, traction: GroundTraction | None) -> bool:
+    """Tell whether the energy has a minimum, active nodes fixed: a penalised Hessian's test.
 
-    If it has none while contacts were free to slide, those that stick are held along x too.
+    If it has none while contacts were free to slide, those that stick are fixed along x too.
     """
     n = chain.links + 1
     cosine = chain.length * np.cos(state.theta)
@@ -49,29 +49,29 @@ def stable(chain: Springs, state: ChainState, grip: Grip | None) -> bool:
     try:
         cholesky_banded(band, check_finite=False)
     except np.linalg.LinAlgError:
-        return grip is not None and _positive_where_held(band, grip.holds(state))
+        return traction is not None and _positive_under(traction.constraints(state), band)
     return True
 
 
-def _positive_where_held(band: Array, held: Array) -> bool:
-    """Whether a matrix of upper bands is positive on the directions that the links' holds leave.
+def _positive_under(constraints: Array, band: Array) -> bool:
+    """Tell whether a matrix of upper bands is positive on all directions that constraints allow.
 
     Args:
+        constraints: sums of the links' turns that must vanish, (H, number of links).
         band: (3, M), unknowns y_0, theta_0, y_1, ...
-        held: (H, number of links): what of their turns must vanish.
     """
     size = band.shape[1]
-    if not len(held):
+    if not len(constraints):
         return False
     matrix = np.diag(band[2])
     for off in (1, 2):
         part = np.diag(band[2 - off, off:], off)
         matrix += part + part.T
-    rows = np.zeros((len(held), size))
-    rows[:, 1::2] = held
-    kept = null_space(rows)
+    rows = np.zeros((len(constraints), size))
+    rows[:, 1::2] = constraints
+    allowed = null_space(rows)
     try:
-        np.linalg.cholesky(kept.T @ matrix @ kept)
+        np.linalg.cholesky(allowed.T @ matrix @ allowed)
     except np.linalg.LinAlgError:
         return False
     return True

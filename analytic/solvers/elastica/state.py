@@ -1,4 +1,4 @@
-"""A shape of the chain, and what may hold it to the ground along x."""
+"""A shape of the chain, and the traction of the ground along x."""
 
 from typing import NamedTuple, Protocol
 
@@ -16,7 +16,7 @@ class ChainState(NamedTuple):
         y: heights of the nodes, (N + 2,).
         theta, shear, tension: direction, vertical and horizontal internal force of the links,
             (N + 1,); tension but for the weight's part along a slope.
-        active: nodes that the ground holds.
+        active: nodes that the ground pushes.
         left: x of the left end.
         near: nodes low enough for adhesive ground to pull at.
     """
@@ -30,17 +30,17 @@ class ChainState(NamedTuple):
     near: Mask
 
 
-class Grip(Protocol):
+class GroundTraction(Protocol):
     """Additions of the ground's traction to Newton's method, see solvers.elastica.stick_slip."""
 
-    def columns(self) -> Array:
+    def tensions(self) -> Array:
         """Tension in the links by a unit of traction at each contact, (N + 1, C)."""
         ...
 
-    def settle(
+    def resolve(
         self, state: ChainState, free: ChainState, response: ChainState
     ) -> ChainState | None:
-        """The state of the next step, None if the ground cannot hold it.
+        """The state of the next step, None if the ground cannot balance it.
 
         Args:
             state: where the step begins.
@@ -49,10 +49,10 @@ class Grip(Protocol):
         """
         ...
 
-    def look(self, state: ChainState) -> bool:
-        """Read the contacts of a state; whether they are those that it was found with."""
+    def update(self, state: ChainState) -> bool:
+        """Read the contacts of a state; True if they are those that it was solved with."""
         ...
 
-    def holds(self, state: ChainState) -> Array:
-        """How positions along x of the contacts that stick follow the links', (M, N + 1)."""
+    def constraints(self, state: ChainState) -> Array:
+        """Slopes of the places of contacts that stick by the links' directions, (M, N + 1)."""
         ...

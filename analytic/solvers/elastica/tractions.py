@@ -1,4 +1,4 @@
-"""Tractions of contacts on an elastic body: who sticks and who slides in one increment.
+"""Tractions of contacts on an elastic body: which stick and which slide in one increment.
 
 Traction t_j of the ground on contact j moves every contact by the body's compliance K, and the
 whole moves by U:
@@ -10,8 +10,8 @@ whole moves by U:
 with s the slips, g what they would be without traction, F the force that pulls the body
 towards -x, V_j dry and c_j viscous resistance: the next minimum of energy + dissipation, to second
 order in the slips (incremental minimisation; Mielke and Roubicek, Rate-Independent Systems, 2015).
-On a stiff body (K = 0) it is the least dissipation of analytic.friction.dissipation. Ties are
-decided as there, by vanishing viscosity.
+On a stiff body (K = 0) it is the least dissipation of analytic.friction.dissipation. Vanishing
+viscosity decides, as there, what equal bounds leave open.
 """
 
 from typing import NamedTuple
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_VANISHING = 1e-6  # viscous resistance that decides ties, over the greatest bound; chosen
+_VANISHING = 1e-6  # viscous resistance that decides between equal bounds, over the greatest; chosen
 _GIVE = 1e-11  # of a contact that sticks, under the greatest bound; keeps a flat strip's K regular
 _ROUNDING = 1e-13
 _ALL_AT_ONCE, _ATTEMPTS = 10, 200
@@ -51,7 +51,7 @@ def tractions(
     pull: float = 0.0,
     guess: NDArray[np.int_] | None = None,
 ) -> Tractions | None:
-    """Solve for t and U by changing who sticks and slides until all conditions hold.
+    """Solve for t and U by changing which contacts stick and slide until all conditions are met.
 
     Args:
         gaps: g, (C,).
@@ -62,7 +62,7 @@ def tractions(
         guess: as Tractions.slips.
 
     Returns:
-        None if no contact can hold the pull, or no state meets the conditions.
+        None if no contact can balance the pull, or no state meets the conditions.
     """
     count = len(bounds)
     scale = float(bounds.max(initial=0.0)) or 1.0
@@ -79,24 +79,21 @@ def tractions(
         matrix[:-1, -1] = factor
         right[:-1] = np.where(stick, 0.0, -slips * bounds) - factor * gaps
         try:
-            found: Array = np.linalg.solve(matrix, right).astype(np.float64)
+            solution: Array = np.linalg.solve(matrix, right).astype(np.float64)
         except np.linalg.LinAlgError:
             return None
-        traction, whole = found[:-1], float(found[-1])
+        traction, whole = solution[:-1], float(solution[-1])
         slid = gaps + whole + compliance @ traction
         over = np.where(stick, np.abs(traction) - bounds * (1 + 1e-12), 0.0)
         back = np.where(dry & ~stick, -slips * slid - _ROUNDING, 0.0)
         wrong = np.flatnonzero((over > 0) | (back > 0))
         if not len(wrong):
-            held = stick.any() or viscosity.any() or abs(pull) <= _ROUNDING
+            balanced = stick.any() or viscosity.any() or abs(pull) <= _ROUNDING
+            # or some slide one way and some the other, against each other
+            balanced = balanced or bool((slips[dry] > 0).any() and (slips[dry] < 0).any())
             slips = np.where(dry, slips, np.sign(slid).astype(int))
-            return Tractions(traction, whole, slips, slid) if held or _opposed(slips[dry]) else None
+            return Tractions(traction, whole, slips, slid) if balanced else None
         if attempt >= _ALL_AT_ONCE:
             wrong = wrong[:1]  # the least index, which cannot cycle
         slips[wrong] = np.where(stick[wrong], -np.sign(traction[wrong]).astype(int), 0)
     return None
-
-
-def _opposed(slips: NDArray[np.int_]) -> bool:
-    """Whether some contacts slide one way and some the other, so that they hold each other."""
-    return bool((slips > 0).any() and (slips < 0).any())

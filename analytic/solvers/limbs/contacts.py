@@ -1,11 +1,11 @@
-"""Where a tree of limbs touches the ground, how strongly that resists, and where it acts.
+"""Contacts of a tree of limbs with the ground: where they are and how strongly they resist.
 
 As for the strip of [Majidi13], section 2.2: a limb whose free end is inflated touches by its tip,
-which resists by V_t and bears all that pushes the limb; one without pressure lies on its side over
-a length that follows from the ground's forces (analytic.friction.contact_length), which resists by
-tau times its area; a belly that touches in between is a side of no area. A limb that lies flat as a
-whole passes on to its carrier what its side does not carry. Limbs that begin at one place share the
-tip force of an end by their widths.
+which resists by V_t and carries all that pushes the limb; one without pressure lies on its side
+over a length that follows from the ground's forces (analytic.friction.contact_length), which
+resists by tau times its area; an underside that touches in between is a side of no area. A limb
+that lies flat as a whole passes on to its carrier what its side does not carry. Limbs that begin at
+one place share the tip force of an end by their widths.
 """
 
 from typing import NamedTuple
@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 from analytic.friction.contact_length import flat_length, may_lie_flat
 from analytic.friction.contact_length import ripple as strip_ripple
 from analytic.friction.laws import LAWS
-from analytic.scene.limbs import LimbedRobot, chambers_by_limb
+from analytic.scene.ground import check_for_limbs, surfaces_of
+from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb
 from analytic.scene.robot import Robot
-from analytic.scene.surface import Surface
+from analytic.scene.surface import Ground, Surface
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.statics import Rest
 
@@ -26,12 +27,13 @@ Array = NDArray[np.float64]
 
 _POINTS = (0.5 - 12**-0.5, 0.5 + 12**-0.5)  # of a side: two that resist turning as all of it does
 _NEAR, _WHOLE = 2, 1e-9  # elements from an end that count as there; of a length: all of it
-_HARDLY = 1e-9  # of a length
+_SHORT = 1e-9  # of a length
 _TOUCHES = 1e-6  # of the weight: a node that pushes less hovers
+_INSTANT = 1e-12  # s; a shortest increment
 
 
 class Contact(NamedTuple):
-    """One limb on the ground.
+    """Contact of one limb with the ground.
 
     Attributes:
         limb: its place.
@@ -57,183 +59,190 @@ class Contacts:
     def __init__(self, tree: Tree, law: str = "constant") -> None:
         self._tree, self._law = tree, LAWS[law]
         robot = tree.robot
-        self._up = [ripple(limb.strip, tree.elements) for limb in robot.limbs]
-        self._per_limb = tree.elements + 2
-        at_place: dict[tuple[str | None, str], float] = {}
+        widths: dict[tuple[str | None, str], float] = {}  # of all limbs that begin at one place
         for limb in robot.limbs:
-            key = (limb.on, limb.at)
-            at_place[key] = at_place.get(key, 0.0) + limb.strip.width
-        self._share = [limb.strip.width / at_place[limb.on, limb.at] for limb in robot.limbs]
-        self._carrier = [-1 if limb.on is None else robot.place(limb.on) for limb in robot.limbs]
-        self._free = [_free_ends(robot, i) for i in range(len(robot.limbs))]
-        self._at = [tree.arclength[self._slice(i)].tolist() for i in range(len(robot.limbs))]
-        self._chambers = chambers_by_limb(robot)
+            widths[limb.on, limb.at] = widths.get((limb.on, limb.at), 0.0) + limb.strip.width
+        self._limbs = [
+            _Limb(
+                limb.strip,
+                tree.arclength[vertices].tolist(),
+                None if limb.on is None else robot.place(limb.on),
+                limb.at,
+                limb.strip.width / widths[limb.on, limb.at],
+                _free_ends(robot, limb),
+                _NEAR * limb.strip.length / tree.elements,
+                ripple(limb.strip, tree.elements),
+            )
+            for limb, vertices in zip(robot.limbs, tree.vertices, strict=True)
+        ]
         self._least = _TOUCHES * robot.weight
-        self._near = [_NEAR * limb.strip.length / tree.elements for limb in robot.limbs]
 
     def find(self, rest: Rest, pressures: Array) -> list[Contact]:
         """The contacts of a state at pressures of its chambers, (S,) [Pa]."""
-        robot, half = self._tree.robot, len(rest.force) // 2
+        half = len(rest.force) // 2
         # both edges together; a limb that leans lies on one of its edges
         forces = (rest.force[:half] + rest.force[half:]).tolist()
         heights = np.minimum(rest.nodes[:half, 2], rest.nodes[half:, 2]).tolist()
-        flat = may_lie_flat(pressures, robot.peak_pressure).tolist()
-        may = [{"begin": flat[part.start], "end": flat[part.stop - 1]} for part in self._chambers]
-        here = [self._slice(i) for i in range(len(robot.limbs))]
-        state = _State([forces[own] for own in here], [heights[own] for own in here], may)
-        found: list[Contact] = []
-        passed: dict[tuple[int, str], float] = {}  # what flat limbs pass on to ends of carriers
-        reached: set[tuple[int, str]] = set()  # ends of carriers where a limb is flat, or nearly
-        for i in range(len(robot.limbs) - 1, -1, -1):  # those that are carried come first
-            own = self._of_limb(state, i, passed, reached)
-            found += own
-        return found
+        flat = may_lie_flat(pressures, self._tree.robot.peak_pressure).tolist()
+        parts = chambers_by_limb(self._tree.robot)
+        may_lie = [{"begin": flat[part.start], "end": flat[part.stop - 1]} for part in parts]
+        state = _State(
+            [forces[vertices] for vertices in self._tree.vertices],
+            [heights[vertices] for vertices in self._tree.vertices],
+            may_lie,
+            {},
+            set(),
+        )
+        inwards = range(len(may_lie) - 1, -1, -1)  # limbs that are carried come first
+        return [contact for i in inwards for contact in self._of_limb(state, i)]
 
-    def _of_limb(
-        self,
-        state: "_State",
-        i: int,
-        passed: dict[tuple[int, str], float],
-        reached: set[tuple[int, str]],
-    ) -> list[Contact]:
-        """Contacts of one limb; notes what it leaves to its carrier."""
-        limb, force, at = self._tree.robot.limbs[i], state.force[i], self._at[i]
-        length, near, carrier = limb.strip.length, self._near[i], self._carrier[i]
-        found: list[Contact] = []
-        low, high = -1.0, length + 1.0  # what no end's contact explains
+    def _of_limb(self, state: "_State", i: int) -> list[Contact]:
+        """Contacts of one limb; notes the force that it leaves to its carrier."""
+        limb = self._limbs[i]
+        length, near, carrier = limb.strip.length, limb.near, limb.carrier
+        contacts: list[Contact] = []
+        low, high = -1.0, length + 1.0  # where no end's contact explains the forces
         at_tip = False
         for end in ("begin", "end"):
-            free = end in self._free[i]
-            if not free and (i, end) not in passed:
+            if end not in limb.free and (i, end) not in state.passed:
                 continue
-            contact, left = self._at_end(state, i, end, passed.get((i, end), 0.0))
-            if contact is None:
-                continue
-            if found and contact.length > length - found[0].length:
-                continue  # it lies flat as a whole, once
-            found.append(contact)
-            at_tip |= free
+            contact, surplus = self._at_end(state, i, end)
+            if contact is None or (contacts and contact.length > length - contacts[0].length):
+                continue  # a limb that lies flat as a whole does so once
+            contacts.append(contact)
+            at_tip |= end in limb.free
             if end == "begin":
                 low = contact.length + near
-            else:
-                high = length - contact.length - near
-                if carrier >= 0:
-                    key = (carrier, limb.at)
-                    if contact.length >= length - near:
-                        reached.add(key)
-                    if contact.length >= length * (1 - _WHOLE):
-                        passed[key] = passed.get(key, 0.0) + left
+                continue
+            high = length - contact.length - near
+            if carrier is not None:
+                joint = carrier, limb.at
+                if contact.length >= length - near:
+                    state.reached.add(joint)
+                if contact.length >= length * (1 - _WHOLE):
+                    state.passed[joint] = state.passed.get(joint, 0.0) + surplus
+        if at_tip and carrier is not None:
+            return contacts
         # a joint belongs to the limb that is flat there, and else to the carrier
-        if (i, "begin") in reached or carrier >= 0:
+        if (i, "begin") in state.reached or carrier is not None:
             low = max(low, near)
-        if (i, "end") in reached:
+        if (i, "end") in state.reached:
             high = min(high, length - near)
-        if at_tip and carrier >= 0:
-            return found
         load = moment = 0.0
-        for push, place in zip(force, at, strict=True):
+        for push, place in zip(state.force[i], limb.arclength, strict=True):
             if push > self._least and low < place < high:
                 load += push
                 moment += push * place
-        if load:  # a belly that touches, no end: a side of hardly any length, where it pushes
-            found.append(Contact(i, _HARDLY * length, (moment / load,), load))
-        return found
+        if load:  # an underside that touches, no end: a side of nearly no length, where it pushes
+            contacts.append(Contact(i, _SHORT * length, (moment / load,), load))
+        return contacts
 
-    def places(self, rest: Rest, contacts: list[Contact]) -> Array:
-        """Places of all points that resist, (C, 2) [m]."""
-        return np.array(
-            [self.point(rest, contact.limb, at) for contact in contacts for at in contact.at]
-        ).reshape(-1, 2)
+    def _at_end(self, state: "_State", i: int, end: str) -> tuple[Contact | None, float]:
+        """The contact that begins at an end of a limb, and the force that it passes on [N]."""
+        limb, force = self._limbs[i], state.force[i]
+        strip, order = limb.strip, 1 if end == "begin" else -1
+        tip = limb.arclength[::order][0]
+        total, moment, whole = state.passed.get((i, end), 0.0), 0.0, end == "end"
+        for push, height, place in zip(
+            force[::order], state.height[i][::order], limb.arclength[::order], strict=True
+        ):
+            if height > limb.ripple:
+                whole = False
+                break
+            total += push
+            moment += push * abs(place - tip)
+        if total <= self._least:
+            return None, 0.0
+        if not state.may_lie[i][end]:
+            if end not in limb.free:
+                return None, 0.0
+            # bent by pressure it stands on its tip alone; only a trunk may have two
+            return Contact(i, 0.0, (tip,), total if limb.carrier is None else sum(force)), 0.0
+        if whole and limb.carrier is not None:
+            # limb and carrier share a joint, and which of them the ground pushes there is open
+            carrier, ahead = limb.carrier, 1 if limb.at == "begin" else -1
+            joint = limb.share * state.force[carrier][::ahead][0]
+            whole = max(state.height[carrier][::ahead][:3]) <= self._limbs[carrier].ripple
+            if not whole:
+                total, moment = total + joint, moment + joint * strip.length
+        else:
+            whole = False
+        weight, length = strip.weight_per_length, strip.length
+        side = length if whole else min(float(flat_length(weight, total, moment)), length)
+        if side <= 0:
+            return Contact(i, 0.0, (tip,), total), 0.0
+        points = tuple(abs(tip - side * part) for part in _POINTS)
+        return Contact(i, side, points, total), total - weight * side
+
+    def weights(self, contacts: list[Contact]) -> Array:
+        """Weights of the nodes in the points of all contacts that resist, (C, P)."""
+        limbs = [contact.limb for contact in contacts for _ in contact.at]
+        return self._tree.points(limbs, [at for contact in contacts for at in contact.at])
+
+    def resistances(self, contacts: list[Contact], ground: Ground, x: Array) -> tuple[Array, Array]:
+        """Bounds [N] and viscous resistances [N s/m] of all these points, at places x (C,) [m]."""
+        points = [contact for contact in contacts for _ in contact.at]
+        pairs = [
+            self.resistance(contact, ground.at(place))
+            for contact, place in zip(points, x.tolist(), strict=True)
+        ]
+        bounds, viscous = np.array(pairs).reshape(-1, 2).T
+        return bounds, viscous
 
     def resistance(self, contact: Contact, surface: Surface) -> tuple[float, float]:
         """Bound of friction [N] and viscous resistance [N s/m] of each point of a contact."""
         strip, points = self._tree.robot.limbs[contact.limb].strip, len(contact.at)
         width = strip.width
-        if 0 < contact.length <= _HARDLY * strip.length and not self._law.needs_load:
+        if 0 < contact.length <= _SHORT * strip.length and not self._law.needs_load:
             # no area: what rounding leaves would be the only bound there is
             return 0.0, 0.0
         bound = self._law.bound(surface, width, contact.length, contact.load)
         if not contact.length and not self._law.needs_load:
-            bound *= self._share[contact.limb]
+            bound *= self._limbs[contact.limb].share
         return float(bound) / points, float(surface.drag(width, contact.length)) / points
 
-    def point(self, rest: Rest, limb: int, at: float) -> Array:
-        """Place of a point of a limb's middle line in plan, (2,) [m]."""
-        here, half = self._slice(limb), len(rest.nodes) // 2
-        middle = 0.5 * (rest.nodes[:half][here] + rest.nodes[half:][here])
-        arclength = self._tree.arclength[here]
-        return np.array([np.interp(at, arclength, middle[:, k]) for k in (0, 1)])
 
-    def _slice(self, limb: int) -> slice:
-        return slice(limb * self._per_limb, (limb + 1) * self._per_limb)
+class _Limb(NamedTuple):
+    """A limb as the search for its contacts needs it.
 
-    def _beyond(self, state: "_State", limb: int) -> tuple[float, bool]:
-        """Of the carrier where a limb begins: the push there, and whether it is flat on from there.
+    Attributes:
+        strip: its geometry and weight.
+        arclength: of its vertices [m].
+        carrier, at: place of the limb that carries it, None for the trunk, and its end there.
+        share: part of the width of all limbs that begin at the same place.
+        free: ends that no limb begins at and that no limb carries.
+        near: distance from an end that counts as there [m].
+        ripple: height below which a vertex is on the ground [m].
+    """
 
-        The two share a joint, and which of them the ground pushes there is open.
-        """
-        carrier = self._carrier[limb]
-        if carrier < 0:
-            return 0.0, False
-        force, height = state.force[carrier], state.height[carrier]
-        at_end = self._tree.robot.limbs[limb].at == "end"
-        push, near = (force[-1], height[-3:]) if at_end else (force[0], height[:3])
-        return self._share[limb] * push, max(near) <= self._up[carrier]
-
-    def _at_end(
-        self, state: "_State", i: int, end: str, passed: float
-    ) -> tuple[Contact | None, float]:
-        """The contact that begins at an end of a limb, and what it does not carry itself [N].
-
-        Args:
-            state: of all limbs.
-            i, end: the limb and which end.
-            passed: force that limbs which begin there do not carry [N].
-        """
-        strip, at, up = self._tree.robot.limbs[i].strip, self._at[i], self._up[i]
-        force, height, length = state.force[i], state.height[i], strip.length
-        count = len(at)
-        total, moment, run = passed, 0.0, 0
-        for k in range(count) if end == "begin" else range(count - 1, -1, -1):
-            if height[k] > up:
-                break
-            total += force[k]
-            moment += force[k] * (at[k] if end == "begin" else length - at[k])
-            run += 1
-        if total <= self._least:
-            return None, 0.0
-        tip = at[0 if end == "begin" else -1]
-        if not state.may[i][end]:
-            if end not in self._free[i]:
-                return None, 0.0
-            # bent by pressure it stands on its tip alone; only a trunk may have two
-            return Contact(i, 0.0, (tip,), sum(force) if self._carrier[i] >= 0 else total), 0.0
-        whole = False
-        if run == count and end == "end":
-            joint, whole = self._beyond(state, i)
-            if not whole:
-                total, moment = total + joint, moment + joint * length
-        weight = strip.weight_per_length
-        side = length if whole else min(float(flat_length(weight, total, moment)), length)
-        if side <= 0:
-            return Contact(i, 0.0, (tip,), total), 0.0
-        points = tuple(side * p if end == "begin" else length - side * p for p in _POINTS)
-        return Contact(i, side, points, total), total - weight * side
+    strip: Robot
+    arclength: list[float]
+    carrier: int | None
+    at: str
+    share: float
+    free: tuple[str, ...]
+    near: float
+    ripple: float
 
 
 class _State(NamedTuple):
-    """Forces and heights of each limb's vertices, and whether each of its ends may lie flat."""
+    """Forces [N] and heights [m] of each limb's vertices, and whether its ends may lie flat.
+
+    Noted during the search: forces that limbs which lie flat pass on to ends of carriers, and ends
+    of carriers where a limb is flat, or nearly.
+    """
 
     force: list[list[float]]
     height: list[list[float]]
-    may: list[dict[str, bool]]
+    may_lie: list[dict[str, bool]]
+    passed: dict[tuple[int, str], float]
+    reached: set[tuple[int, str]]
 
 
-def _free_ends(robot: LimbedRobot, limb: int) -> tuple[str, ...]:
-    """Ends of a limb that nothing is fast to."""
-    own = robot.limbs[limb]
-    taken = {other.at for other in robot.limbs if other.on == own.name}
-    ends = ("begin", "end") if own.on is None else ("end",)
+def _free_ends(robot: LimbedRobot, limb: Limb) -> tuple[str, ...]:
+    """Ends of a limb that no other limb is attached to."""
+    taken = {carried.at for carried in robot.limbs if carried.on == limb.name}
+    ends = ("begin", "end") if limb.on is None else ("end",)
     return tuple(end for end in ends if end not in taken)
 
 
@@ -241,3 +250,15 @@ def ripple(strip: Robot, elements: int) -> float:
     """Height to which a limb that lies flat ripples between its nodes [m]."""
     # wider links are four thirds of an element
     return 4 * strip_ripple(strip, np.array([0.0, strip.length / elements]))
+
+
+def durations(ground: Ground, times: Array | None, states: int) -> Array:
+    """Durations of the increments between states, (B - 1,) [s]; of 1 s each without times.
+
+    Raises:
+        ValueError: the ground is viscous and no times are given, or sticky, or stronger at rest.
+    """
+    check_for_limbs(ground)
+    if times is None and any(surface.viscosity for surface in surfaces_of(ground)):
+        raise ValueError(f"times of the shapes must be given on viscous ground {ground.name!r}")
+    return np.maximum(np.diff(np.arange(float(states)) if times is None else times), _INSTANT)

@@ -1,4 +1,4 @@
-"""Where a tree of limbs went."""
+"""The path of a tree of limbs: its shapes, contacts, places and headings."""
 
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Path:
-    """Where a tree went.
+    """The path of a tree through B states.
 
     Attributes:
         robot: whose limbs they are.
@@ -24,7 +24,6 @@ class Path:
         contacts: of each state.
         place: of the trunk's beginning, (B, 2) [m].
         heading: of the trunk, to the left, (B,) [rad].
-        converged: whether all shapes are equilibria.
     """
 
     robot: LimbedRobot
@@ -34,11 +33,10 @@ class Path:
     contacts: list[list[Contact]]
     place: Array
     heading: Array
-    converged: bool
 
     @property
     def displacement(self) -> Array:
-        """Displacement of the trunk's beginning in all, along x and y, (2,) [m]."""
+        """Displacement of the trunk's beginning in all, (2,) [m]."""
         return np.asarray(self.place[-1] - self.place[0])
 
     @property
@@ -59,6 +57,11 @@ class Path:
         ends = np.linspace(self.times[0], self.times[-1], cycles + 1)
         places = np.stack([np.interp(ends, self.times, part) for part in self.place.T], axis=1)
         headings = np.interp(ends, self.times, self.heading)
-        first = self.robot.limbs[0].angle
+        direction = self.robot.limbs[0].angle
         moves = zip(np.diff(places, axis=0), headings, strict=False)
-        return np.array([move @ rotation(first + at) for move, at in moves]), np.diff(headings)
+        return np.array([move @ rotation(direction + at) for move, at in moves]), np.diff(headings)
+
+    @property
+    def converged(self) -> bool:
+        """True if all shapes are equilibria."""
+        return all(rest.converged for rest in self.rests)

@@ -2,9 +2,8 @@
 
 The least energy over heights that are not below 0, found by an augmented Lagrangian (Hestenes and
 Powell): Newton's method with exact second derivatives inside, multipliers outside, which are the
-ground's forces in the end. Roll and pitch follow from it like every other angle. Without a grip
-friction bends nothing: the limit of weak friction, as in section 2.2 of [Majidi13]; x, y and yaw
-stay as they are.
+ground's forces in the end. Roll and pitch follow from it like every other angle. Without friction
+x, y and yaw stay as they are: the limit of weak friction, as in section 2.2 of [Majidi13].
 """
 
 from typing import NamedTuple
@@ -15,20 +14,20 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve, eigh
 
 from analytic.scene.chain import joint_springs
 from analytic.scene.limbs import chambers_by_limb, rotation
-from analytic.solvers.limbs.grip import Grip, held
-from analytic.solvers.limbs.kinematics import HEIGHT, IN_PLAN, WHOLE, Pose, Tree
+from analytic.solvers.limbs.friction import ContactFriction
+from analytic.solvers.limbs.kinematics import HEIGHT, IN_PLAN, WHOLE, Tree
 
 Array = NDArray[np.float64]
 
 _STIFF = 3e4  # of the ground in the Lagrangian: weight over length; chosen
 _INNER, _OUTER = 100, 60
 _FLAT = 1e-13  # of a direction without stiffness, over the stiffest
-_STILL, _STILL_HELD = 1e-11, 1e-9  # of the gradient, weight times length; sharp friction rounds
-_SETTLED, _SETTLED_HELD = 1e-8, 1e-5  # of forces: weight
-_GAIN_HELD = 1e-16  # of energy, weight times length: less is none
+_STILL, _STILL_SHARP = 1e-11, 1e-9  # of the gradient, weight times length; sharp friction rounds
+_SETTLED, _SETTLED_SHARP = 1e-8, 1e-5  # of forces: weight
+_GAIN_SHARP = 1e-16  # of energy, weight times length: less is none
 _SHORTEST = 1e-9
 _LONGEST = 0.5  # change of an angle in a step [rad]
-_SMOOTH, _SHARP, _SHARPER = 1e-3, 1e-7, 0.2  # slips told apart from 0, over the length
+_SMOOTH, _SHARP, _SHARPER = 1e-3, 1e-7, 0.2  # slips that count beside 0, over the length
 
 
 class Rest(NamedTuple):
@@ -56,7 +55,6 @@ class Statics:
 
     Attributes:
         length: of the robot along its trunk [m].
-        iterations: Newton steps so far.
     """
 
     def __init__(self, tree: Tree, chamber: str = "linearized") -> None:
@@ -67,10 +65,9 @@ class Statics:
         self._scale = np.ones(len(tree.parent))
         self._scale[: HEIGHT + 1] = self.length
         self._ground = _STIFF * self._weight / self.length
-        self.iterations = 0
 
     def flat(self) -> Rest:
-        """Lying on the ground without pressure."""
+        """The tree flat on the ground, without pressure."""
         q = np.zeros(len(self.tree.parent))
         return Rest(q, self.tree.pose(q).nodes, self.tree.weight.copy(), True)
 
@@ -84,65 +81,41 @@ class Statics:
         stiffness, rest = (np.concatenate([part[i][0] for part in parts]) for i in (0, 1))
         return stiffness, rest
 
-    def equilibrium(self, pressures: Array, guess: Rest, grip: Grip | None = None) -> Rest:
+    def equilibrium(
+        self, pressures: Array, guess: Rest, friction: ContactFriction | None = None
+    ) -> Rest:
         """The equilibrium near a guess.
 
         Args:
             pressures: of the chambers, (S,) [Pa].
             guess: of a neighbouring state.
-            grip: friction on the way there; none if None.
+            friction: on the way there; none if None.
         """
         stiffness, rest = self.springs(pressures)
-        q, force = guess.q.copy(), guess.force.copy()
-        sharpness = _SMOOTH * self.length
+        q, sharpness = guess.q.copy(), _SMOOTH * self.length
+        lagrangian = _Lagrangian(
+            self.tree, self._ground, stiffness, rest, friction, guess.force, sharpness
+        )
+        settled = (_SETTLED if friction is None else _SETTLED_SHARP) * self._weight
         for _ in range(_OUTER):
-            q, still = self._minimise(q, force, (stiffness, rest), grip, sharpness)
-            pose = self.tree.pose(q)
-            new = np.maximum(0.0, force - self._ground * pose.nodes[:, 2])
-            change = float(np.abs(new - force).max())
-            force = new
-            if grip is not None and sharpness > _SHARP * self.length:
+            q, still = self._minimise(q, lagrangian)
+            nodes = self.tree.pose(q).nodes
+            force = lagrangian.push(nodes)
+            change = float(np.abs(force - lagrangian.multiplier).max())
+            if friction is not None and sharpness > _SHARP * self.length:
                 sharpness = max(_SHARPER * sharpness, _SHARP * self.length)
-            elif still and change < (_SETTLED if grip is None else _SETTLED_HELD) * self._weight:
-                return Rest(q, pose.nodes, force, True)
-        return Rest(q, self.tree.pose(q).nodes, force, False)
+            elif still and change < settled:
+                return Rest(q, nodes, force, True)
+            lagrangian = lagrangian._replace(multiplier=force, sharpness=sharpness)
+        return Rest(q, nodes, force, False)
 
-    def _minimise(
-        self,
-        q: Array,
-        multiplier: Array,
-        springs: tuple[Array, Array],
-        grip: Grip | None,
-        sharpness: float,
-    ) -> tuple[Array, bool]:
-        """Newton's method on the Lagrangian at given multipliers."""
-        tree, ground, (stiffness, rest) = self.tree, self._ground, springs
-        still = (_STILL if grip is None else _STILL_HELD) * self._weight * self.length
-
-        def energy(at: Array) -> float:
-            nodes = tree.pose(at).nodes
-            height = nodes[:, 2]
-            push = np.maximum(0.0, multiplier - ground * height)
-            bent = at[WHOLE:] - rest
-            stored = 0.5 * stiffness @ bent**2 + tree.weight @ height + 0.5 * push @ push / ground
-            return float(stored) + (grip.cost(nodes, sharpness) if grip else 0.0)
-
-        now = energy(q)
+    def _minimise(self, q: Array, lagrangian: "_Lagrangian") -> tuple[Array, bool]:
+        """Newton's method on the Lagrangian at given multipliers; True where it is still."""
+        unit, sharp = self._weight * self.length, lagrangian.friction is not None
+        still = (_STILL_SHARP if sharp else _STILL) * unit
+        energy = lagrangian.energy(q)
         for _ in range(_INNER):
-            pose = tree.pose(q)
-            push = np.maximum(0.0, multiplier - ground * pose.nodes[:, 2])
-            rise = tree.heights(pose)
-            net = tree.weight - push
-            gradient = rise.T @ net
-            gradient[WHOLE:] += stiffness * (q[WHOLE:] - rest)
-            hessian = self._hessian(pose, net, rise[push > 0], stiffness)
-            if grip is None:
-                gradient[list(IN_PLAN)] = 0.0
-                hessian[IN_PLAN, :] = hessian[:, IN_PLAN] = 0.0
-                hessian[IN_PLAN, IN_PLAN] = ground
-            else:
-                pull, firm = held(tree, pose, grip, sharpness)
-                gradient, hessian = gradient + pull, hessian + firm
+            gradient, hessian = lagrangian.slopes(q)
             gradient *= self._scale
             if np.abs(gradient).max() < still:
                 return q, True
@@ -150,27 +123,70 @@ class Statics:
             step = -_solved(hessian, gradient)
             step *= min(1.0, _LONGEST / float(np.abs(step).max()))
             fall, part = float(gradient @ step), 1.0
-            self.iterations += 1
-            if grip is not None and -fall < _GAIN_HELD * self._weight * self.length:
+            if sharp and -fall < _GAIN_SHARP * unit:
                 return q, True
-            rounding = 1e-13 * abs(now)
-            while (then := energy(q + part * self._scale * step)) > (
-                now + 1e-4 * part * fall + rounding
+            step, rounding = self._scale * step, 1e-13 * abs(energy)
+            while (trial := lagrangian.energy(q + part * step)) > (
+                energy + 1e-4 * part * fall + rounding
             ):
                 part *= 0.5
                 if part < _SHORTEST:
                     return q, False
-            q, now = q + part * self._scale * step, then
+            q, energy = q + part * step, trial
         return q, False
 
-    def _hessian(self, pose: Pose, net: Array, pushed: Array, stiffness: Array) -> Array:
-        """Of springs, weight and the ground's push, whose nodes rise by `pushed` (., Q)."""
+
+class _Lagrangian(NamedTuple):
+    """Energy of a tree and its augmented constraints on the ground.
+
+    Attributes:
+        tree: its links.
+        ground: stiffness of the constraints [N/m].
+        stiffness, rest: of the hinges' springs [N m/rad, rad].
+        friction: on the way there; none if None.
+        multiplier: forces of the ground so far, (P,) [N].
+        sharpness: of the friction [m].
+    """
+
+    tree: Tree
+    ground: float
+    stiffness: Array
+    rest: Array
+    friction: ContactFriction | None
+    multiplier: Array
+    sharpness: float
+
+    def push(self, nodes: Array) -> Array:
+        """Forces of the ground on nodes at places (P, 3) [m], (P,) [N]."""
+        return np.maximum(0.0, self.multiplier - self.ground * nodes[:, 2])
+
+    def energy(self, q: Array) -> float:
+        """Lagrangian at coordinates (Q,) [J]."""
+        nodes = self.tree.pose(q).nodes
+        push, bent = self.push(nodes), q[WHOLE:] - self.rest
+        stored = 0.5 * self.stiffness @ bent**2 + self.tree.weight @ nodes[:, 2]
+        stored += 0.5 * push @ push / self.ground
+        return float(stored) + (self.friction.cost(nodes, self.sharpness) if self.friction else 0.0)
+
+    def slopes(self, q: Array) -> tuple[Array, Array]:
+        """Gradient, (Q,), and Hessian, (Q, Q), by the coordinates."""
+        pose = self.tree.pose(q)
+        push, rise = self.push(pose.nodes), self.tree.heights(pose)
         force = np.zeros_like(pose.nodes)
-        force[:, 2] = net
-        hessian = self.tree.bending(pose, force) + self._ground * pushed.T @ pushed
+        force[:, 2] = self.tree.weight - push
+        gradient = rise.T @ force[:, 2]
+        gradient[WHOLE:] += self.stiffness * (q[WHOLE:] - self.rest)
+        pushed = rise[push > 0]
+        hessian = self.tree.bending(pose, force) + self.ground * pushed.T @ pushed
         hinges = np.arange(WHOLE, len(hessian))
-        hessian[hinges, hinges] += stiffness
-        return np.asarray(hessian)
+        hessian[hinges, hinges] += self.stiffness
+        if self.friction is None:
+            gradient[list(IN_PLAN)] = 0.0
+            hessian[IN_PLAN, :] = hessian[:, IN_PLAN] = 0.0
+            hessian[IN_PLAN, IN_PLAN] = self.ground
+            return gradient, hessian
+        pull, stiff = self.friction.slopes(self.tree, pose, self.sharpness)
+        return gradient + pull, hessian + stiff
 
 
 def _solved(hessian: Array, gradient: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Trees of limbs on ground that holds: friction decides who slides, and bends the robot.
+"""Stick-slip of a tree of limbs: friction decides which contacts slide, and bends the robot.
 
 In each increment the robot goes where energy and dissipation together are least,
 
@@ -14,24 +14,23 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.scene.ground import check_for_limbs, surfaces_of
+from analytic.friction.dissipation_in_plane import SmoothFriction
 from analytic.scene.surface import Ground
-from analytic.solvers.limbs.contacts import Contact, Contacts
-from analytic.solvers.limbs.grip import Grip
+from analytic.solvers.limbs.contacts import Contact, Contacts, durations
+from analytic.solvers.limbs.friction import ContactFriction
 from analytic.solvers.limbs.path import Path
 from analytic.solvers.limbs.statics import Rest, Statics
 
 Array = NDArray[np.float64]
 
 _VISCOSITY = 1e-3  # of all contacts alike: weight over length; decides what bounds leave open
-_FAINT = 1e-3  # of a film's resistance, that it is at most, however slow the gait; chosen
+_WEAK = 1e-3  # of a film's resistance, that it is at most, however slow the gait; chosen
 _HALVINGS = 3  # of increments in which contacts change
-_INSTANT = 1e-12  # s; a shortest increment
 _RISE = 8  # states on the way to a first one that is inflated; chosen
 _TRIES = 4  # to find the contacts of a state that rest on its own forces
 
 
-def drag_along(
+def stick_slip_path(
     statics: Statics,
     pressures: Array,
     ground: Ground,
@@ -51,60 +50,56 @@ def drag_along(
     Raises:
         ValueError: see analytic.solvers.limbs.walk.follow.
     """
-    check_for_limbs(ground)
-    viscous = any(surface.viscosity for surface in surfaces_of(ground))
-    if viscous and times is None:
-        raise ValueError(f"times of the shapes must be given on viscous ground {ground.name!r}")
-    when: Array = np.arange(float(len(pressures))) if times is None else times
-    return _Drag(statics, ground, law).along(pressures, when)
+    spans = durations(ground, times, len(pressures))
+    when = np.arange(float(len(pressures))) if times is None else times
+    return _StickSlip(statics, ground, law).along(pressures, when.tolist(), spans.tolist())
 
 
-class _Drag:
+class _StickSlip:
     """One walk: its states so far."""
 
     def __init__(self, statics: Statics, ground: Ground, law: str) -> None:
         self._statics, self._ground = statics, ground
         self._finder = Contacts(statics.tree, law)
-        self._tie = _VISCOSITY * statics.tree.robot.weight / statics.length
+        self._viscosity = _VISCOSITY * statics.tree.robot.weight / statics.length
         self._rests: list[Rest] = []
         self._contacts: list[list[Contact]] = []
         self._rows: list[Array] = []
         self._times: list[float] = []
 
-    def along(self, pressures: Array, times: Array) -> Path:
+    def along(self, pressures: Array, times: list[float], spans: list[float]) -> Path:
         first = self._statics.flat()
         for part in np.linspace(0.0, 1.0, _RISE + 1)[1:] if pressures[0].any() else (0.0,):
             first = self._statics.equilibrium(part * pressures[0], first)
-        self._keep(pressures[0], float(times[0]), first, self._finder.find(first, pressures[0]))
-        for (one, two), (begin, end) in zip(pairwise(pressures), pairwise(times), strict=True):
-            self._go(one, two, float(begin), max(float(end - begin), _INSTANT), 0)
+        self._keep(pressures[0], times[0], first, self._finder.find(first, pressures[0]))
+        for (begin, end), when, span in zip(pairwise(pressures), pairwise(times), spans,
+                                            strict=True):  # fmt: skip
+            self._go(begin, end, when, span, 0)
         q = np.array([rest.q for rest in self._rests])
-        converged = all(rest.converged for rest in self._rests)
+        place, heading = q[:, :2] - q[0, :2], q[:, 3] - q[0, 3]
         return Path(self._statics.tree.robot, np.array(self._rows), np.array(self._times),
-                    self._rests, self._contacts, q[:, :2] - q[0, :2], q[:, 3] - q[0, 3],
-                    converged)  # fmt: skip
+                    self._rests, self._contacts, place, heading)  # fmt: skip
 
-    def _go(self, one: Array, two: Array, begin: float, span: float, depth: int) -> None:
-        rest, contacts = self._step(two, span)
+    def _go(
+        self, begin: Array, end: Array, when: tuple[float, float], span: float, depth: int
+    ) -> None:
+        rest, contacts = self._step(end, span)
         if _kinds(contacts) != _kinds(self._contacts[-1]) and depth < _HALVINGS:
-            middle = 0.5 * (one + two)
-            self._go(one, middle, begin, 0.5 * span, depth + 1)
-            self._go(middle, two, begin + 0.5 * span, 0.5 * span, depth + 1)
+            middle, halfway = 0.5 * (begin + end), 0.5 * sum(when)
+            self._go(begin, middle, (when[0], halfway), 0.5 * span, depth + 1)
+            self._go(middle, end, (halfway, when[1]), 0.5 * span, depth + 1)
         else:
-            self._keep(two, begin + span, rest, contacts)
+            self._keep(end, when[1], rest, contacts)
 
     def _step(self, row: Array, span: float) -> tuple[Rest, list[Contact]]:
         """The next state, on contacts that rest on its own forces."""
-        old, own = self._rests[-1], self._contacts[-1]
+        before, contacts = self._rests[-1], self._contacts[-1]
         for _ in range(_TRIES):
-            grip = self._grip(own, old, span)
-            rest = self._statics.equilibrium(row, old, grip)
-            found = self._finder.find(rest, row)
-            same = _kinds(found) == _kinds(own)
-            own = found
-            if same:
+            rest = self._statics.equilibrium(row, before, self._friction(contacts, before, span))
+            guess, contacts = contacts, self._finder.find(rest, row)
+            if _kinds(contacts) == _kinds(guess):
                 break
-        return rest, own
+        return rest, contacts
 
     def _keep(self, row: Array, time: float, rest: Rest, contacts: list[Contact]) -> None:
         self._rows.append(row)
@@ -112,21 +107,13 @@ class _Drag:
         self._rests.append(rest)
         self._contacts.append(contacts)
 
-    def _grip(self, contacts: list[Contact], old: Rest, span: float) -> Grip:
-        owners = [contact for contact in contacts for _ in contact.at]
-        weights = self._statics.tree.points(
-            np.array([contact.limb for contact in owners], dtype=int),
-            np.array([at for contact in contacts for at in contact.at]),
-        )
-        before = weights @ old.nodes[:, :2]
-        pairs = [
-            self._finder.resistance(contact, self._ground.at(float(x)))
-            for contact, x in zip(owners, before[:, 0], strict=True)
-        ]
-        bounds, drags = np.array(pairs).reshape(-1, 2).T
-        film = drags / span
-        tie = min(self._tie, _FAINT * float(film.sum())) if film.any() else self._tie
-        return Grip(weights, before, bounds, film + tie)
+    def _friction(self, contacts: list[Contact], rest: Rest, span: float) -> ContactFriction:
+        weights = self._finder.weights(contacts)
+        places = weights @ rest.nodes[:, :2]
+        bounds, viscous = self._finder.resistances(contacts, self._ground, places[:, 0])
+        film = viscous / span
+        least = min(self._viscosity, _WEAK * float(film.sum())) if film.any() else self._viscosity
+        return ContactFriction(weights, places, SmoothFriction(bounds, film + least))
 
 
 def _kinds(contacts: list[Contact]) -> list[tuple[int, int]]:

@@ -24,21 +24,18 @@ EDGES = np.linspace(0.0, 1.0, SEGMENTS + 1)
 _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(4)  # exact to degree 7; (y')^2 has 6
 
 
-class Lifted(NamedTuple):
+class LiftedPart(NamedTuple):
     """Piecewise quartic of the lifted part; index j runs over the segments it crosses.
 
     Within piece j, with t = s - start: y = height + slope t + A t^2/2 + B t^3/6 + C t^4/12.
 
     Attributes:
-        a, b: ends of the lifted part, shape (B,).
         start, size: first point and length of each piece (length 0 off the lifted part), (B, 3).
         quadratic: A, B, C stacked, shape (3, B, 3).
         slope, height: y' and y at the start of each piece, shape (B, 3).
         slope_b: y' at b, shape (B,).
     """
 
-    a: Array
-    b: Array
     start: Array
     size: Array
     quadratic: Array
@@ -47,7 +44,7 @@ class Lifted(NamedTuple):
     slope_b: Array
 
 
-def lift(k: Array, g: Array, a: Array, b: Array) -> Lifted:
+def lift(k: Array, g: Array, a: Array, b: Array) -> LiftedPart:
     """Shape of the strip lifted between a and b (b > a), for k, g of shape (B, 3), a, b (B,)."""
     start = np.clip(EDGES[:-1], a[:, None], b[:, None])
     size = np.clip(EDGES[1:], a[:, None], b[:, None]) - start
@@ -56,10 +53,10 @@ def lift(k: Array, g: Array, a: Array, b: Array) -> Lifted:
     bend, turn = _integrals(quadratic, size)  # of y'' over a piece: once and twice
     total_turn = (turn + bend * (to_b - size)).sum(axis=1)  # int_a^b (b - u) y'' du
     slope_a = -total_turn / (b - a)
-    slope = slope_a[:, None] + _before(bend)
+    slope = slope_a[:, None] + before(bend)
     rise = slope * size + turn
     slope_b = slope_a + bend.sum(axis=1)
-    return Lifted(a, b, start, size, quadratic, slope, _before(rise), slope_b)
+    return LiftedPart(start, size, quadratic, slope, before(rise), slope_b)
 
 
 def _integrals(quadratic: Array, t: Array) -> tuple[Array, Array]:
@@ -68,45 +65,43 @@ def _integrals(quadratic: Array, t: Array) -> tuple[Array, Array]:
     return t * (a + t * (b / 2 + t * c / 3)), t * t * (a / 2 + t * (b / 6 + t * c / 12))
 
 
-def _before(parts: Array) -> Array:
-    """Sum of the pieces before each piece, shape (B, 3)."""
-    sums = np.cumsum(parts, axis=1)
-    return np.concatenate([np.zeros_like(sums[:, :1]), sums[:, :-1]], axis=1)
+def before(parts: Array) -> Array:
+    """Sum of the pieces before each piece, along the last axis."""
+    sums = np.cumsum(parts, axis=-1)
+    return np.concatenate([np.zeros_like(sums[..., :1]), sums[..., :-1]], axis=-1)
 
 
-def shortening(lifted: Lifted, s: Array) -> Array:
+def shortening(lifted: LiftedPart, s: Array) -> Array:
     """Arclength less horizontal length from the left end to s, int_0^s (y')^2 / 2 (10).
 
     For material points s of shape (S,), returns shape (B, S).
     """
     size = np.clip(s - lifted.start[..., None], 0.0, lifted.size[..., None])
     quadratic = lifted.quadratic[..., None]
-    total = np.zeros((len(lifted.a), len(s)))
+    total = np.zeros((len(lifted.slope_b), len(s)))
     for x, weight in zip(_GAUSS_X, _GAUSS_W, strict=True):
         slope = lifted.slope[..., None] + _integrals(quadratic, 0.5 * size * (1 + x))[0]
         total += (0.25 * weight * size * slope**2).sum(axis=1)
     return total
 
 
-def extremes(lifted: Lifted) -> tuple[Array, Array]:
+def extremes(lifted: LiftedPart) -> tuple[Array, Array]:
     """Least and greatest height over the lifted part, each of shape (B,)."""
     a, b, c = lifted.quadratic
     t = real_cubic_roots(c / 3, b / 2, a, lifted.slope)  # y' = 0
     inside = (t > 0) & (t < lifted.size[..., None])
-    t = np.where(inside, t, 0.0)
-    turn = _integrals(lifted.quadratic[..., None], t)[1]
-    at_turns = lifted.height[..., None] + lifted.slope[..., None] * t + turn
-    flat = at_turns.reshape(len(at_turns), -1)
-    return np.minimum(flat.min(axis=1), 0.0), np.maximum(flat.max(axis=1), 0.0)
+    turning = _height(lifted, np.where(inside, t, 0.0)).reshape(len(lifted.slope_b), -1)
+    return np.minimum(turning.min(axis=1), 0.0), np.maximum(turning.max(axis=1), 0.0)
 
 
-def heights(lifted: Lifted, s: Array) -> Array:
+def heights(lifted: LiftedPart, s: Array) -> Array:
     """Height at material points s of shape (S,), 0 off the lifted part, shape (B, S)."""
-    height = np.zeros((len(lifted.a), len(s)))
-    for j in range(SEGMENTS):
-        t = s - lifted.start[:, j, None]
-        here = (t >= 0) & (t < lifted.size[:, j, None])
-        _, turn = _integrals(lifted.quadratic[:, :, j, None], t)
-        rise = lifted.height[:, j, None] + lifted.slope[:, j, None] * t + turn
-        height = np.where(here, rise, height)
-    return height
+    t = s - lifted.start[..., None]
+    inside = (t >= 0) & (t < lifted.size[..., None])
+    return np.where(inside, _height(lifted, t), 0.0).sum(axis=1)
+
+
+def _height(lifted: LiftedPart, t: Array) -> Array:
+    """Height at t of each piece, both of shape (B, 3, T)."""
+    turn = _integrals(lifted.quadratic[..., None], t)[1]
+    return np.asarray(lifted.height[..., None] + lifted.slope[..., None] * t + turn)

@@ -1,4 +1,4 @@
-"""Where a strip with its left end flat on the ground lifts off (Appendix A, modes i to iii).
+"""Lift-off points of a strip with its left end flat on the ground (Appendix A, modes i to iii).
 
 With the lifted part [xi, 1] and X = 1 - xi its length, the thirteenth condition y'(xi) = 0 reads
 
@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.solvers.modes.beam import EDGES, SEGMENTS
+from analytic.solvers.modes.beam import EDGES, SEGMENTS, before
 from analytic.solvers.modes.cubic import real_cubic_roots
 
 Array = NDArray[np.float64]
@@ -41,9 +41,9 @@ def lift_off(k: Array, g: Array) -> LiftOff:
     turning = real_cubic_roots(4 * c4, 0 * c4, 2 * c2, c1)
     inside = (turning > low[:, None]) & (turning < high[:, None])
     turning = np.sort(np.where(inside, turning, high[:, None]), axis=-1)
-    points = np.concatenate([np.broadcast_to(low, k.shape)[..., None], turning], axis=-1)
-    points = points.reshape(len(k), -1)
     segment = np.repeat(np.arange(SEGMENTS), 4)
+    points = np.concatenate([np.broadcast_to(low, k.shape)[..., None], turning], axis=-1)
+    points = points.reshape(len(k), len(segment))
     points = np.concatenate([points, np.ones((len(k), 1))], axis=1)
     segment = np.append(segment, SEGMENTS - 1)
 
@@ -52,9 +52,9 @@ def lift_off(k: Array, g: Array) -> LiftOff:
     crossing = (values[:, 1:] > 0) != (values[:, :-1] > 0)
     count = crossing.sum(axis=1)
     exists = count > 0
-    last = crossing.shape[1] - 1 - np.argmax(crossing[:, ::-1], axis=1)
+    nearest = crossing.shape[1] - 1 - np.argmax(crossing[:, ::-1], axis=1)
     rows = np.flatnonzero(exists)
-    at = last[rows]
+    at = nearest[rows]
     piece = segment[at]
     roots = _bracketed_newton(
         points[rows, at], points[rows, at + 1], *(c[rows, piece] for c in (c0, c1, c2, c4))
@@ -69,8 +69,7 @@ def _coefficients(k: Array, g: Array) -> tuple[Array, Array, Array, Array]:
     k, g = k[:, ::-1], g[:, ::-1]
     low = EDGES[:-1]
     square, cube, fourth = (np.diff(EDGES**n) for n in (2, 3, 4))
-    passed = np.cumsum(np.stack([-0.5 * k * square - g * fourth / 8, g * cube / 6], axis=0), axis=2)
-    passed = np.concatenate([np.zeros_like(passed[..., :1]), passed[..., :-1]], axis=2)
+    passed = before(np.stack([-0.5 * k * square - g * fourth / 8, g * cube / 6]))
     c0 = passed[0] + 0.5 * k * low**2 + g * low**4 / 8
     c1 = passed[1] - g * low**3 / 6
     return c0, c1, -0.5 * k, g / 24
@@ -92,8 +91,8 @@ def _bracketed_newton(low: Array, high: Array, c0: Array, c1: Array, c2: Array, 
             newton = x - value / slope
         inside = (newton >= low) & (newton <= high)
         step = np.where(inside, newton, 0.5 * (low + high))
-        done = np.abs(step - x) <= 4e-16
+        change = np.abs(step - x)
         x = step
-        if done.all():
+        if (change <= 4e-16).all():
             break
     return x

@@ -6,12 +6,13 @@ from numpy.typing import ArrayLike, NDArray
 from analytic.scene import pneunet
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
-from analytic.shapes import Mode, Shapes, Status
+from analytic.shapes import Shapes, Status
 from analytic.solvers.modes import beam
 from analytic.solvers.modes.beam import SEGMENTS
 from analytic.solvers.modes.liftoff import lift_off
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 _TOLERANCE = 1e-9  # of slopes and of heights over L, far above rounding, far below interest
 _FLAT = 1e-12  # kappa L below which a strip is as good as flat: it lifts less than 1e-5 of L
@@ -41,84 +42,62 @@ def solve_modes(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
     p = check_pressures(robot, pressures_pa)
     k = pneunet.natural_curvature(robot, p) * robot.length
     g = robot.weight_per_length * robot.length**3 / pneunet.rigidity(robot, p)
-    a, b, mode, status = _contact(k, g)
+    flat: Mask = np.asarray((k <= _FLAT).all(axis=1))
+    a, b, status = _lifted_part(k, g, ~flat)
 
     lifted = beam.lift(k, g, a, b)
     lowest, highest = beam.extremes(lifted)
     # an end that lies flat has slope 0 there, so this looks at the ends in point contact only
     sinking = np.maximum(-lifted.slope[:, 0], lifted.slope_b) > _TOLERANCE
-    up = mode != Mode.FLAT
-    status |= np.where(up & sinking, Status.BOTH_FLAT, 0)
-    status |= np.where(up & (lowest < -_TOLERANCE), Status.PENETRATES, 0)
+    status |= np.where(~flat & sinking, Status.BOTH_FLAT, 0)
+    status |= np.where(~flat & (lowest < -_TOLERANCE), Status.PENETRATES, 0)
     on_ground = np.maximum(0.0, a[:, None] - beam.EDGES[:-1])
     on_ground = np.maximum(on_ground, beam.EDGES[1:] - b[:, None]) > _TOLERANCE
-    status |= np.where(up & (on_ground & (k > _FLAT)).any(axis=1), Status.HELD_FLAT, 0)
+    status |= np.where(~flat & (on_ground & (k > _FLAT)).any(axis=1), Status.HELD_FLAT, 0)
 
-    lost = (status & Status.NO_ROOT) != 0
-    blank = np.where(lost, np.nan, 1.0)
-    flat = mode == Mode.FLAT
-    length = robot.length
+    scale = robot.length * np.where(status & Status.NO_ROOT, np.nan, 1.0)
+    shortened = beam.shortening(lifted, np.ones(1))[:, 0]
     return Shapes(
         robot=robot,
-        separation=length
-        * blank
-        * np.where(flat, 1.0, 1 - beam.shortening(lifted, np.ones(1))[:, 0]),
-        contact_left=length * blank * np.where(flat, 0.5, a),
-        contact_right=length * blank * np.where(flat, 0.5, 1 - b),
-        amplitude=length * blank * np.where(flat, 0.0, highest),
-        mode=mode,
+        separation=scale * np.where(flat, 1.0, 1 - shortened),
+        contact_left=scale * np.where(flat, 0.5, a),
+        contact_right=scale * np.where(flat, 0.5, 1 - b),
+        amplitude=scale * np.where(flat, 0.0, highest),
         status=status,
-        curve=_Curve(length, lifted, flat, blank),
+        curve=_Curve(robot.length, lifted, flat, scale),
     )
 
 
-def _contact(k: Array, g: Array) -> tuple[Array, Array, NDArray[np.int_], NDArray[np.int_]]:
-    """Lifted part [a, b], mode and the status of the search for it."""
-    count = len(k)
-    zero, ones = np.zeros(count), np.ones(count)
-    a, b = zero.copy(), ones.copy()
-    mode = np.full(count, Mode.TIP, dtype=int)
-    status = np.full(count, Status.OK, dtype=int)
-
-    flat = (k <= _FLAT).all(axis=1)
-    mode[flat] = Mode.FLAT
-
-    tip = beam.lift(k, g, zero, ones)
+def _lifted_part(k: Array, g: Array, up: Mask) -> tuple[Array, Array, NDArray[np.int_]]:
+    """Ends a, b of the lifted part of strips, `up` or flat, and the status of the search for it."""
+    a, b = np.zeros(len(k)), np.ones(len(k))
+    status = np.full(len(k), Status.OK, dtype=int)
+    tip = beam.lift(k, g, a, b)
     into_left, into_right = -tip.slope[:, 0], tip.slope_b
-    lies = (np.maximum(into_left, into_right) > 0) & ~flat
+    lies = (np.maximum(into_left, into_right) > 0) & up
     left = lies & (into_left >= into_right - _TOLERANCE)
-    right = lies & ~left
-    for side, first_mode in ((left, Mode.LEFT_1), (right, Mode.RIGHT_1)):
-        rows = np.flatnonzero(side)
-        if len(rows) == 0:
-            continue
-        mirror = slice(None) if first_mode == Mode.LEFT_1 else slice(None, None, -1)
-        lift = lift_off(k[rows, mirror], g[rows, mirror])
-        status[rows] |= np.where(lift.roots == 0, Status.NO_ROOT, 0)
-        status[rows] |= np.where(lift.roots > 1, Status.SEVERAL_ROOTS, 0)
-        xi = np.nan_to_num(lift.xi, nan=0.0)
-        if first_mode == Mode.LEFT_1:
-            a[rows] = xi
-            at = xi
+    for side, order in ((left, 1), (lies & ~left, -1)):
+        point = lift_off(k[side, ::order], g[side, ::order])
+        status[side] |= np.where(point.roots == 0, Status.NO_ROOT, 0)
+        status[side] |= np.where(point.roots > 1, Status.SEVERAL_ROOTS, 0)
+        xi = np.nan_to_num(point.xi, nan=0.0)
+        if order == 1:
+            a[side] = xi
         else:
-            b[rows] = at = 1 - xi
-        mode[rows] = first_mode + np.clip((at * SEGMENTS).astype(int), 0, SEGMENTS - 1)
-    return a, b, mode, status
+            b[side] = 1 - xi
+    return a, b, status
 
 
 class _Curve:
     """Material points of the strip, on demand (see Shapes.curve)."""
 
-    def __init__(
-        self, length: float, lifted: beam.Lifted, flat: NDArray[np.bool_], blank: Array
-    ) -> None:
+    def __init__(self, length: float, lifted: beam.LiftedPart, flat: Mask, scale: Array) -> None:
         self._length, self._lifted = length, lifted
-        self._flat, self._blank = flat, blank
+        self._flat, self._scale = flat[:, None], scale[:, None]
 
     def __call__(self, s: Array) -> tuple[Array, Array]:
         u = np.asarray(s, dtype=float) / self._length
-        height = np.where(self._flat[:, None], 0.0, beam.heights(self._lifted, u))
+        height = np.where(self._flat, 0.0, beam.heights(self._lifted, u))
         # x(s) = s - int_0^s (y')^2 / 2, exactly (10)
-        x = u - np.where(self._flat[:, None], 0.0, beam.shortening(self._lifted, u))
-        scale = self._length * self._blank[:, None]
-        return scale * x, scale * height
+        x = u - np.where(self._flat, 0.0, beam.shortening(self._lifted, u))
+        return self._scale * x, self._scale * height

@@ -20,7 +20,7 @@ from analytic import (
     solve_elastica,
     solve_modes,
 )
-from analytic.friction.contacts import patches_of
+from analytic.friction.contacts import contacts_of
 from analytic.friction.dissipation import least_dissipation, minimisers
 from analytic.friction.laws import slip_fraction
 
@@ -111,9 +111,9 @@ def between(shapes):
     """Nodes that push in each contact between the ends, of all states."""
     height = shapes.curve(shapes.nodes)[1]
     return [
-        len(patch.nodes)
+        len(contact.nodes)
         for state in range(len(shapes))
-        for patch in patches_of(shapes, height, state)[1:-1]
+        for contact in contacts_of(shapes, height, state)[1:-1]
     ]
 
 
