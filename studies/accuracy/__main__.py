@@ -1,28 +1,24 @@
 """Measure speed against accuracy and draw it: `python -m studies.accuracy`."""
 
-import logging
+import itertools
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import partial
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from typing import Any
 
-from mjsim.files.cli import bar, choose, fail, parse
+from mjsim.files.cli import choose, fail, parse
 from mjsim.files.files import check_folder
-from mjsim.results.provenance import machine, signature
-from studies.accuracy import (
-    benchmark_cases,
-    cantilever_bodies,
-    figure,
-    grid,
-    heavy_cantilever,
-    walking,
-)
-from studies.accuracy.rows import MEASURED, Row, append, read
+from mjsim.results.provenance import machine
+from studies.accuracy import cantilever_bodies, figure, heavy_cantilever, walking
+from studies.accuracy.benchmark_cases import GROUNDS
+from studies.accuracy.rows import MEASURED, read
 from studies.accuracy.setting import Setting
+from studies.drawing import save
+from studies.table import columns, complete
 
 PROGRAM = "python -m studies.accuracy"
-CASES = (heavy_cantilever.CASE, *benchmark_cases.GROUNDS)
+CASES = (heavy_cantilever.CASE, *GROUNDS)
 
 
 @dataclass(frozen=True)
@@ -60,37 +56,46 @@ def main(argv: Sequence[str] | None = None) -> int:
         path = options.rows or options.out / MEASURED.name
         if options.fresh:
             path.unlink(missing_ok=True)
-        known = read(path)
+        read(path)
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
-    logging.getLogger("absl").setLevel(logging.ERROR)  # divergence is a row, not a warning
-    seen = {row.key for row in known}
-    todo = [job for job in _jobs(cases, options.quick) if job[0] not in seen]
-    with bar("measuring", len(todo)) as advance:
-        for row in append(
-            (replace(run(), machine=machine(), **signature()) for _, run in todo), path
-        ):
-            known.append(row)
-            advance(1)
+    complete(path, measured, _grid(cases, options.quick), processes=1)  # more would disturb times
+    rows = read(path)
     for case in cases:
-        figure.save(figure.draw(known, case), options.out / f"{case}.png")
-        print(figure.table(known, case))
+        save(figure.draw(rows, case), options.out / f"{case}.png")
+        print(figure.table(rows, case))
         print(options.out / f"{case}.png")
     return 0
 
 
-Job = tuple[tuple[str, str, Setting], Callable[[], Row]]
-
-
-def _jobs(cases: Sequence[str], quick: bool) -> Iterator[Job]:
+def _grid(cases: Sequence[str], quick: bool) -> Iterator[tuple[Any, ...]]:
+    """Arguments of `measured`."""
     for case in cases:
-        if case == heavy_cantilever.CASE:
-            for setting in cantilever_bodies.settings(quick):
-                yield (case, heavy_cantilever.TIP, setting), partial(cantilever_bodies.run, setting)
-        else:
-            for setting in grid.settings(case, quick):
-                for ground in benchmark_cases.GROUNDS[case]:
-                    yield (case, ground, setting), partial(walking.run, case, ground, setting)
+        walk = case in GROUNDS
+        settings = walking.settings(case, quick) if walk else cantilever_bodies.settings(quick)
+        scenes = GROUNDS[case] if walk else (heavy_cantilever.TIP,)
+        for setting, scene in itertools.product(settings, scenes):
+            values = {"case": case, "scene": scene, **asdict(setting)}
+            yield tuple(values[name] for name in columns(measured))
+
+
+def measured(
+    case: str,
+    scene: str,
+    method: str,
+    integrator: str,
+    cone: str,
+    impratio: float,
+    links: int,
+    timestep: float,
+) -> dict[str, Any]:
+    """The row of a setting on a scene of a case, measured on this machine."""
+    setting = Setting(method, links, timestep, integrator, cone, impratio)
+    if case == heavy_cantilever.CASE:
+        row = cantilever_bodies.run(setting)
+    else:
+        row = walking.run(case, scene, setting)
+    return asdict(replace(row, machine=machine()))
 
 
 if __name__ == "__main__":

@@ -1,5 +1,7 @@
 """A method at one setting: the points of the charts."""
 
+import itertools
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, cast
 
@@ -16,7 +18,7 @@ class Setting:
         links: elements; 0 where there are none to choose.
         timestep: [s]; 0 for a quasi-static method.
         integrator: of MuJoCo or of the peer; "" where there is none.
-        cone, impratio: of MuJoCo's contacts with friction; "" and 0 elsewhere.
+        cone, impratio: of MuJoCo's contacts with friction; "" and 0 where there are none.
     """
 
     method: str
@@ -32,3 +34,15 @@ class Setting:
             more = {"cone": self.cone, "impratio": self.impratio, **more}
         numerics = Numerics(self.links, self.timestep, cast(Integrator, self.integrator), **more)
         return numerics.resolved(self.method, "coulomb" if self.cone else "constant")
+
+
+def grid(
+    method: str,
+    links: Iterable[int],
+    timesteps: Iterable[float],
+    integrator: str = "discrete",
+    *contact: Any,
+) -> list[Setting]:
+    """Settings of a method over links and time steps [s]; contact: the cone and impratio."""
+    return [Setting(method, n, timestep, integrator, *contact)
+            for n, timestep in itertools.product(links, timesteps)]  # fmt: skip

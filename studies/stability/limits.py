@@ -1,7 +1,6 @@
-"""The time step beyond which a body's highest mode grows: as predicted, and as it does."""
+"""The time step beyond which a body's highest mode is predicted to grow."""
 
 import math
-from dataclasses import replace
 from functools import cache
 
 import mujoco
@@ -9,16 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh, null_space
 
-from analytic import SURFACES
 from mjsim.model.builder import compile_model
 from mjsim.model.rod import rest_stiffness
 from mjsim.scene import Numerics, Scene
-from studies.accuracy.setting import Setting
 
 Array = NDArray[np.float64]
 
 _TURN = 1e-6  # of a coordinate, to see what force it makes [m or rad]
-_GROWN, _STEPS = 30.0, 400  # a body is stable that never moves so many times faster, in so long
 
 
 @cache
@@ -29,7 +25,7 @@ def highest_frequency(scene: Scene, numerics: Numerics, standing: bool = False) 
         scene, numerics: of the body.
         standing: on its two ends, which stay at their height; else free.
     """
-    model = _at_rest(scene, numerics)
+    model = at_rest(scene, numerics)
     data = mujoco.MjData(model)
     stiffness = np.column_stack([_force(model, data, i) for i in range(model.nv)])
     mujoco.mj_resetData(model, data)
@@ -65,36 +61,7 @@ def predicted_limit(
     return sign * damping_time + math.sqrt(damping_time**2 + 4 / omega**2)
 
 
-def measured_limit(integrator: str, links: int, damping_time: float, body: str = "planar") -> float:
-    """Largest time step at which a strip free of ground and weight stays finite [s], to 5 %."""
-    # Coulomb's: no dry friction on the ends
-    scene = Scene(friction="coulomb", ground=SURFACES["gelatin"], body=body)
-
-    def stable(timestep: float) -> bool:
-        numerics = Setting(body, links, timestep, integrator).numerics()
-        model = _at_rest(scene, replace(numerics, damping_time=damping_time))
-        model.opt.gravity[:] = 0
-        off = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_AUTORESET
-        model.opt.disableflags |= int(off)
-        data = mujoco.MjData(model)
-        data.qvel[:] = _TURN * np.random.default_rng(1).standard_normal(model.nv)
-        start = float(np.linalg.norm(data.qvel))
-        for _ in range(_STEPS):
-            mujoco.mj_step(model, data)
-            if not np.linalg.norm(data.qvel) < _GROWN * start:
-                return False
-        return True
-
-    low, high = 1e-7, 0.1
-    if stable(high):
-        return math.inf
-    while high / low > 1.05:
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if stable(middle) else (low, middle)
-    return low
-
-
-def _at_rest(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
+def at_rest(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
     """The model with the stiffness of a strip without pressure."""
     model = compile_model(scene, numerics)
     if scene.body == "rod":
@@ -103,7 +70,7 @@ def _at_rest(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
 
 
 def _rise(model: mujoco.MjModel, data: mujoco.MjData, end: str) -> Array:
-    """How fast an end rises with each velocity of the flat strip, (nv,)."""
+    """Speed at which an end rises per velocity of the flat strip, (nv,)."""
     moves = np.zeros((3, model.nv))
     mujoco.mj_jacSite(model, data, moves, None, model.site(f"robot_end_{end}").id)
     return np.asarray(moves[2])

@@ -1,4 +1,4 @@
-"""How one simulated walk came out, by written criteria.
+"""The outcome of one simulated walk, by written criteria.
 
 Outcomes: accurate, within NEAR of the reference's displacement; drifting, finite but farther off;
 wrong, the opposite way by more than a standstill; toppled, an end left the ground; diverged;
@@ -8,7 +8,7 @@ finished, where there is no reference to be near to.
 import math
 from dataclasses import replace
 
-from analytic import SURFACES, direction
+from analytic import SURFACES, Robot, direction
 from mjsim.results.measures import measure
 from mjsim.results.status import Status
 from mjsim.scene import Numerics, Scene
@@ -22,7 +22,7 @@ GROUND = "gelatin"
 
 
 def outcome(scene: Scene, numerics: Numerics, reference: float) -> str:
-    """Walk a scene and say which of OUTCOMES it was.
+    """Walk a scene; returns one of OUTCOMES.
 
     Args:
         scene, numerics: the walk.
@@ -38,41 +38,33 @@ def outcome(scene: Scene, numerics: Numerics, reference: float) -> str:
         return "finished"
     if abs(numbers.displacement / reference - 1) <= NEAR:
         return "accurate"
-    opposite = {direction(numbers.displacement, 1.0), direction(reference, 1.0)}
-    return "wrong direction" if opposite == {"forward", "backward"} else "drifting"
+    directions = {direction(numbers.displacement, 1.0), direction(reference, 1.0)}
+    return "wrong direction" if directions == {"forward", "backward"} else "drifting"
 
 
-def tried(
-    body: str,
-    integrator: str,
-    links: int,
-    timestep: float,
-    stiffness: float = 1.0,
-    cycles: int = 1,
-) -> str:
-    """The outcome of the default gait on gelatin, of a strip so many times as stiff.
+def walked(
+    body: str, integrator: str, links: int, timestep: float, stiffness: float = 1.0, cycles: int = 1
+) -> dict[str, str]:
+    """Outcome of the default gait on gelatin, of a strip so many times as stiff.
 
     A walk whose first cycle is not accurate does not go on.
+    """
+    numerics = Setting(body, links, timestep, integrator).numerics()
+    scene, reference = replace(stiffened(stiffness), body=body), exact(WALK, GROUND)
+    name = outcome(scene, numerics, reference)
+    if name == "accurate" and cycles > 1:
+        name = outcome(replace(scene, cycles=cycles), numerics, reference)
+    return {"outcome": name}
+
+
+def stiffened(stiffness: float) -> Scene:
+    """The benchmark scene on GROUND with a strip so many times as stiff, of the same mass.
 
     Stiffness scales the modulus, the pressure and the weight, but not the mass: the shapes stay,
     and with them the reference, while the strip's frequencies rise with its square root.
     """
-    numerics = Setting(body, links, timestep, integrator).numerics()
-    scene = replace(stiffened(stiffness), body=body)
-    first = outcome(scene, numerics, exact(WALK, GROUND))
-    if first != "accurate" or cycles == 1:
-        return first
-    return outcome(replace(scene, cycles=cycles), numerics, exact(WALK, GROUND))
-
-
-def stiffened(stiffness: float) -> Scene:
-    """The benchmark scene on GROUND with a strip so many times as stiff, of the same mass."""
-    scene = Scene()
-    base = scene.robot
-    robot = replace(
-        base,
-        modulus=stiffness * base.modulus,
-        peak_pressure=stiffness * base.peak_pressure,
-        weight_per_length=stiffness * base.weight_per_length,
-    )
-    return replace(scene, robot=robot, ground=SURFACES[GROUND], gravity=stiffness * scene.gravity)
+    base = Robot()
+    scaled = {name: stiffness * getattr(base, name)
+              for name in ("modulus", "peak_pressure", "weight_per_length")}  # fmt: skip
+    return Scene(replace(base, **scaled), ground=SURFACES[GROUND],
+                 gravity=stiffness * Scene.gravity)  # fmt: skip

@@ -42,8 +42,8 @@ def test_a_settled_strip_is_of_second_order_in_its_elements(method):
 def test_the_planar_chain_settles_where_the_elastica_of_as_many_links_does():
     theory = cantilever_bodies.run(Setting("elastica", 24))
     for integrator in ("discrete", "implicitfast"):
-        found = cantilever_bodies.run(Setting("planar", 24, 0.01, integrator))
-        assert found.error == pytest.approx(theory.error, rel=1e-3)
+        chain = cantilever_bodies.run(Setting("planar", 24, 0.01, integrator))
+        assert chain.error == pytest.approx(theory.error, rel=1e-3)
 
 
 def test_a_strip_that_cannot_settle_is_no_number():

@@ -1,23 +1,31 @@
-"""What the figures share: colours, the strip drawn by segments, the ground."""
+"""Drawing: colours of the methods, the strip on its ground, files that are whole or not there."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
+
+from mjsim.files.files import whole
 
 Array = NDArray[np.float64]
 
+COLOURS = {
+    "planar": "#d1495b", "cable": "#edae49", "rod": "#66a182", "stock cable": "#8b5e34",
+    "modes": "#8d99ae", "lifted": "#52796f", "obstacle": "#3a7ca5", "elastica": "black",
+    "Drake": "#5e548e", "PyElastica": "#00798c", "PyBullet": "#b56576",
+}  # fmt: skip
+SIMULATED = COLOURS["planar"]
 PASSIVE, INFLATED = "0.68", "black"  # as the shading of Figure 4
-SIMULATED = "#d1495b"
-SOLVER = {
-    "modes": "#8d99ae",
-    "lifted": "#52796f",
-    "obstacle": "#3a7ca5",
-    "elastica": "black",
-    "planar": SIMULATED,
-}
 FONT: dict[Any, Any] = {"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False}
+
+
+def save(figure: Figure, path: Path, **options: Any) -> None:
+    """Write a picture that appears under its name only when it is whole; options of savefig."""
+    with whole(path) as part:
+        figure.savefig(part, **options)
 
 
 def draw_strip(axes: Axes, x: Array, y: Array, fraction: Array, **line: Any) -> None:
@@ -25,14 +33,14 @@ def draw_strip(axes: Axes, x: Array, y: Array, fraction: Array, **line: Any) -> 
 
     Args:
         axes: where to.
-        x, y: points at equal arclengths, shape (S,), S - 1 a multiple of 3.
-        fraction: of the peak pressure in each segment, equal in length, shape (3,).
+        x, y: points at equal arclengths, shape (N,), N - 1 a multiple of S.
+        fraction: of the peak pressure in each segment, equal in length, shape (S,).
         line: more properties of the lines.
     """
     step = (len(x) - 1) // len(fraction)
-    for segment in range(len(fraction)):
+    for segment, pressure in enumerate(fraction):
         part = slice(segment * step, (segment + 1) * step + 1)
-        colour = INFLATED if fraction[segment] > 0.25 else PASSIVE
+        colour = INFLATED if pressure > 0.25 else PASSIVE
         axes.plot(x[part], y[part], color=colour, solid_capstyle="round", **line)
 
 
