@@ -59,8 +59,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         read(path)
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
-    complete(path, measured, _grid(cases, options.quick), processes=1)  # more would disturb times
-    rows = read(path)
+    # one process: more would disturb the times
+    rows = complete(path, measured, _grid(cases, options.quick), processes=1)
     for case in cases:
         save(figure.draw(rows, case), options.out / f"{case}.png")
         print(figure.table(rows, case))

@@ -1,21 +1,18 @@
-"""Error against cost, as a figure and as a table: pure functions of the rows."""
+"""Error against cost, as a figure and as a table: pure functions of the rows, see Row."""
 
-from collections import defaultdict
-from collections.abc import Iterable, Sequence
+import math
+from dataclasses import fields
+from typing import Any
 
-import numpy as np
+import pandas as pd  # type: ignore[import-untyped]
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
 from mjsim.scene import Numerics
 from studies.accuracy import benchmark_cases, heavy_cantilever
-from studies.accuracy.rows import Row
-from studies.accuracy.setting import Setting
+from studies.accuracy.setting import Setting, setting_of
 from studies.drawing import COLOURS
-
-Array = NDArray[np.float64]
 
 GOALS = (0.10, 0.02, 0.005)  # relative errors that a table names the cheapest way to
 _LEAST = 1e-5  # errors below are drawn there: the reference is no better
@@ -28,23 +25,21 @@ _TITLES = {
 }
 
 
-def draw(rows: Sequence[Row], case: str) -> Figure:
+def draw(rows: pd.DataFrame, case: str) -> Figure:
     """Error over CPU seconds per simulated second, one panel per scene.
 
     One line per method, its own Pareto front, with its other rows pale behind; failures in a row of
     their own above.
     """
-    scenes: dict[str, list[Row]] = defaultdict(list)
-    for row in rows:
-        if row.case == case:
-            scenes[row.scene].append(row)
-    columns = max(1, len(scenes))
+    scenes = rows[rows["case"] == case].groupby("scene", sort=False)
+    columns = max(1, scenes.ngroups)
     figure = Figure(figsize=(1 + 5.2 * columns, 4.6), layout="constrained", dpi=110)
     title, label = _TITLES[case]
     panels = figure.subplots(1, columns, sharey=True, squeeze=False)[0]
-    for axes, (scene, scene_rows) in zip(panels, scenes.items(), strict=False):
-        _draw_methods(axes, [row for row in scene_rows if row.status == "ok"])
-        _draw_failures(axes, scene_rows)
+    for axes, (scene, measured) in zip(panels, scenes, strict=False):
+        finished = measured["status"] == "ok"
+        _draw_methods(axes, measured[finished])
+        _draw_failures(axes, measured[~finished], 3 * measured["error"].fillna(0).max() or 3.0)
         axes.set(xscale="log", yscale="log", xlabel="CPU seconds per simulated second")
         axes.set_title(title if scene == heavy_cantilever.TIP else f"{title}, {scene}", fontsize=9)
         axes.grid(which="major", color="0.92", lw=0.6)
@@ -52,90 +47,69 @@ def draw(rows: Sequence[Row], case: str) -> Figure:
     return figure
 
 
-def _draw_methods(axes: Axes, rows: Sequence[Row]) -> None:
-    methods: dict[str, list[Row]] = defaultdict(list)
-    for row in rows:
-        methods[row.method].append(row)
-    for method, points in methods.items():
+def _draw_methods(axes: Axes, rows: pd.DataFrame) -> None:
+    for method, points in rows.groupby("method", sort=False):
         colour, front = COLOURS.get(method, "0.5"), pareto(points)
-        axes.plot(*_places(points), "o", color=colour, ms=3, alpha=0.25, mec="none")
-        x, y = _places(front)
+        axes.plot(points["cost"], points["error"].clip(_LEAST), "o", color=colour, ms=3,
+                  alpha=0.25, mec="none")  # fmt: skip
+        x, y = front["cost"].to_numpy(), front["error"].clip(_LEAST).to_numpy()
         axes.plot(x, y, "o-", color=colour, ms=4, lw=1.4)
         axes.annotate(method, (x[0], y[0]), xytext=(-4, 5), textcoords="offset points",
                       color=colour, fontsize=8, ha="right")  # fmt: skip
-    for row in filter(is_default, rows):
-        (place,) = _places([row]).T
+    for row in filter(is_default, rows.itertuples()):
+        place = row.cost, max(row.error, _LEAST)
         axes.plot(*place, "o", ms=13, mfc="none", mec="0.1")
         axes.annotate("default", place, xytext=(9, 6), textcoords="offset points", fontsize=8)
 
 
-def _places(rows: Sequence[Row]) -> Array:
-    """Cost and error of rows, (2, R)."""
-    return np.array([(row.cost, max(row.error, _LEAST)) for row in rows]).T
-
-
-def _draw_failures(axes: Axes, rows: Sequence[Row]) -> None:
-    """Markers above the rest, by the kind of failure, in the colour of the method."""
-    failed = [row for row in rows if row.status != "ok"]
-    if not failed:
+def _draw_failures(axes: Axes, rows: pd.DataFrame, level: float) -> None:
+    """Markers at a level above the rest, by the kind of failure, in the colour of the method."""
+    if rows.empty:
         return
-    level = 3 * max((row.error for row in rows if row.status == "ok"), default=1.0)
-    for row in failed:
+    for row in rows.itertuples():
         axes.plot(row.cost, level, _MARKERS.get(row.status, "+"), color=COLOURS.get(row.method),
                   ms=5, mew=0.8)  # fmt: skip
     handles = [Line2D([], [], ls="none", marker=_MARKERS.get(kind, "+"), color="0.4", label=kind)
-               for kind in dict.fromkeys(row.status for row in failed)]  # fmt: skip
+               for kind in rows["status"].unique()]  # fmt: skip
     axes.legend(handles=handles, title="failed", fontsize=7, title_fontsize=7, frameon=False,
                 loc="lower left")  # fmt: skip
 
 
-def pareto(rows: Iterable[Row]) -> list[Row]:
+def pareto(rows: pd.DataFrame) -> pd.DataFrame:
     """The Pareto front: rows that nothing is both cheaper and more accurate than."""
-    front: list[Row] = []
-    for row in sorted((r for r in rows if r.status == "ok"), key=lambda r: (r.cost, r.error)):
-        if not front or row.error < front[-1].error:
-            front.append(row)
-    return front
+    finished = rows[rows["status"] == "ok"].sort_values(["cost", "error"])
+    return finished[finished["error"] < finished["error"].cummin().shift(fill_value=math.inf)]
 
 
-def is_default(row: Row) -> bool:
+def is_default(row: Any) -> bool:
     """True for the numerics of `undulator run` unless told otherwise."""
     if row.case not in benchmark_cases.GROUNDS or row.method != "planar":
         return False
     usual = Numerics().resolved("planar", "coulomb" if row.cone else "constant")
-    return row.setting.numerics() == usual
+    return setting_of(row).numerics() == usual
 
 
-def cheapest(rows: Sequence[Row], case: str, goal: float) -> dict[str, Row]:
+def cheapest(rows: pd.DataFrame, goal: float) -> pd.DataFrame:
     """The cheapest row of each method whose error is within a goal, on its worst scene."""
-    groups: dict[Setting, dict[str, Row]] = defaultdict(dict)
-    for row in rows:
-        if row.case == case:
-            groups[row.setting][row.scene] = row
-    scenes = set().union(*groups.values())
-    slowest = [
-        max(group.values(), key=lambda row: row.cost)
-        for group in groups.values()
-        if set(group) == scenes
-        and all(row.status == "ok" and row.error <= goal for row in group.values())
-    ]
-    best: dict[str, Row] = {}
-    for row in sorted(slowest, key=lambda row: row.cost):
-        best.setdefault(row.method, row)
-    return best
+    names = [field.name for field in fields(Setting)]
+    good = rows[(rows["status"] == "ok") & (rows["error"] <= goal)]
+    scenes = good.groupby(names)["scene"].transform("nunique")
+    good = good[scenes == rows["scene"].nunique()].sort_values("cost")
+    return good.drop_duplicates(names, keep="last").drop_duplicates("method")
 
 
-def table(rows: Sequence[Row], case: str) -> str:
+def table(rows: pd.DataFrame, case: str) -> str:
     """The cheapest way of each method to each goal, and its cost over the cheapest of all."""
+    rows = rows[rows["case"] == case]
     lines = [f"{case:<13}" + "".join(f"{f'{goal:.1%}':>40}" for goal in GOALS)]
-    goals = [cheapest(rows, case, goal) for goal in GOALS]
-    for method in dict.fromkeys(row.method for row in rows if row.case == case):
+    goals = [{row.method: row for row in cheapest(rows, goal).itertuples()} for goal in GOALS]
+    for method in rows["method"].unique():
         cells = (f"{_cell(method, best):>40}" for best in goals)
         lines.append(f"{method:<13}{''.join(cells)}")
     return "\n".join(lines)
 
 
-def _cell(method: str, best: dict[str, Row]) -> str:
+def _cell(method: str, best: dict[str, Any]) -> str:
     if method not in best:
         return "-"
     row, least = best[method], min(row.cost for row in best.values())

@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from studies import table
-from studies.accuracy.setting import Setting
+from studies.accuracy.setting import Setting, setting_of
 from studies.accuracy.timing import Timing
 
 MEASURED = table.DOCS / "accuracy.csv"
@@ -48,14 +48,9 @@ class Row:
     commit: str = ""
 
     @property
-    def setting(self) -> Setting:
-        """The method and its numerics."""
-        return Setting(**{field.name: getattr(self, field.name) for field in fields(Setting)})
-
-    @property
     def key(self) -> tuple[str, str, Setting]:
         """The case, its scene and the setting."""
-        return self.case, self.scene, self.setting
+        return self.case, self.scene, setting_of(self)
 
 
 def row(

@@ -2,7 +2,7 @@
 
 import itertools
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any, cast
 
 from mjsim.scene import Numerics
@@ -34,6 +34,11 @@ class Setting:
             more = {"cone": self.cone, "impratio": self.impratio, **more}
         numerics = Numerics(self.links, self.timestep, cast(Integrator, self.integrator), **more)
         return numerics.resolved(self.method, "coulomb" if self.cone else "constant")
+
+
+def setting_of(row: Any) -> Setting:
+    """The setting of a row of the accuracy study."""
+    return Setting(**{field.name: getattr(row, field.name) for field in fields(Setting)})
 
 
 def grid(
