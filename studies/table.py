@@ -63,8 +63,8 @@ def complete(
         processes: that share the work; one per core by default.
     """
     names = list(columns(measure))
-    known = set(read(path, measure)[names].itertuples(index=False, name=None))
-    missing = [setting for setting in dict.fromkeys(grid) if setting not in known]
+    present = set(read(path, measure)[names].itertuples(index=False, name=None))
+    missing = [setting for setting in dict.fromkeys(grid) if setting not in present]
     with pool(processes) as workers, bar(path.stem, len(missing)) as advance:
         results = workers.map(measure, *zip(*missing, strict=True))
         for setting, result in zip(missing, results, strict=True):

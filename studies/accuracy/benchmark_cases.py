@@ -58,7 +58,6 @@ def walked(
 ) -> Row:
     """The row of a displacement per cycle over L; one that is FAR off is no walk of this gait."""
     reference = exact(case, ground)
-    error = abs(value / reference - 1)
-    if status == "ok" and error > FAR:
+    if status == "ok" and abs(value / reference - 1) > FAR:
         status = "drifting"
-    return row(case, ground, setting, value, reference, error, timing, status)
+    return row(case, ground, setting, value, reference, timing, status)

@@ -52,5 +52,4 @@ def exact() -> tuple[float, float]:
 
 def settled(setting: Setting, tip: tuple[float, float], timing: Timing, status: str) -> Row:
     """The row of a tip (x, y) over L."""
-    error = math.dist(tip, exact())
-    return row(CASE, TIP, setting, error, 0.0, error, timing, status)
+    return row(CASE, TIP, setting, math.dist(tip, exact()), 0.0, timing, status)

@@ -54,17 +54,11 @@ class Row:
 
 
 def row(
-    case: str,
-    scene: str,
-    setting: Setting,
-    value: float,
-    reference: float,
-    error: float,
-    timing: Timing,
-    status: str,
+    case: str, scene: str, setting: Setting, value: float, exact: float, timing: Timing, status: str
 ) -> Row:
     """The row of a measurement; where it failed it has no error."""
-    return Row(case, scene, **asdict(setting), value=value, reference=reference,
+    error = abs(value / exact - 1) if exact else value
+    return Row(case, scene, **asdict(setting), value=value, reference=exact,
                error=error if status == "ok" else math.nan, cost=timing.least,
                median=timing.median, wall=timing.wall, status=status)  # fmt: skip
 

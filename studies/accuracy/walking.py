@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 from analytic import REFERENCE, SOLVERS, Elastica, predict
 from mjsim.results.measures import measure
@@ -13,36 +14,32 @@ from studies.accuracy.rows import Row
 from studies.accuracy.setting import Setting, grid
 from studies.accuracy.timing import Spent, Timing, repeated
 
-_USUAL = CONES[0], Numerics.impratio
-_BODIES = {
+_ELLIPTIC, _PYRAMIDAL = CONES
+_USUAL = "discrete", _ELLIPTIC, Numerics.impratio
+_BODIES: dict[str, list[Any]] = {  # see grid
     WALK: [
-        *grid("planar", (6, 12, 18, 24, 48), (0.05, 0.02, 0.01, 0.005, 0.002, 0.001)),
-        *grid("planar", (96,), (0.05, 0.02, 0.01, 0.005)),
-        *grid("cable", (6, 12, 18, 24), (0.02, 0.01, 0.005)),
-        *grid("cable", (48,), (0.02, 0.01)),
-        *grid("rod", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005, 0.002)),
-        *(setting for name in INTEGRATORS[1:]
-          for setting in grid("planar", (12,), (0.005, 0.002, 0.001, 0.0005), name)),
+        ("planar", (6, 12, 18, 24, 48), (0.05, 0.02, 0.01, 0.005, 0.002, 0.001)),
+        ("planar", (96,), (0.05, 0.02, 0.01, 0.005)),
+        ("cable", (6, 12, 18, 24), (0.02, 0.01, 0.005)),
+        ("cable", (48,), (0.02, 0.01)),
+        ("rod", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005, 0.002)),
+        *(("planar", (12,), (0.005, 0.002, 0.001, 0.0005), name) for name in INTEGRATORS[1:]),
     ],
     COULOMB: [
-        *grid("planar", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005, 0.002, 0.001), "discrete",
-              *_USUAL),
-        *(setting for impratio in (1.0, 10.0, 1000.0)
-          for setting in grid("planar", (12, 24), (0.02, 0.01, 0.005, 0.002), "discrete",
-                              CONES[0], impratio)),
-        *(setting for impratio in (1.0, Numerics.impratio)
-          for setting in grid("planar", (12,), (0.01, 0.005, 0.002, 0.001), "discrete",
-                              CONES[1], impratio)),
-        *(setting for body in ("cable", "rod")
-          for setting in grid(body, (6, 12, 24), (0.01, 0.005, 0.002), "discrete", *_USUAL)),
-        *(setting for name in INTEGRATORS[1:]
-          for setting in grid("planar", (12,), (0.002, 0.001, 0.0005), name, *_USUAL)),
+        ("planar", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005, 0.002, 0.001), *_USUAL),
+        *(("planar", (12, 24), (0.02, 0.01, 0.005, 0.002), "discrete", _ELLIPTIC, impratio)
+          for impratio in (1.0, 10.0, 1000.0)),
+        *(("planar", (12,), (0.01, 0.005, 0.002, 0.001), "discrete", _PYRAMIDAL, impratio)
+          for impratio in (1.0, Numerics.impratio)),
+        *((body, (6, 12, 24), (0.01, 0.005, 0.002), *_USUAL) for body in ("cable", "rod")),
+        *(("planar", (12,), (0.002, 0.001, 0.0005), name, *_USUAL[1:])
+          for name in INTEGRATORS[1:]),
     ],
 }  # fmt: skip
-_QUICK = {
-    WALK: [*grid("planar", (6, 12), (0.02, 0.01)), *grid("cable", (6,), (0.02,)),
-           *grid("rod", (6,), (0.01,)), *grid("planar", (6,), (0.01,), "Euler")],
-    COULOMB: grid("planar", (6, 12), (0.02, 0.01), "discrete", *_USUAL),
+_QUICK: dict[str, list[Any]] = {
+    WALK: [("planar", (6, 12), (0.02, 0.01)), ("cable", (6,), (0.02,)), ("rod", (6,), (0.01,)),
+           ("planar", (6,), (0.01,), "Euler")],
+    COULOMB: [("planar", (6, 12), (0.02, 0.01), *_USUAL)],
 }  # fmt: skip
 
 
@@ -51,7 +48,8 @@ def settings(case: str, quick: bool = False) -> Iterator[Setting]:
     for solver in SOLVERS if case == WALK else (REFERENCE,):
         for links in (12, 24, 60) if solver == REFERENCE else (0,):
             yield Setting(solver, links)
-    yield from (_QUICK if quick else _BODIES)[case]
+    for block in (_QUICK if quick else _BODIES)[case]:
+        yield from grid(*block)
 
 
 def run(case: str, ground: str, setting: Setting) -> Row:

@@ -36,13 +36,13 @@ def _predicted(robot: Robot, solver: str) -> tuple[float, float]:
 
 
 def _simulated(robot: Robot) -> tuple[float, float]:
-    """The same by MuJoCo."""
+    """Displacement and greatest height over L by MuJoCo."""
     numbers = measure(simulate(Scene(robot, replace(_WAVE, ramp_time=_RAMP_TIME), _FELT)))
     return (numbers.displacement, numbers.amplitude) if numbers else (math.nan, math.nan)
 
 
 def _coarse(robot: Robot, increments: int) -> tuple[float, float]:
-    """The same by the modes, with so many increments per ramp."""
+    """Displacement and height by the modes, with so many increments per ramp."""
     shapes = solve_modes(robot, _WAVE.pressures(increments) * robot.peak_pressure)
     return coarse_displacement(shapes), float(shapes.amplitude.max()) / robot.length
 

@@ -56,8 +56,8 @@ def draw(data: xr.Dataset) -> Figure:
     norm, colours = TwoSlopeNorm(0, -0.08, 0.08), "RdBu"
     for ax, load in zip(axes, data["load"].values, strict=True):
         height = data["amplitude"].sel(load=load).values
-        known = np.isfinite(height)
-        height, shift = height[known], data["displacement"].sel(load=load).values[known]
+        finite = np.isfinite(height)
+        height, shift = height[finite], data["displacement"].sel(load=load).values[finite]
         ax.set_facecolor("0.85")
         ax.pcolormesh(ratio, height, shift, cmap=colours, shading="nearest", norm=norm,
                       rasterized=True)  # fmt: skip
@@ -65,7 +65,7 @@ def draw(data: xr.Dataset) -> Figure:
                    linewidths=1.4)  # fmt: skip
         ax.axvline(polyethylene, color="0.2", dashes=(4, 2), lw=1)
         if load == 1:
-            star = np.interp(Robot().peak_pressure, data["pressure"].values[known], height)
+            star = np.interp(Robot().peak_pressure, data["pressure"].values[finite], height)
             ax.plot(polyethylene, star, "*", ms=13, color="#f2c14e", mec="black", mew=0.8)
         ax.set_xscale("log")
         ax.set_xlabel(r"$V_t / (\tau q L)$")

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from mjsim.files.cli import choose, fail, parse
 from mjsim.scene import registry
 from studies.drawing import save
-from studies.stability import figure, maps, outcome, parameters
+from studies.stability import figure, maps, parameters
 from studies.table import complete, read
 
 PROGRAM = "python -m studies.stability"
@@ -27,7 +27,7 @@ class Map(NamedTuple):
 
 
 MAPS = {
-    **{body: Map(outcome.walked, partial(maps.walks, body), figure.draw_integrators)
+    **{body: Map(maps.walked, partial(maps.walks, body), figure.draw_integrators)
        for body in registry.names()},
     "robots": Map(maps.robot_outcome, maps.robots, figure.draw_robots),
     "parameters": Map(parameters.varied, parameters.variations, figure.draw_parameters),

@@ -14,12 +14,11 @@ from mjsim.scene import INTEGRATORS
 from studies.accuracy.setting import Setting
 from studies.stability import maps, parameters
 from studies.stability.limits import highest_frequency, predicted_limit
-from studies.stability.outcome import OUTCOMES, stiffened
 
 _CLIP = 20.0  # % that panels of parameters show
 _TICKS = (2, 5, 10, 20, 50)
 _COLOURS = dict(zip(
-    (*OUTCOMES, "rolled up"),
+    (*maps.OUTCOMES, "rolled up"),
     ("#66a182", "#edae49", "#e76f51", "#8d6a9f", "#30343f", "#d9d2c5", "#3a7ca5"), strict=True,
 ))  # fmt: skip
 _BRANCH = {"ok": "accurate", "branch_end": "toppled", "rolled_up": "rolled up"}
@@ -58,7 +57,7 @@ def draw_integrators(table: pd.DataFrame) -> Figure:
         bottom.set_xlabel("stiffness / default")
     for left in axes[:, 0]:
         left.set_ylabel("time step [s]")
-    _legend(figure, OUTCOMES[:-1])
+    _legend(figure, maps.OUTCOMES[:-1])
     return figure
 
 
@@ -127,7 +126,7 @@ def _limit(
     for links, stiffness in strips:
         # frequencies are the same with every integrator: each is computed once
         numerics = Setting(body, int(links), 1e-3, "discrete").numerics()
-        scene = replace(stiffened(float(stiffness)), body=body)
+        scene = replace(maps.stiffened(float(stiffness)), body=body)
         omega = highest_frequency(scene, numerics, standing=True)
         damped.append(predicted_limit(integrator, omega, numerics.damping_time, body))
         bare.append(2 / omega)

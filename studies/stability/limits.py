@@ -33,8 +33,8 @@ def highest_frequency(scene: Scene, numerics: Numerics, standing: bool = False) 
     mass = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, mass)
     if standing:
-        may = null_space([_rise(model, data, end) for end in ("left", "right")])
-        stiffness, mass = may.T @ stiffness @ may, may.T @ mass @ may
+        free = null_space([_rise(model, data, end) for end in ("left", "right")])
+        stiffness, mass = free.T @ stiffness @ free, free.T @ mass @ free
     squares = eigh(0.5 * (stiffness + stiffness.T), mass, eigvals_only=True)
     return math.sqrt(float(squares[-1]))
 

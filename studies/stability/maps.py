@@ -1,17 +1,31 @@
-"""Grids of outcomes: where each integrator, and each solver, still walks and where it fails."""
+"""Grids of outcomes: where each integrator, and each solver, still walks and where it fails.
+
+Outcomes: accurate, within NEAR of the reference's displacement; drifting, finite but farther off;
+wrong, the opposite way by more than a standstill; toppled, an end left the ground; diverged;
+finished, where there is no reference to be near to.
+"""
 
 import itertools
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from analytic import GAITS, SURFACES, ContactShapes, Prediction, Robot, Status, predict
+from analytic import GAITS, SURFACES, ContactShapes, Prediction, Robot, direction, predict
+from analytic import Status as Shape
 from analytic.scene import pneunet
+from mjsim.results.measures import measure
+from mjsim.results.status import Status
 from mjsim.scene import INTEGRATORS, Numerics, Scene
-from studies.stability.outcome import GROUND, outcome
+from mjsim.simulation.simulation import simulate
+from studies.accuracy.benchmark_cases import WALK, exact
+from studies.accuracy.setting import Setting
 
+OUTCOMES = ("accurate", "drifting", "wrong direction", "toppled", "diverged", "finished")
+NEAR = 0.05  # relative error of an accurate displacement; chosen
+GROUND = "gelatin"
 LINKS = tuple(range(6, 73, 6))
 USUAL_LINKS = 12  # of the maps that do not vary them; chosen
 LONG = 20  # cycles that a walk must last, if its first is accurate
@@ -25,6 +39,55 @@ def rounded(values: np.typing.ArrayLike) -> list[float]:
 
 TIMESTEPS, STIFFNESSES = rounded(np.geomspace(0.1, 1e-3, 12)), rounded(np.geomspace(0.01, 100, 12))
 GAMMAS, PRESSURES = rounded(np.geomspace(2, 60, 12)), rounded(np.linspace(12e3, 78e3, 12))
+
+
+def outcome(scene: Scene, numerics: Numerics, reference: float) -> str:
+    """Walk a scene; returns one of OUTCOMES.
+
+    Args:
+        scene, numerics: the walk.
+        reference: the displacement per cycle over L that it should have, NaN if there is none.
+    """
+    walk = simulate(scene, numerics)
+    numbers = measure(walk)
+    if walk.status is Status.UNSETTLED:
+        return "drifting"
+    if numbers is None:
+        return "diverged" if walk.status is Status.DIVERGED else "toppled"
+    if math.isnan(reference):
+        return "finished"
+    if abs(numbers.displacement / reference - 1) <= NEAR:
+        return "accurate"
+    directions = {direction(numbers.displacement, 1.0), direction(reference, 1.0)}
+    return "wrong direction" if directions == {"forward", "backward"} else "drifting"
+
+
+def walked(
+    body: str, integrator: str, links: int, timestep: float, stiffness: float = 1.0, cycles: int = 1
+) -> dict[str, str]:
+    """Outcome of the default gait on gelatin, of a strip so many times as stiff.
+
+    A walk whose first cycle is not accurate does not go on.
+    """
+    numerics = Setting(body, links, timestep, integrator).numerics()
+    scene, reference = replace(stiffened(stiffness), body=body), exact(WALK, GROUND)
+    name = outcome(scene, numerics, reference)
+    if name == "accurate" and cycles > 1:
+        name = outcome(replace(scene, cycles=cycles), numerics, reference)
+    return {"outcome": name}
+
+
+def stiffened(stiffness: float) -> Scene:
+    """The benchmark scene on GROUND with a strip so many times as stiff, of the same mass.
+
+    Stiffness scales the modulus, the pressure and the weight, but not the mass: the shapes stay,
+    and with them the reference, while the strip's frequencies rise with its square root.
+    """
+    base = Robot()
+    scaled = {name: stiffness * getattr(base, name)
+              for name in ("modulus", "peak_pressure", "weight_per_length")}  # fmt: skip
+    return Scene(replace(base, **scaled), ground=SURFACES[GROUND],
+                 gravity=stiffness * Scene.gravity)  # fmt: skip
 
 
 def robot_outcome(gamma: float, pressure: float) -> dict[str, Any]:
@@ -52,17 +115,17 @@ def robot_outcome(gamma: float, pressure: float) -> dict[str, Any]:
     failed = exact.shapes.status[exact.shapes.status != 0]
     reference = exact.locomotion.per_cycle / robot.length
     return {
-        "elastica": str(Status(int(failed[0])).name).lower() if len(failed) else "ok",
+        "elastica": str(Shape(int(failed[0])).name).lower() if len(failed) else "ok",
         "planar": outcome(Scene(robot, gait, surface), Numerics(), reference),
         "sunk": -float(np.nanmin(height)) / robot.length,
-        "penetrating": _part(modes, Status.PENETRATES),
+        "penetrating": _part(modes, Shape.PENETRATES),
         "newton": _iterations(exact),
         "exchanges": _iterations(obstacle),
-        "unconverged": _part(obstacle, Status.NOT_CONVERGED),
+        "unconverged": _part(obstacle, Shape.NOT_CONVERGED),
     }
 
 
-def _part(walk: Prediction, flag: Status) -> float:
+def _part(walk: Prediction, flag: Shape) -> float:
     """Part of the states that carry a flag."""
     return float(np.mean(walk.shapes.status & int(flag) > 0))
 

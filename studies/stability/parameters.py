@@ -70,11 +70,11 @@ def default(parameter: str) -> float:
     """Value of a parameter in the default walk."""
     law = law_of(parameter)
     scene, numerics = scene_of(law, "felt"), Numerics().resolved("planar", law)
+    if parameter == "friction_number":
+        return _friction_number(scene)
     if parameter == "ramp_time":
         return float(scene.gait.ramp_times[0])
-    return (
-        _friction_number(scene) if parameter == "friction_number" else getattr(numerics, parameter)
-    )
+    return float(getattr(numerics, parameter))
 
 
 def law_of(parameter: str) -> str:

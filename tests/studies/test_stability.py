@@ -16,8 +16,7 @@ from studies.accuracy.benchmark_cases import WALK, exact, scene_of
 from studies.accuracy.setting import Setting
 from studies.stability import __main__ as stability
 from studies.stability.limits import at_rest, highest_frequency, predicted_limit
-from studies.stability.maps import robot_outcome
-from studies.stability.outcome import outcome, stiffened, walked
+from studies.stability.maps import outcome, robot_outcome, stiffened, walked
 from studies.stability.parameters import varied
 
 UNDAMPED = 1e-6  # s; as good as none
