@@ -3,14 +3,11 @@
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from mjsim.files.files import whole
-
-Array = NDArray[np.float64]
+from studies import Array
 
 COLOURS = {
     "planar": "#d1495b", "cable": "#edae49", "rod": "#66a182", "stock cable": "#8b5e34",

@@ -12,15 +12,13 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from analytic.prediction import Elastica, Prediction, predict
 from analytic.scene import pneunet
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES, Surface
-
-Array = NDArray[np.float64]
+from studies import Array
 
 AMPLITUDE = 0.25  # greatest height over L; [Majidi13], section 3
 _FINE = Elastica(links=120)

@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 from scipy.ndimage import gaussian_filter
 
-Array = NDArray[np.float64]
+from studies import Array
 
 SIZE = 320  # pixels, sides of a tile
 RULER_LENGTH = 0.26  # m, as the ruler of mjsim/model/stage.xml

@@ -5,19 +5,17 @@ from collections.abc import Iterator
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from analytic.scene import pneunet
 from analytic.solvers.elastica.cantilever import solve_cantilever
 from mjsim.model.parts import set_options
 from mjsim.model.rod import rest_stiffness
 from mjsim.scene import INTEGRATORS, Scene, registry
+from studies import Array
 from studies.accuracy.heavy_cantilever import DAMPING, DURATION, settled, strip
 from studies.accuracy.rows import Row
 from studies.accuracy.setting import Setting, grid
 from studies.accuracy.timing import Timing, repeated
-
-Array = NDArray[np.float64]
 
 _STEADY = 1e-3  # L/s; a tip that is faster has not come to rest; chosen
 STOCK = "stock cable"

@@ -17,9 +17,8 @@ from analytic.scene.gait import Gait
 from analytic.scene.ground import Patches
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Surface
+from studies import Array
 from studies.control.reversing import REPERTOIRE, Chooser, check_gaits
-
-Array = NDArray[np.float64]
 
 _LINKS, _STATES = 48, 50  # of the elastica, and states in a ramp; chosen
 _WEAK = Friction()
@@ -42,7 +41,7 @@ class Cycles:
     """A robot that walks gaits on patches, each cycle from rest.
 
     Args:
-        robot: what walks.
+        robot: of the walk.
         ground: patches beside each other; may be changed later.
         gaits: tried in turn.
 
@@ -89,24 +88,20 @@ class Cycles:
 
     def without(self, cycles: int, left: float = 0.0) -> Track:
         """Walk the first gait always."""
-        return self.walk(cycles, lambda place, moved: 0, left)
+        return self.walk(cycles, lambda *_: 0, left)
 
     def reversing(self, cycles: int, noise: float = 0.0, seed: int = 0, left: float = 0.0) -> Track:
         """Walk with the controller, and noise of its sensor over L per cycle."""
-        rng, chooser = np.random.default_rng(seed), Chooser(len(self._shapes), noise)
-
-        def choose(place: float, moved: float) -> int:
-            if np.isnan(moved):
-                return chooser.choice
-            return chooser.after_cycle(moved + noise * float(rng.standard_normal()))
-
-        return self.walk(cycles, choose, left)
+        chooser = Chooser(len(self._shapes), noise, seed=seed)
+        return self.walk(
+            cycles, lambda _, moved: 0 if np.isnan(moved) else chooser.sense(moved), left
+        )
 
     def knowing(self, cycles: int, left: float = 0.0) -> Track:
         """Walk with the map known: each cycle the gait that goes farthest."""
         gaits = range(len(self._shapes))
         return self.walk(
-            cycles, lambda place, moved: max(gaits, key=lambda i: self.displacement(place, i)), left
+            cycles, lambda place, _: max(gaits, key=lambda i: self.displacement(place, i)), left
         )
 
 

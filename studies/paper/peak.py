@@ -7,15 +7,13 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from analytic import SURFACES, Gait, Robot, predict
 from analytic.scene import pneunet
 from analytic.scene.trapezoid import trapezoid
+from studies import Array
 from studies.drawing import COLOURS
 from studies.table import pool
-
-Array = NDArray[np.float64]
 
 _QUANTITIES = ("height", "felt", "polyethylene")
 _LAGS = (1 / 8, 1 / 6, 1 / 5, 1 / 4, 0.3, 1 / 3, 0.4, 0.5)

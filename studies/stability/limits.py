@@ -5,14 +5,12 @@ from functools import cache
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eigh, null_space
 
 from mjsim.model.builder import compile_model
 from mjsim.model.rod import rest_stiffness
 from mjsim.scene import Numerics, Scene
-
-Array = NDArray[np.float64]
+from studies import Array
 
 _TURN = 1e-6  # of a coordinate, to see what force it makes [m or rad]
 
