@@ -38,7 +38,6 @@ UNIFORM = Surface("uniform", friction=FRICTION)  # alike at tips and sides
 GROUNDS = {**SURFACES, UNIFORM.name: UNIFORM}
 DRAKE = DOCS / "quadruped_drake.csv"
 COLOURS = {"felt": "#2a6b4f", "polyethylene": "#4d7ea8", "gelatin": "#c8791a"}
-_MODELS = {"MuJoCo": ("o", COLOURS["felt"]), "Drake": ("s", COLOURS["gelatin"])}
 _LABELS = {"turn": "turn to the left [° a cycle]", "ahead": "displacement [L a cycle]"}
 
 
@@ -96,26 +95,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     turns = list(itertools.product(SURFACES, LAWS[:1], PARTS))
     cases = list(itertools.product(SURFACES, LAWS, [LEFT]))
     uniform = list(itertools.product([UNIFORM.name], LAWS[1:], drake["left"].unique().tolist()))
-    jobs = (
+    grids: tuple[Any, ...] = (
         (predicted, turns, [(STATES, 6)]),
         (simulated, turns, [(0.02, 6)]),
         (predicted, cases + uniform, [(2 * STATES, 8)]),
-        (simulated, cases, list(itertools.product(STEPS, ELEMENTS))),
-        (simulated, uniform, list(itertools.product(STEPS, [6]))),
+        (simulated, cases, itertools.product(STEPS, ELEMENTS)),
+        (simulated, uniform, itertools.product(STEPS, [6])),
     )
     with pool() as workers:
-        running = [workers.map(walk, *zip(*[(*scene, *numerics) for scene in scenes
-                                            for numerics in numericses], strict=True))
-                   for walk, scenes, numericses in jobs]  # fmt: skip
-        theory, mujoco, fine, grid, same = tables = [pd.DataFrame(points) for points in running]
-    for figure, name in (
-        (draw_turns(theory, mujoco), "turns"),
-        (draw_cost(fine, grid), "accuracy"),
-        (draw_peers(fine, same, drake), "drake"),
-    ):
+        jobs = [workers.submit(walk, *scene, *numerics) for walk, scenes, grid in grids
+                for scene, numerics in itertools.product(scenes, grid)]  # fmt: skip
+        points = pd.DataFrame([job.result() for job in jobs])
+    for figure, name in ((draw_turns(points), "turns"), (draw_cost(points), "accuracy"),
+                         (draw_peers(points, drake), "drake")):  # fmt: skip
         save(figure, options.out / f"quadruped_{name}.png", dpi=120)
-    for table in tables:
-        print(table.to_csv(sep=" ", header=False, index=False, float_format="%.4g"), end="")
+    print(points.to_csv(sep=" ", header=False, index=False, float_format="%.4g"), end="")
     return 0
 
 
@@ -139,9 +133,15 @@ def _panels(label: str) -> tuple[Figure, dict[str, Any]]:
     return figure, panels
 
 
-def draw_turns(theory: pd.DataFrame, mujoco: pd.DataFrame) -> Figure:
+def _models(points: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Points of the quasi-static reference, and those of MuJoCo."""
+    return points[points["step"] == 0], points[points["step"] > 0]
+
+
+def draw_turns(points: pd.DataFrame) -> Figure:
     """Turn and displacement over the pressure of the left legs."""
     figure, panels = _panels("pressure of the left legs over that of the right ones")
+    theory, mujoco = _models(points[points["left"].isin(PARTS)])
     for column, axes in panels.items():
         for name, colour in COLOURS.items():
             for table, style, model in ((theory, "-", "quasi-static"), (mujoco, "o", "MuJoCo")):
@@ -153,29 +153,28 @@ def draw_turns(theory: pd.DataFrame, mujoco: pd.DataFrame) -> Figure:
     return figure
 
 
-def draw_cost(reference: pd.DataFrame, grid: pd.DataFrame) -> Figure:
+def draw_cost(points: pd.DataFrame) -> Figure:
     """Error against cost, and the grid of steps and links with what failed."""
     figure = Figure(figsize=(9, 3.6), layout="constrained")
     left, right = figure.subplots(1, 2)
     markers = dict(zip(ELEMENTS, "osD^", strict=True))
-    exact = reference.set_index(["surface", "law"])[["ahead", "aside"]]
-    table = grid.join(exact, on=["surface", "law"], rsuffix="_exact")
-    table["error"] = np.hypot(table["ahead"] - table["ahead_exact"],
-                              table["aside"] - table["aside_exact"])  # fmt: skip
-    failed = table["status"] != "ok"
-    for row in table[~failed].itertuples():
+    chosen = (points["left"] == LEFT) & (points["surface"] != UNIFORM.name)
+    exact, table = _models(points[chosen].set_index(["surface", "law"]))
+    apart = (table[["ahead", "aside"]] - exact[["ahead", "aside"]].loc[table.index]).to_numpy()
+    table = table.reset_index().assign(error=np.hypot(*apart.T))
+    finished = table["status"] == "ok"
+    for row in table[finished].itertuples():
         left.loglog(row.speed, row.error, markers[row.elements], color=COLOURS[row.surface],
                     ms=5, alpha=0.8)  # fmt: skip
-    left.set_xlabel("times real time, one core")
-    left.set_xticks([], minor=True)
-    left.set_xticks(_SPEEDS, [str(speed) for speed in _SPEEDS])
-    left.set_ylabel("error of the displacement [L]")
     for elements, marker in markers.items():
         left.plot([], [], marker, color="0.4", label=f"{elements} hinges a limb")
     for name, colour in COLOURS.items():
         left.plot([], [], "o", color=colour, label=name)
+    left.set(xlabel="times real time, one core", ylabel="error of the displacement [L]")
+    left.set_xticks([], minor=True)
+    left.set_xticks(_SPEEDS, [str(speed) for speed in _SPEEDS])
     left.legend(fontsize=8, frameon=False)
-    table.loc[failed, "error"] = np.inf
+    table["error"] = table["error"].where(finished, np.inf)
     worst = table.pivot_table(index="elements", columns="step", values="error", aggfunc="max")
     shown = worst.where(np.isfinite(worst)).to_numpy()
     right.imshow(np.log10(shown), cmap="viridis_r", aspect="auto", vmin=-3.5, vmax=-1.5)
@@ -184,23 +183,23 @@ def draw_cost(reference: pd.DataFrame, grid: pd.DataFrame) -> Figure:
                    fontsize=8, color="white" if error >= _PALE else "black")  # fmt: skip
     right.set_xticks(range(len(STEPS)), [f"{1e3 * step:g}" for step in STEPS])
     right.set_yticks(range(len(ELEMENTS)), [str(n) for n in ELEMENTS])
-    right.set_xlabel(f"time step [ms], {RAMP:g} s a ramp")
-    right.set_ylabel("hinges a limb")
+    right.set(xlabel=f"time step [ms], {RAMP:g} s a ramp", ylabel="hinges a limb")
     right.set_title("worst error of three grounds and both friction laws [L]", fontsize=9)
     return figure
 
 
-def draw_peers(reference: pd.DataFrame, mujoco: pd.DataFrame, drake: pd.DataFrame) -> Figure:
+def draw_peers(points: pd.DataFrame, drake: pd.DataFrame) -> Figure:
     """Turn and displacement on the uniform ground by MuJoCo and Drake, over their speed."""
     figure, panels = _panels("times real time, one core")
+    reference, mujoco = _models(points[points["surface"] == UNIFORM.name])
+    models = (("MuJoCo", mujoco, "o-", COLOURS["felt"]), ("Drake", drake, "s-", COLOURS["gelatin"]))
     for column, axes in panels.items():
-        for exact in reference[reference["surface"] == UNIFORM.name].itertuples():
+        for exact in reference.itertuples():
             axes.axhline(getattr(exact, column), color="0.6", lw=0.9, zorder=0)
-            for model, table in (("MuJoCo", mujoco), ("Drake", drake)):
-                marker, colour = _MODELS[model]
+            for model, table, style, colour in models:
                 part = table[table["left"] == exact.left]
-                axes.semilogx(part["speed"], part[column], f"{marker}-", ms=5, lw=0.7,
-                              color=colour, label=f"{model}, left legs at {exact.left:.0%}",
+                axes.semilogx(part["speed"], part[column], style, ms=5, lw=0.7, color=colour,
+                              label=f"{model}, left legs at {exact.left:.0%}",
                               fillstyle="full" if exact.left == 1 else "none")  # fmt: skip
     panels["turn"].set_title("lines: quasi-static reference", fontsize=9)
     panels["turn"].legend(fontsize=8, frameon=False)
