@@ -9,20 +9,20 @@ terms Gamma = w L^3 / D0 and kappa L = alpha p L.
 
 import sys
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
-from analytic.prediction import Elastica, Prediction, predict
+from analytic.prediction import Elastica, predict
 from analytic.scene import pneunet
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.robot import Robot
-from analytic.scene.surface import SURFACES, Surface
+from analytic.scene.surface import SURFACES
 from studies import Array
 
 AMPLITUDE = 0.25  # greatest height over L; [Majidi13], section 3
-_FINE = Elastica(links=120)
-_STATES_PER_RAMP = 100
+_walk = partial(predict, solver=Elastica(links=120), states_per_ramp=100)
 _DIGITS = 4
 _STEP = 1e-2  # relative, of the finite differences
 _SCATTER = 3e-5  # of the statements over L, by where states and links happen to fall; measured
@@ -71,10 +71,6 @@ def _misses(start: Robot, numbers: Array, gait: Gait) -> Array:
     weight, height = np.exp(numbers).tolist()
     robot = replace(start, weight_per_length=weight, chamber_height=height)
     return np.array(statements(robot, gait)) - (0.0, AMPLITUDE)
-
-
-def _walk(robot: Robot, gait: Gait, surface: Surface) -> Prediction:
-    return predict(robot, gait, surface, _FINE, _STATES_PER_RAMP)
 
 
 def main() -> int:
