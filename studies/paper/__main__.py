@@ -20,7 +20,7 @@ from studies.table import DOCS
 PROGRAM = "python -m studies.paper"
 FIGURES = {"figure4": sequence, "figure5": amplitude, "peak": peak, "figure6": contact,
            "regime": regime}  # fmt: skip
-PAGE = DOCS / "figures.md"  # the captions
+PAGE = DOCS / "figures.md"  # the captions are written there
 
 
 @dataclass(frozen=True)

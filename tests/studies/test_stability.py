@@ -1,4 +1,4 @@
-"""Where methods fail: predicted limits of the time step, and outcomes either side of boundaries."""
+"""Predicted limits of the time step, and outcomes either side of where methods fail."""
 
 import math
 from dataclasses import replace
