@@ -9,41 +9,37 @@ terms Gamma = w L^3 / D0 and kappa L = alpha p L.
 
 import sys
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from analytic.prediction import Elastica, Prediction, predict
+from analytic.prediction import Elastica, predict
 from analytic.scene import pneunet
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.robot import Robot
-from analytic.scene.surface import SURFACES, Surface
-
-Array = NDArray[np.float64]
+from analytic.scene.surface import SURFACES
+from studies import Array
 
 AMPLITUDE = 0.25  # greatest height over L; [Majidi13], section 3
-_FINE = Elastica(links=120)
-_STATES_PER_RAMP = 100
+_walk = partial(predict, solver=Elastica(links=120), states_per_ramp=100)
 _DIGITS = 4
 _STEP = 1e-2  # relative, of the finite differences
 _SCATTER = 3e-5  # of the statements over L, by where states and links happen to fall; measured
 
 
 class Statements(NamedTuple):
-    """What a robot does of the two: displacement on polyethylene and greatest height, over L."""
+    """Displacement on polyethylene and greatest height, over L."""
 
     displacement: float
     amplitude: float
 
 
 def statements(robot: Robot, gait: Gait = GAITS["wave"]) -> Statements:
-    """What a robot does."""
+    """Both numbers of a robot."""
     walk = _walk(robot, gait, SURFACES["polyethylene"])
-    return Statements(
-        walk.locomotion.per_cycle / robot.length,
-        float(walk.shapes.amplitude.max()) / robot.length,
-    )
+    lengths = walk.locomotion.per_cycle, float(walk.shapes.amplitude.max())
+    return Statements(*(length / robot.length for length in lengths))
 
 
 def identify(start: Robot, gait: Gait = GAITS["wave"]) -> Robot:
@@ -61,25 +57,20 @@ def identify(start: Robot, gait: Gait = GAITS["wave"]) -> Robot:
     """
     numbers = np.log([start.weight_per_length, start.chamber_height])
     for _ in range(12):
-        here = _misses(start, numbers, gait)
-        if np.abs(here).max() < _SCATTER:
+        misses = _misses(start, numbers, gait)
+        if np.abs(misses).max() < _SCATTER:
             weight, height = (float(f"{x:.{_DIGITS}g}") for x in np.exp(numbers))
             return replace(start, weight_per_length=weight, chamber_height=height)
-        slopes = [(_misses(start, numbers + step, gait) - here) / _STEP
+        slopes = [(_misses(start, numbers + step, gait) - misses) / _STEP
                   for step in _STEP * np.eye(2)]  # fmt: skip
-        numbers = numbers - np.linalg.solve(np.transpose(slopes), here)
+        numbers = numbers - np.linalg.solve(np.transpose(slopes), misses)
     raise ArithmeticError(f"no robot meets both statements near {start!r}")
 
 
 def _misses(start: Robot, numbers: Array, gait: Gait) -> Array:
     weight, height = np.exp(numbers).tolist()
     robot = replace(start, weight_per_length=weight, chamber_height=height)
-    does = statements(robot, gait)
-    return np.array([does.displacement, does.amplitude - AMPLITUDE])
-
-
-def _walk(robot: Robot, gait: Gait, surface: Surface) -> Prediction:
-    return predict(robot, gait, surface, _FINE, _STATES_PER_RAMP)
+    return np.array(statements(robot, gait)) - (0.0, AMPLITUDE)
 
 
 def main() -> int:

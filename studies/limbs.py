@@ -1,25 +1,31 @@
-"""The quadruped measured: turns over pressures, error against cost, and where walking fails.
+"""Turns of the quadruped over pressures, error against cost, and the steps at which walking fails.
 
 `python -m studies.limbs`, about ten minutes on two cores. Drake's walks are read from
 docs/quadruped_drake.csv, which benchmarks/peers/quadruped.py writes.
 """
 
-import csv
+import itertools
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd  # type: ignore[import-untyped]
+from matplotlib.figure import Figure
 
 from analytic.scene.limbs import LENGTH, quadruped
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import FRICTION, SURFACES, Surface
 from analytic.solvers.limbs.walk import walk as quasi_static
 from mjsim.files.cli import parse
-from mjsim.files.files import check_folder, whole
-from studies.workers import pool
+from mjsim.files.files import check_folder
+from mjsim.results.measures import measure
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.simulation import simulate
+from studies.drawing import save
+from studies.table import DOCS, pool
 
 PROGRAM = "python -m studies.limbs"
 PARTS = (0.4, 0.6, 0.8, 1.0)  # of the pressure that the left legs get
@@ -31,8 +37,9 @@ _SPEEDS = (20, 50, 100, 200, 400)  # ticks
 _PALE = 3e-3  # L; errors below it have a light cell
 UNIFORM = Surface("uniform", friction=FRICTION)  # alike at tips and sides
 GROUNDS = {**SURFACES, UNIFORM.name: UNIFORM}
-DRAKE = Path(__file__).resolve().parents[1] / "docs" / "quadruped_drake.csv"
+DRAKE = DOCS / "quadruped_drake.csv"
 COLOURS = {"felt": "#2a6b4f", "polyethylene": "#4d7ea8", "gelatin": "#c8791a"}
+_LABELS = {"turn": "turn to the left [° a cycle]", "ahead": "displacement [L a cycle]"}
 
 
 @dataclass(frozen=True)
@@ -62,12 +69,8 @@ class Point(NamedTuple):
     status: str
 
 
-def walked(surface: str, law: str, left: float, step: float, elements: int) -> Point:
-    """By MuJoCo."""
-    from mjsim.results.measures import measure
-    from mjsim.scene import Numerics, Scene
-    from mjsim.simulation.simulation import simulate
-
+def simulated(surface: str, law: str, left: float, step: float, elements: int) -> Point:
+    """One walk by MuJoCo."""
     gait = replace(undulation("wave", left=left), ramp_time=RAMP)
     scene = Scene(quadruped(), gait, GROUNDS[surface], friction=law)
     walk = simulate(scene, Numerics(links=elements, timestep=step))
@@ -78,14 +81,10 @@ def walked(surface: str, law: str, left: float, step: float, elements: int) -> P
                  scene.duration / walk.wall_time, str(walk.status))  # fmt: skip
 
 
-def predicted(
-    surface: str, law: str, left: float, states: int = STATES, elements: int = 6
-) -> Point:
-    """By the quasi-static reference."""
-    from analytic.scene.limbs import quadruped
-
-    gait = undulation("wave", left=left)
-    path = quasi_static(quadruped(), gait, GROUNDS[surface], states, elements, law=law)
+def predicted(surface: str, law: str, left: float, states: int, elements: int) -> Point:
+    """One walk by the quasi-static reference."""
+    path = quasi_static(quadruped(), undulation("wave", left=left), GROUNDS[surface], states,
+                        elements, law=law)  # fmt: skip
     ahead, aside = path.displacement / LENGTH
     return Point(surface, law, left, 0.0, elements, ahead, aside, float(np.degrees(path.turn)), 0.0,
                  "ok" if path.converged else "unconverged")  # fmt: skip
@@ -95,133 +94,119 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv)
     check_folder(options.out)
-    turns = [(name, "constant", left) for name in SURFACES for left in PARTS]
-    cases = [(name, law, LEFT) for name in SURFACES for law in LAWS]
     drake = read_drake(DRAKE)
-    alike = [(UNIFORM.name, "coulomb", left) for left in dict.fromkeys(p.left for p in drake)]
+    turns = list(itertools.product(SURFACES, LAWS[:1], PARTS))
+    cases = list(itertools.product(SURFACES, LAWS, [LEFT]))
+    uniform = list(itertools.product([UNIFORM.name], LAWS[1:], drake["left"].unique().tolist()))
+    grids: tuple[Any, ...] = (
+        (predicted, turns, [(STATES, 6)]),
+        (simulated, turns, [(0.02, 6)]),
+        (predicted, cases + uniform, [(2 * STATES, 8)]),
+        (simulated, cases, itertools.product(STEPS, ELEMENTS)),
+        (simulated, uniform, itertools.product(STEPS, [6])),
+    )
     with pool() as workers:
-        theory = [workers.submit(predicted, *case) for case in turns]
-        fine = [workers.submit(predicted, *case, 2 * STATES, 8) for case in (*cases, *alike)]
-        mujoco = [workers.submit(walked, *case, 0.02, 6) for case in turns]
-        grid = [workers.submit(walked, *case, step, elements)
-                for case in cases for step in STEPS for elements in ELEMENTS]  # fmt: skip
-        same = [workers.submit(walked, *case, step, 6) for case in alike for step in STEPS]
-        found = [[job.result() for job in jobs] for jobs in (theory, mujoco, fine, grid, same)]
-    draw_turns(options.out / "quadruped_turns.png", *found[:2])
-    draw_cost(options.out / "quadruped_accuracy.png", *found[2:4])
-    draw_peers(options.out / "quadruped_drake.png", found[2], found[4], drake)
-    for points in found:
-        for point in points:
-            print(*(f"{value:.4g}" if isinstance(value, float) else value for value in point))
+        jobs = [workers.submit(walk, *scene, *numerics) for walk, scenes, grid in grids
+                for scene, numerics in itertools.product(scenes, grid)]  # fmt: skip
+        points = pd.DataFrame([job.result() for job in jobs])
+    for figure, name in ((draw_turns(points), "turns"), (draw_cost(points), "accuracy"),
+                         (draw_peers(points, drake), "drake")):  # fmt: skip
+        save(figure, options.out / f"quadruped_{name}.png", dpi=120)
+    print(points.to_csv(sep=" ", header=False, index=False, float_format="%.4g"), end="")
     return 0
 
 
-def read_drake(path: Path) -> list[Point]:
-    """Drake's walks on the uniform ground.
+def read_drake(path: Path) -> pd.DataFrame:
+    """Drake's walks on the uniform ground, with the columns of a Point.
 
     Raises:
         OSError: there is no such file.
     """
-    with path.open(newline="") as file:
-        return [
-            Point(UNIFORM.name, "coulomb", float(row["left"]), float(row["timestep_s"]),
-                  int(row["elements"]), float(row["ahead_L"]), float(row["aside_L"]),
-                  float(row["turn_deg"]), float(row["times_real_time"]), "ok")
-            for row in csv.DictReader(file)
-        ]  # fmt: skip
+    names = {"timestep_s": "step", "ahead_L": "ahead", "aside_L": "aside", "turn_deg": "turn",
+             "times_real_time": "speed"}  # fmt: skip
+    return pd.read_csv(path).rename(columns=names).assign(surface=UNIFORM.name, law="coulomb")
 
 
-def draw_turns(path: Path, theory: list[Point], mujoco: list[Point]) -> None:
+def _panels(label: str) -> tuple[Figure, dict[str, Any]]:
+    """A figure with a panel for the turn and one for the displacement, over what the label says."""
+    figure = Figure(figsize=(9, 3.6), layout="constrained")
+    panels = dict(zip(_LABELS, figure.subplots(1, 2), strict=True))
+    for column, axes in panels.items():
+        axes.set(xlabel=label, ylabel=_LABELS[column])
+    return figure, panels
+
+
+def _models(points: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Points of the quasi-static reference, and those of MuJoCo."""
+    return points[points["step"] == 0], points[points["step"] > 0]
+
+
+def draw_turns(points: pd.DataFrame) -> Figure:
     """Turn and displacement over the pressure of the left legs."""
-    import matplotlib.pyplot as plt
-
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
-    for axis, key, label in zip(axes, ("turn", "ahead"), ("turn to the left [° a cycle]",
-                                                          "displacement [L a cycle]"),
-                                strict=True):  # fmt: skip
+    figure, panels = _panels("pressure of the left legs over that of the right ones")
+    theory, mujoco = _models(points[points["left"].isin(PARTS)])
+    for column, axes in panels.items():
         for name, colour in COLOURS.items():
-            lines = ((theory, "-", "quasi-static"), (mujoco, "o", "MuJoCo"))
-            for points, style, model in lines:
-                own = [point for point in points if point.surface == name]
-                axis.plot([point.left for point in own], [getattr(point, key) for point in own],
-                          style, color=colour, label=f"{name}, {model}")  # fmt: skip
-        axis.axhline(0, color="0.8", lw=0.8, zorder=0)
-        axis.set_xlabel("pressure of the left legs over that of the right ones")
-        axis.set_ylabel(label)
-    axes[0].legend(fontsize=8, frameon=False)
-    with whole(path) as part:
-        figure.savefig(part, dpi=120)
-    plt.close(figure)
+            for table, style, model in ((theory, "-", "quasi-static"), (mujoco, "o", "MuJoCo")):
+                part = table[table["surface"] == name]
+                axes.plot(part["left"], part[column], style, color=colour,
+                          label=f"{name}, {model}")  # fmt: skip
+        axes.axhline(0, color="0.8", lw=0.8, zorder=0)
+    panels["turn"].legend(fontsize=8, frameon=False)
+    return figure
 
 
-def draw_cost(path: Path, reference: list[Point], grid: list[Point]) -> None:
+def draw_cost(points: pd.DataFrame) -> Figure:
     """Error against cost, and the grid of steps and links with what failed."""
-    import matplotlib.pyplot as plt
-
-    exact = {(point.surface, point.law): point for point in reference}
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
+    figure = Figure(figsize=(9, 3.6), layout="constrained")
+    left, right = figure.subplots(1, 2)
     markers = dict(zip(ELEMENTS, "osD^", strict=True))
-    worst = np.zeros((len(ELEMENTS), len(STEPS)))
-    for point in grid:
-        own = exact[point.surface, point.law]
-        off = float(np.hypot(point.ahead - own.ahead, point.aside - own.aside))
-        cell = ELEMENTS.index(point.elements), STEPS.index(point.step)
-        if point.status != "ok":
-            worst[cell] = np.inf
-            continue
-        worst[cell] = max(worst[cell], off)
-        left.loglog(point.speed, off, markers[point.elements], color=COLOURS[point.surface],
+    chosen = (points["left"] == LEFT) & (points["surface"] != UNIFORM.name)
+    exact, table = _models(points[chosen].set_index(["surface", "law"]))
+    apart = (table[["ahead", "aside"]] - exact[["ahead", "aside"]].loc[table.index]).to_numpy()
+    table = table.reset_index().assign(error=np.hypot(*apart.T))
+    finished = table["status"] == "ok"
+    for row in table[finished].itertuples():
+        left.loglog(row.speed, row.error, markers[row.elements], color=COLOURS[row.surface],
                     ms=5, alpha=0.8)  # fmt: skip
-    left.set_xlabel("times real time, one core")
-    left.set_xticks([], minor=True)
-    left.set_xticks(_SPEEDS, [str(speed) for speed in _SPEEDS])
-    left.set_ylabel("error of the displacement [L]")
     for elements, marker in markers.items():
         left.plot([], [], marker, color="0.4", label=f"{elements} hinges a limb")
     for name, colour in COLOURS.items():
         left.plot([], [], "o", color=colour, label=name)
+    left.set(xlabel="times real time, one core", ylabel="error of the displacement [L]")
+    left.set_xticks([], minor=True)
+    left.set_xticks(_SPEEDS, [str(speed) for speed in _SPEEDS])
     left.legend(fontsize=8, frameon=False)
-    shown = np.where(np.isfinite(worst), worst, np.nan)
+    table["error"] = table["error"].where(finished, np.inf)
+    worst = table.pivot_table(index="elements", columns="step", values="error", aggfunc="max")
+    shown = worst.where(np.isfinite(worst)).to_numpy()
     right.imshow(np.log10(shown), cmap="viridis_r", aspect="auto", vmin=-3.5, vmax=-1.5)
-    for i, j in np.ndindex(worst.shape):
-        text = f"{worst[i, j]:.4f}" if np.isfinite(worst[i, j]) else "falls"
-        ink = "black" if np.isnan(shown[i, j]) or shown[i, j] < _PALE else "white"
-        right.text(j, i, text, ha="center", va="center", fontsize=8, color=ink)
+    for (i, j), error in np.ndenumerate(shown):
+        right.text(j, i, "falls" if np.isnan(error) else f"{error:.4f}", ha="center", va="center",
+                   fontsize=8, color="white" if error >= _PALE else "black")  # fmt: skip
     right.set_xticks(range(len(STEPS)), [f"{1e3 * step:g}" for step in STEPS])
     right.set_yticks(range(len(ELEMENTS)), [str(n) for n in ELEMENTS])
-    right.set_xlabel(f"time step [ms], {RAMP:g} s a ramp")
-    right.set_ylabel("hinges a limb")
+    right.set(xlabel=f"time step [ms], {RAMP:g} s a ramp", ylabel="hinges a limb")
     right.set_title("worst error of three grounds and both friction laws [L]", fontsize=9)
-    with whole(path) as part:
-        figure.savefig(part, dpi=120)
-    plt.close(figure)
+    return figure
 
 
-def draw_peers(path: Path, reference: list[Point], mujoco: list[Point], drake: list[Point]) -> None:
-    """What MuJoCo and Drake say of one ground, over how fast they say it."""
-    import matplotlib.pyplot as plt
-
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
-    for axis, key, label in zip(axes, ("turn", "ahead"), ("turn to the left [° a cycle]",
-                                                          "displacement [L a cycle]"),
-                                strict=True):  # fmt: skip
-        for exact in (point for point in reference if point.surface == UNIFORM.name):
-            solid = {"fillstyle": "full" if exact.left == 1 else "none"}
-            words = f"left legs at {exact.left:.0%}"
-            axis.axhline(getattr(exact, key), color="0.6", lw=0.9, zorder=0)
-            for points, marker, colour, model in ((mujoco, "o", "#2a6b4f", "MuJoCo"),
-                                                  (drake, "s", "#c8791a", "Drake")):  # fmt: skip
-                own = [point for point in points if point.left == exact.left]
-                axis.semilogx([point.speed for point in own],
-                              [getattr(point, key) for point in own], marker + "-", ms=5, lw=0.7,
-                              color=colour, label=f"{model}, {words}", **solid)  # fmt: skip
-        axis.set_xlabel("times real time, one core")
-        axis.set_ylabel(label)
-    axes[0].set_title("lines: quasi-static reference", fontsize=9)
-    axes[0].legend(fontsize=8, frameon=False)
-    with whole(path) as part:
-        figure.savefig(part, dpi=120)
-    plt.close(figure)
+def draw_peers(points: pd.DataFrame, drake: pd.DataFrame) -> Figure:
+    """Turn and displacement on the uniform ground by MuJoCo and Drake, over their speed."""
+    figure, panels = _panels("times real time, one core")
+    reference, mujoco = _models(points[points["surface"] == UNIFORM.name])
+    models = (("MuJoCo", mujoco, "o-", COLOURS["felt"]), ("Drake", drake, "s-", COLOURS["gelatin"]))
+    for column, axes in panels.items():
+        for exact in reference.itertuples():
+            axes.axhline(getattr(exact, column), color="0.6", lw=0.9, zorder=0)
+            for model, table, style, colour in models:
+                part = table[table["left"] == exact.left]
+                axes.semilogx(part["speed"], part[column], style, ms=5, lw=0.7, color=colour,
+                              label=f"{model}, left legs at {exact.left:.0%}",
+                              fillstyle="full" if exact.left == 1 else "none")  # fmt: skip
+    panels["turn"].set_title("lines: quasi-static reference", fontsize=9)
+    panels["turn"].legend(fontsize=8, frameon=False)
+    return figure
 
 
 if __name__ == "__main__":

@@ -1,1 +1,1 @@
-"""How accurate and how fast each method is: measured rows, their figures, and what they decide."""
+"""Accuracy and cost of each method: measured rows, their figures and tables."""

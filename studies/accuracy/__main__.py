@@ -1,28 +1,19 @@
 """Measure speed against accuracy and draw it: `python -m studies.accuracy`."""
 
-import logging
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import partial
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
-from mjsim.files.cli import bar, choose, fail, parse
+from mjsim.files.cli import choose, fail, parse
 from mjsim.files.files import check_folder
-from mjsim.results.provenance import machine, signature
-from studies.accuracy import (
-    benchmark_cases,
-    cantilever_bodies,
-    figure,
-    grid,
-    heavy_cantilever,
-    walking,
-)
-from studies.accuracy.rows import MEASURED, Row, append, read
-from studies.accuracy.setting import Setting
+from studies.accuracy import figure
+from studies.accuracy.cases import CASES, grid, measured
+from studies.accuracy.rows import MEASURED, read
+from studies.drawing import save
+from studies.table import complete
 
 PROGRAM = "python -m studies.accuracy"
-CASES = (heavy_cantilever.CASE, *benchmark_cases.GROUNDS)
 
 
 @dataclass(frozen=True)
@@ -55,42 +46,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv)
     try:
-        cases = choose("case", options.case, CASES)
+        chosen = choose("case", options.case, CASES)
         check_folder(options.out)
         path = options.rows or options.out / MEASURED.name
         if options.fresh:
             path.unlink(missing_ok=True)
-        known = read(path)
+        read(path)
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
-    logging.getLogger("absl").setLevel(logging.ERROR)  # divergence is a row, not a warning
-    seen = {row.key for row in known}
-    todo = [job for job in _jobs(cases, options.quick) if job[0] not in seen]
-    with bar("measuring", len(todo)) as advance:
-        for row in append(
-            (replace(run(), machine=machine(), **signature()) for _, run in todo), path
-        ):
-            known.append(row)
-            advance(1)
-    for case in cases:
-        figure.save(figure.draw(known, case), options.out / f"{case}.png")
-        print(figure.table(known, case))
+    # one process: more would disturb the times
+    rows = complete(path, measured, grid(chosen, options.quick), processes=1)
+    for case in chosen:
+        save(figure.draw(rows, case), options.out / f"{case}.png")
+        print(figure.table(rows, case))
         print(options.out / f"{case}.png")
     return 0
-
-
-Job = tuple[tuple[str, str, Setting], Callable[[], Row]]
-
-
-def _jobs(cases: Sequence[str], quick: bool) -> Iterator[Job]:
-    for case in cases:
-        if case == heavy_cantilever.CASE:
-            for setting in cantilever_bodies.settings(quick):
-                yield (case, heavy_cantilever.TIP, setting), partial(cantilever_bodies.run, setting)
-        else:
-            for setting in grid.settings(case, quick):
-                for ground in benchmark_cases.GROUNDS[case]:
-                    yield (case, ground, setting), partial(walking.run, case, ground, setting)
 
 
 if __name__ == "__main__":

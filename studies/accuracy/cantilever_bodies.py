@@ -5,23 +5,21 @@ from collections.abc import Iterator
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from analytic.scene import pneunet
 from analytic.solvers.elastica.cantilever import solve_cantilever
 from mjsim.model.parts import set_options
 from mjsim.model.rod import rest_stiffness
 from mjsim.scene import INTEGRATORS, Scene, registry, resolved
+from studies import Array
 from studies.accuracy.heavy_cantilever import DAMPING, DURATION, settled, strip
 from studies.accuracy.rows import Row
-from studies.accuracy.setting import Setting
+from studies.accuracy.setting import Setting, grid
 from studies.accuracy.timing import Timing, repeated
 
-Array = NDArray[np.float64]
-
-_STEADY = 1e-3  # speed of the tip, over L a second, above which it has not come to rest; chosen
+_STEADY = 1e-3  # L/s; a tip that is faster has not come to rest; chosen
 STOCK = "stock cable"
-_PARTS = 20  # of a run, after each of which it is looked at
+_PARTS = 20  # of a run, after each of which divergence ends it; chosen
 
 
 def settings(quick: bool = False) -> Iterator[Setting]:
@@ -29,19 +27,14 @@ def settings(quick: bool = False) -> Iterator[Setting]:
     links = (6, 12, 24) if quick else (6, 12, 24, 48, 96)
     fine = (0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005)
     steps = (0.02, 0.005) if quick else fine
-    for n in (*links, 240):
-        yield Setting("elastica", n)
-    for integrator in INTEGRATORS:
-        for n in links:
-            for timestep in steps:
-                yield Setting("planar", n, timestep, integrator)
-    stock = (STOCK,) if mujoco.mj_version() < 4_000_000 else ()  # it went with MuJoCo 4
-    for method in ("cable", "rod", *stock):
-        for integrator in ("discrete", "implicitfast", "Euler"):
-            for n in links[:3]:
-                for timestep in steps:
-                    if method != "rod" or integrator == "discrete":
-                        yield Setting(method, n, timestep, integrator)
+    yield from grid("elastica", (*links, 240), (0.0,), "")
+    few = ("discrete", "implicitfast", "Euler")
+    integrators = {"planar": INTEGRATORS, "cable": few, "rod": few[:1]}
+    if mujoco.mj_version() < 4_000_000:  # it went with MuJoCo 4
+        integrators[STOCK] = few
+    for method, names in integrators.items():
+        for name in names:
+            yield from grid(method, links if method == "planar" else links[:3], steps, name)
 
 
 def run(setting: Setting) -> Row:
@@ -58,43 +51,40 @@ def _static(setting: Setting) -> tuple[tuple[float, float], Timing, str]:
 
 def _dynamic(setting: Setting) -> tuple[tuple[float, float], Timing, str]:
     model = _stock(setting) if setting.method == STOCK else _clamped(setting)
-    count = round(DURATION / setting.timestep)
+    ends = np.linspace(0, round(DURATION / setting.timestep), _PARTS + 1).astype(int)
 
-    def go() -> mujoco.MjData:
+    def settle() -> mujoco.MjData:
         data = mujoco.MjData(model)
-        for part in np.diff(np.linspace(0, count, _PARTS + 1).astype(int)):
-            mujoco.mj_step(model, data, nstep=int(part))
+        for steps in np.diff(ends).tolist():
+            mujoco.mj_step(model, data, nstep=steps)
             if _diverged(data):
                 break
         return data
 
-    data, timing = repeated(go, DURATION)
-    length = strip().length
-    place = _tip(model, data)
-    before = np.array(place)
+    data, timing = repeated(settle, DURATION)
+    tip = _tip(model, data)
     mujoco.mj_step(model, data, nstep=10)
-    speed = np.linalg.norm(np.array(_tip(model, data)) - before) / (10 * setting.timestep)
-    x, y = place[0] / length, place[2] / length
-    if _diverged(data) or not abs(x) + abs(y) < 2:
+    speed = np.linalg.norm(_tip(model, data) - tip) / (10 * setting.timestep)
+    if _diverged(data) or not np.abs(tip).sum() < 2:
         return (math.nan, math.nan), timing, "diverged"
-    return (x, y), timing, "ok" if speed < _STEADY * length else "drifting"
+    return tuple(tip.tolist()), timing, "ok" if speed < _STEADY else "drifting"
 
 
 def _diverged(data: mujoco.MjData) -> bool:
-    """Whether MuJoCo met numbers it could not go on from: it starts anew, and warns."""
+    """True if MuJoCo met numbers that it could not go on from: it starts anew, and warns."""
     kind = mujoco.mjtWarning
     bad = (kind.mjWARN_BADQPOS, kind.mjWARN_BADQVEL, kind.mjWARN_BADQACC)
     return any(data.warning[which].number for which in bad)
 
 
-def _tip(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[float, float, float]:
+def _tip(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
+    """Place (x, z) of the tip over L, (2,)."""
     mujoco.mj_kinematics(model, data)
-    x, y, z = data.site_xpos[model.site("end_right").id]
-    return float(x), float(y), float(z)
+    return np.asarray(data.site("end_right").xpos[[0, 2]] / strip().length)
 
 
 def _clamped(setting: Setting) -> mujoco.MjModel:
-    """A body of mjsim with its first link, or its first edge, held; friction taken away."""
+    """A body of mjsim with its first link, or its first edge, clamped; friction taken away."""
     scene = Scene(robot=strip(), body=setting.method)
     numerics = resolved(scene, setting.numerics(damping_time=DAMPING))
     spec = registry.find(setting.method).spec(scene, numerics)
@@ -102,11 +92,9 @@ def _clamped(setting: Setting) -> mujoco.MjModel:
     spec.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_REFSAFE)
     for tendon in list(spec.tendons):
         spec.delete(tendon)
-    clamped = ("rod_0", "rod_1") if setting.method == "rod" else ("link_0",)
-    for body in spec.bodies:
-        if body.name in clamped:
-            for joint in list(body.joints):
-                spec.delete(joint)
+    for name in ("rod_0", "rod_1") if setting.method == "rod" else ("link_0",):
+        for joint in list(spec.body(name).joints):
+            spec.delete(joint)
     model = spec.compile()
     if setting.method == "rod":
         rest_stiffness(model, scene, setting.links)

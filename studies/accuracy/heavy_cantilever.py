@@ -1,10 +1,10 @@
 """A heavy strip, clamped level at its left end, sags to rest; needs no MuJoCo.
 
-The load is w L^3 / D = 32.96, for which tables of heavy cantilevers give the tip; here it is the
-boundary value problem of the elastica that gives it. One clamp for all: the direction of the strip
-at the wall is that of the first link, which is centred on the wall or has half an element's length
-or less; a whole link welded to the wall would be of first order. One damping for all: by strain
-rate, with the time constant DAMPING.
+The load is w L^3 / D = 32.96, for which tables of heavy cantilevers give the tip; here the boundary
+value problem of the elastica gives it. One clamp for all: the direction of the strip at the wall is
+that of the first link, which is centred on the wall or has half an element's length or less; a
+whole link welded to the wall would be of first order. One damping for all: by strain rate, with the
+time constant DAMPING.
 """
 
 import math
@@ -37,7 +37,6 @@ def exact() -> tuple[float, float]:
     The elastica of a heavy strip, theta downwards: the weight w (L - s) of the rest bends it.
     """
     s = np.linspace(0, 1, 401)
-    solution = None
     state = np.zeros((2, len(s)))
     for load in np.linspace(0, LOAD, 12)[1:]:
         solution = solve_bvp(
@@ -47,11 +46,10 @@ def exact() -> tuple[float, float]:
         )  # fmt: skip
         state = solution.sol(s)
     fine = np.linspace(0, 1, 20_001)
-    theta = solution.sol(fine)[0]  # type: ignore[union-attr]  # downwards, so y is minus its sine
+    theta = solution.sol(fine)[0]  # downwards, so y is minus its sine
     return float(simpson(np.cos(theta), x=fine)), -float(simpson(np.sin(theta), x=fine))
 
 
 def settled(setting: Setting, tip: tuple[float, float], timing: Timing, status: str) -> Row:
     """The row of a tip (x, y) over L."""
-    error = math.dist(tip, exact())
-    return row(CASE, TIP, setting, error, 0.0, error, timing, status)
+    return row(CASE, TIP, setting, math.dist(tip, exact()), 0.0, timing, status)

@@ -1,32 +1,32 @@
-"""MuJoCo's integrators, each with its best contact settings.
+"""MuJoCo's integrators, each with its best contacts: `python -m studies.accuracy.integrators`.
 
-`python -m studies.accuracy.integrators` searches them and prints the table. So that none is
-judged by settings that suit another, the contacts of each are searched at each time step: how soft
-they are, how soft under a steep end, and how flat an end must be to lie on its side.
+So that none is judged by settings that suit another, the contacts of each are searched at each time
+step: how soft they are, how soft under a steep end, and how flat an end must be to lie on its side.
 """
 
 import itertools
 import math
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import cast
+from typing import Any, cast
+
+import numpy as np
+import pandas as pd  # type: ignore[import-untyped]
 
 from analytic import SURFACES
-from mjsim.files.cli import bar, fail, parse
+from mjsim.files.cli import fail, parse
 from mjsim.files.files import check_folder
 from mjsim.results.measures import measure
-from mjsim.results.provenance import signature
 from mjsim.scene import INTEGRATORS, Numerics, Scene
 from mjsim.scene.numerics import Integrator
 from mjsim.simulation.simulation import simulate
-from studies import workers
-from studies.accuracy.rows import HERE, append, read
+from studies.table import DOCS, complete, read
 
 PROGRAM = "python -m studies.accuracy.integrators"
-TABLE = HERE / "docs" / "integrators.csv"
+TABLE = DOCS / "integrators.csv"
 TIMESTEPS = (0.02, 0.01, 0.005, 0.002, 0.001, 0.0005, 0.0002)
 GOAL = 0.05  # relative error on displacement, on the worse of the two grounds
 GROUNDS = ("felt", "gelatin")
@@ -37,81 +37,51 @@ _SIDE_ANGLES = (1e-3, 3e-3)  # rad
 _HOPELESS = 0.5  # error on the first ground that spares the second
 
 
-@dataclass(frozen=True)
-class Best:
-    """The best settings found of an integrator at a time step [s].
+def best_contacts(integrator: str, timestep: float) -> dict[str, Any]:
+    """Best contact settings of an integrator at a time step [s].
 
-    Attributes:
-        integrator, timestep: of MuJoCo.
+    Returns:
         contact_time, steep_contact_time, side_angle: see Numerics; NaN if none walks.
         error: relative on displacement, the worse of felt and gelatin; inf if none walks.
         usual: the same by the settings that Numerics picks.
-        tried: how many settings were.
-        failed: of them that did not come to the end of the cycle on felt.
-        versions, commit: of what it was found with.
+        tried: number of settings.
+        failed: number of them that did not come to the end of the cycle on felt.
     """
-
-    integrator: str
-    timestep: float
-    contact_time: float = math.nan
-    steep_contact_time: float = math.nan
-    side_angle: float = math.nan
-    error: float = math.inf
-    usual: float = math.inf
-    tried: int = 0
-    failed: int = 0
-    versions: str = ""
-    commit: str = ""
-
-    @property
-    def key(self) -> tuple[str, float]:
-        """What tells it from others."""
-        return self.integrator, self.timestep
-
-    def done(self) -> "Best":
-        """The same, searched."""
-        best = replace(self, usual=error(self._numerics())[0])
-        tried = failed = 0
-        for contact, steep, angle in self._settings():
-            numerics = replace(self._numerics(), contact_time=contact,
-                               steep_contact_time=contact * steep, side_angle=angle)  # fmt: skip
-            found, walked = error(numerics)
-            tried, failed = tried + 1, failed + (not walked)
-            if found < best.error:
-                best = replace(best, contact_time=contact, steep_contact_time=contact * steep,
-                               side_angle=angle, error=found)  # fmt: skip
-        return replace(best, tried=tried, failed=failed)
-
-    def _numerics(self) -> Numerics:
-        return Numerics(LINKS, self.timestep, cast(Integrator, self.integrator))
-
-    def _settings(self) -> Iterator[tuple[float, float, float]]:
-        for contact, steep, angle in itertools.product(_CONTACT_TIMES, _STEEP, _SIDE_ANGLES):
-            if contact >= 2 or self.integrator == "discrete":
-                yield contact, steep, angle
+    usual = Numerics(LINKS, timestep, cast(Integrator, integrator))
+    contacts: list[dict[str, Any]] = [
+        {"contact_time": time, "steep_contact_time": time * steep, "side_angle": angle}
+        for time, steep, angle in itertools.product(_CONTACT_TIMES, _STEEP, _SIDE_ANGLES)
+        if time >= 2 or integrator == "discrete"
+    ]
+    errors, walked = zip(*(error(replace(usual, **contact)) for contact in contacts), strict=True)
+    best = contacts[int(np.argmin(errors))]
+    if math.isinf(min(errors)):
+        best = dict.fromkeys(best, math.nan)
+    return {**best, "error": min(errors), "usual": error(usual)[0], "tried": len(contacts),
+            "failed": walked.count(False)}  # fmt: skip
 
 
 def error(numerics: Numerics) -> tuple[float, bool]:
-    """Worst relative error of the displacement over the grounds, and whether the first walk ended.
+    """Worst relative error of the displacement over the grounds; True if the first walk ended.
 
     Against the same scene with 48 links at 1 ms, so that inertia is in both.
     """
     worst = 0.0
     for name in GROUNDS:
-        numbers = measure(simulate(Scene(ground=SURFACES[name]), numerics))
-        if numbers is None:
+        displacement = _displacement(name, numerics)
+        if math.isnan(displacement):
             return math.inf, name != GROUNDS[0]
-        worst = max(worst, abs(numbers.displacement / _exact(name) - 1))
+        worst = max(worst, abs(displacement / _displacement(name, Numerics(48, 0.001)) - 1))
         if worst > _HOPELESS:
             break
     return worst, True
 
 
 @cache
-def _exact(name: str) -> float:
-    numbers = measure(simulate(Scene(ground=SURFACES[name]), Numerics(48, 0.001)))
-    assert numbers is not None
-    return numbers.displacement
+def _displacement(ground: str, numerics: Numerics) -> float:
+    """Displacement per cycle over L; NaN where the walk failed."""
+    numbers = measure(simulate(Scene(ground=SURFACES[ground]), numerics))
+    return numbers.displacement if numbers else math.nan
 
 
 @dataclass(frozen=True)
@@ -128,26 +98,19 @@ class Options:
     """the table, CSV"""
 
 
-def table(rows: Sequence[Best]) -> str:
+def table(rows: pd.DataFrame) -> str:
     """Errors by integrator and step, as Markdown, and from which step each is within the goal."""
-    steps = sorted({row.timestep for row in rows}, reverse=True)
-    heads = [f"{1e3 * dt:g} ms" for dt in steps]
+    errors = rows.pivot(index="integrator", columns="timestep", values="error").iloc[:, ::-1]
+    heads = [f"{1e3 * dt:g} ms" for dt in errors]
     lines = [f"| integrator | {' | '.join(heads)} | within {GOAL:.0%} |",
-             "|---" * (len(steps) + 2) + "|"]  # fmt: skip
-    for name in dict.fromkeys(row.integrator for row in rows):
-        mine = {row.timestep: row for row in rows if row.integrator == name}
-        fine = [dt for dt in steps if all(mine[d].error <= GOAL for d in steps if d <= dt)]
-        cells = [_cell(mine[dt].error) for dt in steps]
-        lines.append(f"| {name} | {' | '.join(cells)} | {_from(fine)} |")
+             "|---" * (len(heads) + 2) + "|"]  # fmt: skip
+    for name in rows["integrator"].unique():
+        row = errors.loc[name]
+        cells = ["fails" if math.isinf(value) else f"{100 * value:.2g} %" for value in row]
+        within = row.index[(row <= GOAL)[::-1].cummin()[::-1]]
+        start = f"from {1e3 * within[0]:g} ms on" if len(within) else "at none"
+        lines.append(f"| {name} | {' | '.join(cells)} | {start} |")
     return "\n".join(lines)
-
-
-def _cell(value: float) -> str:
-    return "fails" if math.isinf(value) else f"{100 * value:.2g} %"
-
-
-def _from(steps: Sequence[float]) -> str:
-    return f"from {1e3 * max(steps):g} ms on" if steps else "at none"
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -155,18 +118,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     options = parse(Options, PROGRAM, argv)
     try:
         check_folder(options.rows.parent)
-        known = read(options.rows, Best)
+        read(options.rows, best_contacts)
     except (ValueError, OSError) as problem:
         fail(PROGRAM, str(problem))
-    seen = {row.key for row in known}
-    todo = [Best(name, dt) for name in INTEGRATORS for dt in TIMESTEPS]
-    todo = [row for row in todo if row.key not in seen]
-    with workers.pool() as pool, bar("searching", len(todo)) as advance:
-        found = (replace(row, **signature()) for row in pool.map(Best.done, todo))
-        for row in append(found, options.rows):
-            known.append(row)
-            advance(1)
-    print(table(known))
+    grid = itertools.product(INTEGRATORS, TIMESTEPS)
+    print(table(complete(options.rows, best_contacts, grid)))
     return 0
 
 

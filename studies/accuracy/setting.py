@@ -1,6 +1,8 @@
 """A method at one setting: the points of the charts."""
 
-from dataclasses import dataclass
+import itertools
+from collections.abc import Iterable
+from dataclasses import dataclass, fields
 from typing import Any, cast
 
 from mjsim.scene import Numerics
@@ -16,7 +18,7 @@ class Setting:
         links: elements; 0 where there are none to choose.
         timestep: [s]; 0 for a quasi-static method.
         integrator: of MuJoCo or of the peer; "" where there is none.
-        cone, impratio: of MuJoCo's contacts with friction; "" and 0 elsewhere.
+        cone, impratio: of MuJoCo's contacts with friction; "" and 0 where there are none.
     """
 
     method: str
@@ -32,3 +34,20 @@ class Setting:
             more = {"cone": self.cone, "impratio": self.impratio, **more}
         numerics = Numerics(self.links, self.timestep, cast(Integrator, self.integrator), **more)
         return numerics.resolved(self.method, "coulomb" if self.cone else "constant")
+
+
+def setting_of(row: Any) -> Setting:
+    """The setting of a row of the accuracy study."""
+    return Setting(**{field.name: getattr(row, field.name) for field in fields(Setting)})
+
+
+def grid(
+    method: str,
+    links: Iterable[int],
+    timesteps: Iterable[float],
+    integrator: str = "discrete",
+    *contact: Any,
+) -> list[Setting]:
+    """Settings of a method over links and time steps [s]; contact: the cone and impratio."""
+    return [Setting(method, n, timestep, integrator, *contact)
+            for n, timestep in itertools.product(links, timesteps)]  # fmt: skip

@@ -1,4 +1,4 @@
-"""Seconds of one core that a piece of case takes, measured so that noise can be told from cost."""
+"""Seconds of one core that a computation takes, measured so that noise can be told from cost."""
 
 import statistics
 import time as clock
@@ -27,7 +27,7 @@ class Timing(NamedTuple):
 
 
 def stopwatch() -> Callable[[], Spent]:
-    """Starts now; call what it returns for the time since."""
+    """A function that tells the time since now."""
     wall, cpu = clock.perf_counter(), clock.process_time()
     return lambda: Spent(clock.perf_counter() - wall, clock.process_time() - cpu)
 
@@ -35,19 +35,18 @@ def stopwatch() -> Callable[[], Spent]:
 def repeated(
     case: Callable[[], Result], simulated: float, taken: Callable[[Result], Spent] | None = None
 ) -> tuple[Result, Timing]:
-    """Do case up to REPEATS times, and time it; the last result counts.
+    """Last result of a case that is computed up to REPEATS times, and the timing.
 
     Args:
-        case: it.
+        case: the computation.
         simulated: seconds that it simulates.
         taken: reads off a result how long it took, where that is not all of it.
     """
     times: list[Spent] = []
-    while True:
-        spent = stopwatch()
+    while len(times) < REPEATS and sum(spent.wall for spent in times) <= _ENOUGH:
+        elapsed = stopwatch()
         result = case()
-        times.append(taken(result) if taken else spent())
-        if len(times) >= REPEATS or sum(time.wall for time in times) > _ENOUGH:
-            walls, cpus = zip(*times, strict=True)
-            least, middle, wall = min(cpus), statistics.median(cpus), min(walls)
-            return result, Timing(least / simulated, middle / simulated, wall / simulated)
+        times.append(taken(result) if taken else elapsed())
+    walls, cpus = zip(*times, strict=True)
+    seconds = min(cpus), statistics.median(cpus), min(walls)
+    return result, Timing(*(value / simulated for value in seconds))

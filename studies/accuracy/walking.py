@@ -1,16 +1,55 @@
 """The cases of walking, measured: one cycle of the gait on a ground."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
-from analytic import SOLVERS, Elastica, predict
+from analytic import REFERENCE, SOLVERS, Elastica, predict
 from mjsim.results.measures import measure
-from mjsim.scene import Scene
+from mjsim.scene import CONES, INTEGRATORS, Numerics, Scene
 from mjsim.simulation.simulation import simulate
-from studies.accuracy.benchmark_cases import friction_of, scene_of, walked
+from studies.accuracy.benchmark_cases import COULOMB, WALK, friction_of, scene_of, walked
 from studies.accuracy.rows import Row
-from studies.accuracy.setting import Setting
+from studies.accuracy.setting import Setting, grid
 from studies.accuracy.timing import Spent, Timing, repeated
+
+_ELLIPTIC, _PYRAMIDAL = CONES
+_USUAL = "discrete", _ELLIPTIC, Numerics.impratio
+_BODIES: dict[str, list[Any]] = {  # see grid
+    WALK: [
+        ("planar", (6, 12, 18, 24, 48), (0.05, 0.02, 0.01, 0.005, 0.002, 0.001)),
+        ("planar", (96,), (0.05, 0.02, 0.01, 0.005)),
+        ("cable", (6, 12, 18, 24), (0.02, 0.01, 0.005)),
+        ("cable", (48,), (0.02, 0.01)),
+        ("rod", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005, 0.002)),
+        *(("planar", (12,), (0.005, 0.002, 0.001, 0.0005), name) for name in INTEGRATORS[1:]),
+    ],
+    COULOMB: [
+        ("planar", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005, 0.002, 0.001), *_USUAL),
+        *(("planar", (12, 24), (0.02, 0.01, 0.005, 0.002), "discrete", _ELLIPTIC, impratio)
+          for impratio in (1.0, 10.0, 1000.0)),
+        *(("planar", (12,), (0.01, 0.005, 0.002, 0.001), "discrete", _PYRAMIDAL, impratio)
+          for impratio in (1.0, Numerics.impratio)),
+        *((body, (6, 12, 24), (0.01, 0.005, 0.002), *_USUAL) for body in ("cable", "rod")),
+        *(("planar", (12,), (0.002, 0.001, 0.0005), name, *_USUAL[1:])
+          for name in INTEGRATORS[1:]),
+    ],
+}  # fmt: skip
+_QUICK: dict[str, list[Any]] = {
+    WALK: [("planar", (6, 12), (0.02, 0.01)), ("cable", (6,), (0.02,)), ("rod", (6,), (0.01,)),
+           ("planar", (6,), (0.01,), "Euler")],
+    COULOMB: [("planar", (6, 12), (0.02, 0.01), *_USUAL)],
+}  # fmt: skip
+
+
+def settings(case: str, quick: bool = False) -> Iterator[Setting]:
+    """Every setting that is measured on a case, cheap ones first within a method."""
+    for solver in SOLVERS if case == WALK else (REFERENCE,):
+        for links in (12, 24, 60) if solver == REFERENCE else (0,):
+            yield Setting(solver, links)
+    for block in (_QUICK if quick else _BODIES)[case]:
+        yield from grid(*block)
 
 
 def run(case: str, ground: str, setting: Setting) -> Row:
@@ -21,11 +60,8 @@ def run(case: str, ground: str, setting: Setting) -> Row:
 
 def _body(case: str, ground: str, setting: Setting) -> tuple[float, Timing, str]:
     scene, numerics = scene_of(case, ground, setting.method), setting.numerics()
-    walk, timing = repeated(
-        lambda: simulate(scene, numerics),
-        scene.duration,
-        lambda walk: Spent(walk.wall_time, walk.cpu_time),
-    )
+    walk, timing = repeated(lambda: simulate(scene, numerics), scene.duration,
+                            lambda walk: Spent(walk.wall_time, walk.cpu_time))  # fmt: skip
     numbers = measure(walk)
     return numbers.displacement if numbers else math.nan, timing, str(walk.status)
 
@@ -38,8 +74,7 @@ def _solver(case: str, ground: str, setting: Setting) -> tuple[float, Timing, st
     else:  # no friction bends them
         friction = replace(friction, tension=0.0)
     walk, timing = repeated(
-        lambda: predict(scene.strip, scene.gait, scene.ground, solver,
-                        friction=friction),
+        lambda: predict(scene.strip, scene.gait, scene.ground, solver, friction=friction),
         Scene().gait.period,  # however slow, a cycle of states costs the same
-    )  # fmt: skip
+    )
     return walk.locomotion.per_cycle / scene.strip.length, timing, "ok"

@@ -1,7 +1,7 @@
-"""The same controller in theory: quasi-static cycles, one after the other, over any ground.
+"""The controller in theory: quasi-static cycles, one after the other, over any ground.
 
 Where friction bends nothing, the shapes of a cycle are the same wherever it is walked: they are
-found once, and the anchor rule is applied to each cycle where it begins.
+solved once, and the anchor rule is applied to each cycle where it begins.
 """
 
 from collections.abc import Callable, Sequence
@@ -17,9 +17,8 @@ from analytic.scene.gait import Gait
 from analytic.scene.ground import Patches
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Surface
+from studies import Array
 from studies.control.reversing import REPERTOIRE, Chooser, check_gaits
-
-Array = NDArray[np.float64]
 
 _LINKS, _STATES = 48, 50  # of the elastica, and states in a ramp; chosen
 _WEAK = Friction()
@@ -42,7 +41,7 @@ class Cycles:
     """A robot that walks gaits on patches, each cycle from rest.
 
     Args:
-        robot: what walks.
+        robot: of the walk.
         ground: patches beside each other; may be changed later.
         gaits: tried in turn.
 
@@ -54,65 +53,61 @@ class Cycles:
         check_gaits(gaits)
         self.robot, self.ground = robot, ground
         solver = Elastica(_LINKS)
-        found = {
-            gait: solver.solve(robot, robot.peak_pressure * gait.path(_STATES)[0], ground, _WEAK,
-                               None)
-            for gait in dict.fromkeys(gaits)
-        }  # fmt: skip
-        self._shapes = [found[gait] for gait in gaits]
+        paths = {gait: robot.peak_pressure * gait.path(_STATES)[0] for gait in gaits}
+        shapes = {gait: solver.solve(robot, path, ground, _WEAK, None)
+                  for gait, path in paths.items()}  # fmt: skip
+        self._shapes = [shapes[gait] for gait in gaits]
 
     def displacement(self, left: float, choice: int) -> float:
-        """Of a cycle that begins with the left end there [m]."""
-        shapes = self._shapes[choice]
-        near = np.array(self.ground.borders) - left
+        """Displacement of a cycle of a gait that begins with the left end there [m]."""
+        borders = np.array(self.ground.borders) - left
         reach = 2 * self.robot.length
-        inside = np.flatnonzero((near > -reach) & (near < reach))
-        first = int(np.searchsorted(near, -reach))
-        surfaces = self.ground.surfaces[first : first + len(inside) + 1]
-        here: Patches | Surface = surfaces[0]
-        if len(inside):
-            here = replace(self.ground, borders=tuple(near[inside].tolist()), surfaces=surfaces)
-        return displacements(shapes, here, 1, _WEAK).per_cycle
+        first, end = np.searchsorted(borders, [-reach, reach])
+        ground: Patches | Surface = self.ground.surfaces[first]
+        if end > first:
+            ground = replace(self.ground, borders=tuple(borders[first:end].tolist()),
+                             surfaces=self.ground.surfaces[first : end + 1])  # fmt: skip
+        return displacements(self._shapes[choice], ground, 1, _WEAK).per_cycle
 
-    def walk(self, cycles: int, decide: Callable[[float], int], left: float = 0.0) -> Track:
-        """Some cycles, whose gait is decided after each from its displacement over L.
+    def walk(self, cycles: int, choose: Callable[[float, float], int], left: float = 0.0) -> Track:
+        """Cycles, the gait of each of which is chosen before it.
 
         Args:
-            cycles: how many.
-            decide: the place of the next gait; the first one is 0.
+            cycles: number of them.
+            choose: the place of the next gait, from that of the left end [m] and the displacement
+                of the cycle before over L; NaN before the first.
             left: where the left end begins [m].
         """
-        places, chosen = [left], [0]
+        places, chosen = [left], []
+        displacement = np.nan
         for _ in range(cycles):
-            went = self.displacement(places[-1], chosen[-1])
-            places.append(places[-1] + went)
-            chosen.append(decide(went / self.robot.length))
-        return Track(np.array(places), np.array(chosen[:-1]))
+            chosen.append(choose(places[-1], displacement / self.robot.length))
+            displacement = self.displacement(places[-1], chosen[-1])
+            places.append(places[-1] + displacement)
+        return Track(np.array(places), np.array(chosen))
 
     def without(self, cycles: int, left: float = 0.0) -> Track:
-        """The first gait, whatever happens."""
-        return self.walk(cycles, lambda _: 0, left)
+        """Walk the first gait always."""
+        return self.walk(cycles, lambda *_: 0, left)
 
     def reversing(self, cycles: int, noise: float = 0.0, seed: int = 0, left: float = 0.0) -> Track:
-        """With the controller, and noise of its sensor over L a cycle."""
-        rng, chooser = np.random.default_rng(seed), Chooser(len(self._shapes), noise)
+        """Walk with the controller, and noise of its sensor over L per cycle."""
+        chooser = Chooser(len(self._shapes), noise, seed=seed)
         return self.walk(
-            cycles, lambda d: chooser.after_cycle(d + noise * float(rng.standard_normal())), left
+            cycles, lambda _, moved: 0 if np.isnan(moved) else chooser.sense(moved), left
         )
 
     def knowing(self, cycles: int, left: float = 0.0) -> Track:
-        """With one that knows the map: each cycle the gait that goes farthest."""
-        places, chosen = [left], []
-        for _ in range(cycles):
-            ways = [self.displacement(places[-1], i) for i in range(len(self._shapes))]
-            chosen.append(int(np.argmax(ways)))
-            places.append(places[-1] + max(ways))
-        return Track(np.array(places), np.array(chosen))
+        """Walk with the map known: each cycle the gait that goes farthest."""
+        gaits = range(len(self._shapes))
+        return self.walk(
+            cycles, lambda place, _: max(gaits, key=lambda i: self.displacement(place, i)), left
+        )
 
 
 def stripes(one: Surface, two: Surface, width: float, reach: float) -> Patches:
     """Two surfaces in turn, in stripes of a width [m], from 0 up to a reach [m]."""
     count = max(1, int(np.ceil(reach / width)))
-    surfaces = tuple((one, two)[i % 2] for i in range(count + 1))
+    surfaces = ((one, two) * count)[: count + 1]
     borders = tuple(width * (i + 1) for i in range(count))
     return Patches(f"{one.name}-{two.name}-stripes", borders, surfaces)

@@ -1,6 +1,6 @@
-"""A baseline to beat: rhythms of a few numbers, found by the cross-entropy method.
+"""A baseline to beat: rhythms of a few numbers, trained by the cross-entropy method.
 
-Each chamber follows a sine, cut to pressures that a chamber can have: one period, a phase a
+Each chamber follows a sine, cut to pressures that a chamber can have: one period, one phase per
 chamber, one gain and one bias. The cross-entropy method (Rubinstein 1999) draws such rhythms from
 a normal distribution, keeps the best, and fits the distribution to them.
 """
@@ -8,9 +8,8 @@ a normal distribution, keeps the best, and fits the distribution to them.
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from studies import Array
 
 _ELITE = 0.2  # part of a generation that is kept
 _SMOOTH = 0.2  # part of the old spread that is kept
@@ -18,11 +17,11 @@ _PERIODS = (2.0, 10.0)  # s, the shortest and the longest
 
 
 class Trained(NamedTuple):
-    """What was learnt.
+    """Result of a training.
 
     Attributes:
-        rhythm: its numbers, see `press`, (S + 2,).
-        reward: mean of the best of each generation, (G,) [L an episode].
+        rhythm: the best one's numbers, see `press`, (S + 2,).
+        reward: mean of the best of each generation, (G,) [L per episode].
     """
 
     rhythm: Array
@@ -66,23 +65,23 @@ def train(envs: Any, generations: int, seed: int) -> Trained:
 
     Args:
         envs: a WalkVectorEnv, a robot for each draw of a generation.
-        generations: how many.
-        seed: of all that is drawn.
+        generations: number of them.
+        seed: of the random numbers.
     """
     rng, segments = np.random.default_rng(seed), envs.settings.segments
     mean = np.zeros(segments + 2)
     mean[0] = 0.5
     spread = np.concatenate([[0.3], np.full(segments - 1, 0.5), [0.5, 0.5]])
     keep = max(2, round(_ELITE * envs.num_envs))
-    best, most, course = mean, -np.inf, []
+    best, greatest, means = mean, -np.inf, []
     for generation in range(generations):
         rhythms = mean + spread * rng.standard_normal((envs.num_envs, len(mean)))
-        found = rewards(envs, rhythms, seed + generation)
-        order = np.argsort(found)[::-1]
-        if found[order[0]] > most:
-            best, most = rhythms[order[0]], found[order[0]]
+        sums = rewards(envs, rhythms, seed + generation)
+        order = np.argsort(sums)[::-1]
+        if sums[order[0]] > greatest:
+            best, greatest = rhythms[order[0]], sums[order[0]]
         elite = rhythms[order[:keep]]
         mean = elite.mean(axis=0)
         spread = _SMOOTH * spread + (1 - _SMOOTH) * elite.std(axis=0)
-        course.append(float(found[order[:keep]].mean()))
-    return Trained(best, np.array(course))
+        means.append(float(sums[order[:keep]].mean()))
+    return Trained(best, np.array(means))

@@ -1,6 +1,7 @@
 """Make the figures: `python -m studies.paper`."""
 
 import json
+import re
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,11 +13,14 @@ import xarray as xr
 from mjsim.files.cli import bar, choose, fail, parse
 from mjsim.files.files import whole
 from mjsim.results.provenance import origin
+from studies.drawing import FONT, save
 from studies.paper import amplitude, contact, peak, regime, sequence
-from studies.paper.style import FONT
+from studies.table import DOCS
 
 PROGRAM = "python -m studies.paper"
-FIGURES = {module.NAME: module for module in (sequence, amplitude, peak, contact, regime)}
+FIGURES = {"figure4": sequence, "figure5": amplitude, "peak": peak, "figure6": contact,
+           "regime": regime}  # fmt: skip
+PAGE = DOCS / "figures.md"  # the captions are written there
 
 
 @dataclass(frozen=True)
@@ -45,25 +49,24 @@ def make(name: str, folder: Path, redraw: bool = False) -> Path:
     Raises:
         OSError: there is no data to draw again, or the folder cannot be written.
     """
-    module = FIGURES[name]
     source, picture = folder / f"{name}.nc", folder / f"{name}.png"
     if not redraw:
-        data_set = module.make().assign_attrs(provenance=json.dumps(origin()))
+        data_set = FIGURES[name].make().assign_attrs(provenance=json.dumps(origin()))
         with whole(source) as part:
             data_set.to_netcdf(part, engine="h5netcdf")
     with (
         xr.open_dataset(source, engine="h5netcdf", decode_times=False) as data,
         matplotlib.rc_context(FONT),
-        whole(picture) as part,
     ):
-        module.draw(data).savefig(part, dpi=110)
+        save(FIGURES[name].draw(data), picture, dpi=110)
     return picture
 
 
 def page(names: Sequence[str]) -> str:
-    """The figures with their captions, as Markdown."""
-    parts = [f"![{name}]({name}.png)\n\n{FIGURES[name].CAPTION}" for name in names]
-    return "\n".join(["# The paper's figures, on every solver\n", *parts])
+    """The figures with their captions, as Markdown: PAGE without the others."""
+    title, *sections = re.split(r"^(?=!\[)", PAGE.read_text(encoding="utf-8"), flags=re.MULTILINE)
+    captions = dict(zip(FIGURES, sections, strict=True))
+    return "\n\n".join(part.strip() for part in (title, *(captions[n] for n in names))) + "\n"
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -76,8 +79,9 @@ def main(argv: Sequence[str] | None = None) -> int:
             for name in names:
                 print(make(name, options.out, options.redraw))
                 advance(1)
-        with whole(options.out / "figures.md") as part:
-            part.write_text(page(names))
+        if options.out.resolve() != PAGE.parent:
+            with whole(options.out / PAGE.name) as part:
+                part.write_text(page(names), encoding="utf-8")
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
     return 0

@@ -5,17 +5,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from analytic import Mode, Robot, solve_elastica, solve_modes
-from studies.paper.style import SIMULATED, draw_ground, draw_strip
-
-NAME = "figure6"
-CAPTION = """\
-Figure 6. The six contact modes as the paper's boundary conditions give them (thick, the
-lift-off marked) and the elastica at the same pressures (red dashes), heights magnified where noted.
-Agrees with the paper: all six occur, mirror images of each other in pairs. Differs: in
-modes (iii) and (iv) the whole lifted part is one inflated segment, and then
-y = -kappa s^2/2 (1 - s/l)^2: balanced, but below the ground. With exact contact the tip of such a
-segment carries, and the strip rises behind it.
-"""
+from studies.drawing import SIMULATED, draw_ground, draw_strip
 
 _POINTS = 181
 _MAGNIFIED = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)

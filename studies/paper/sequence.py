@@ -7,19 +7,7 @@ from matplotlib.figure import Figure
 from analytic import GAITS, SURFACES, Gait, Robot, displacements, solve_elastica
 from mjsim.scene import Scene
 from mjsim.simulation.simulation import simulate
-from studies.paper.style import SIMULATED, draw_ground, draw_strip
-
-NAME = "figure4"
-CAPTION = """\
-Figure 4. One cycle on felt, polyethylene and wet gelatin: elastica (thick; passive segments grey,
-inflated ones black) and MuJoCo (red dashes), at the stages of the gait. The tick marks where the
-left end began; numbers are its displacement over L by elastica and by MuJoCo.
-Agrees with the paper: forward on felt, where the flat end stays, still on polyethylene, and
-backward on gelatin, where the tip stays; the same shapes on all three. Differs: nothing that can be
-seen, but that two numbers of this robot, its weight and its curvature, are identified from the
-paper's own statements, and its gait is assumed. (The paper's caption calls the inflated segments
-grey and the passive ones black.)
-"""
+from studies.drawing import SIMULATED, draw_ground, draw_strip
 
 _POINTS = 91
 _PER_RAMP = 200

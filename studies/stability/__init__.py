@@ -1,1 +1,1 @@
-"""Where methods fail: maps of outcomes and predicted limits."""
+"""Stability of the methods: maps of outcomes and predicted limits."""

@@ -1,23 +1,36 @@
 """Map where methods fail: `python -m studies.stability`."""
 
 import sys
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from mjsim.files.cli import bar, choose, fail, parse
-from mjsim.results.provenance import signature
+from matplotlib.figure import Figure
+
+from mjsim.files.cli import choose, fail, parse
 from mjsim.scene import registry
-from studies import workers
-from studies.accuracy.figure import save
-from studies.accuracy.rows import append, read
+from studies.drawing import save
 from studies.stability import figure, maps, parameters
+from studies.table import complete, read
 
 PROGRAM = "python -m studies.stability"
-KINDS: dict[str, type[Any]] = {
-    **dict.fromkeys(registry.names(), maps.Tried), "robots": maps.Standing,
-    "parameters": parameters.Varied,
+
+
+class Map(NamedTuple):
+    """Function that measures, grid of its arguments (a few if quick), and figure of the rows."""
+
+    measure: Callable[..., Any]
+    grid: Callable[[bool], Iterator[Any]]
+    draw: Callable[[Any], Figure]
+
+
+MAPS = {
+    **{body: Map(maps.walked, partial(maps.walks, body), figure.draw_integrators)
+       for body in registry.names()},
+    "robots": Map(maps.robot_outcome, maps.robots, figure.draw_robots),
+    "parameters": Map(parameters.varied, parameters.variations, figure.draw_parameters),
 }  # fmt: skip
 
 
@@ -49,43 +62,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv)
     try:
-        names = choose("map", options.map, KINDS)
-        known = {name: _known(options, name) for name in names}
+        paths = {name: options.out / f"stability_{name}.csv"
+                 for name in choose("map", options.map, MAPS)}  # fmt: skip
         options.out.mkdir(parents=True, exist_ok=True)
+        for path in paths.values() if options.fresh else ():
+            path.unlink(missing_ok=True)
+        for name, path in paths.items():
+            read(path, MAPS[name].measure)
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
-    for name in names:
-        rows = known[name]
-        seen = {row.key for row in rows}
-        todo = [row for row in _grid(options, name) if row.key not in seen]
-        with workers.pool() as pool, bar(name, len(todo)) as advance:
-            outcomes = pool.map(KINDS[name].done, todo, chunksize=2)
-            signed = (replace(row, **signature()) for row in outcomes)
-            for row in append(signed, _table(options, name)):
-                rows.append(row)
-                advance(1)
-        picture = options.out / f"stability_{name}.png"
-        save(figure.draw(name, rows), picture)
-        print(picture)
+    for name, path in paths.items():
+        measure, grid, draw = MAPS[name]
+        rows = complete(path, measure, grid(options.quick))
+        save(draw(rows), path.with_suffix(".png"))
+        print(path.with_suffix(".png"))
     return 0
-
-
-def _table(options: Options, name: str) -> Path:
-    return options.out / f"stability_{name}.csv"
-
-
-def _known(options: Options, name: str) -> list[Any]:
-    if options.fresh:
-        _table(options, name).unlink(missing_ok=True)
-    return read(_table(options, name), KINDS[name])
-
-
-def _grid(options: Options, name: str) -> list[Any]:
-    if name == "robots":
-        return list(maps.robots(options.quick))
-    if name == "parameters":
-        return list(parameters.variations(options.quick))
-    return list(dict.fromkeys(maps.integrators(name, options.quick)))
 
 
 if __name__ == "__main__":

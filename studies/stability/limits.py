@@ -1,24 +1,18 @@
-"""The time step beyond which a body's highest mode grows: as predicted, and as it does."""
+"""The time step beyond which a body's highest mode is predicted to grow."""
 
 import math
-from dataclasses import replace
 from functools import cache
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eigh, null_space
 
-from analytic import SURFACES
 from mjsim.model.builder import compile_model
 from mjsim.model.rod import rest_stiffness
 from mjsim.scene import Numerics, Scene, resolved
-from studies.accuracy.setting import Setting
-
-Array = NDArray[np.float64]
+from studies import Array
 
 _TURN = 1e-6  # of a coordinate, to see what force it makes [m or rad]
-_GROWN, _STEPS = 30.0, 400  # a body is stable that never moves so many times faster, in so long
 
 
 @cache
@@ -29,7 +23,7 @@ def highest_frequency(scene: Scene, numerics: Numerics, standing: bool = False) 
         scene, numerics: of the body.
         standing: on its two ends, which stay at their height; else free.
     """
-    model = _at_rest(scene, numerics)
+    model = at_rest(scene, numerics)
     data = mujoco.MjData(model)
     stiffness = np.column_stack([_force(model, data, i) for i in range(model.nv)])
     mujoco.mj_resetData(model, data)
@@ -37,8 +31,8 @@ def highest_frequency(scene: Scene, numerics: Numerics, standing: bool = False) 
     mass = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, mass)
     if standing:
-        may = null_space([_rise(model, data, end) for end in ("left", "right")])
-        stiffness, mass = may.T @ stiffness @ may, may.T @ mass @ may
+        free = null_space([_rise(model, data, end) for end in ("left", "right")])
+        stiffness, mass = free.T @ stiffness @ free, free.T @ mass @ free
     squares = eigh(0.5 * (stiffness + stiffness.T), mass, eigvals_only=True)
     return math.sqrt(float(squares[-1]))
 
@@ -65,46 +59,17 @@ def predicted_limit(
     return sign * damping_time + math.sqrt(damping_time**2 + 4 / omega**2)
 
 
-def measured_limit(integrator: str, links: int, damping_time: float, body: str = "planar") -> float:
-    """Largest time step at which a strip free of ground and weight stays finite [s], to 5 %."""
-    # Coulomb's: no dry friction on the ends
-    scene = Scene(friction="coulomb", ground=SURFACES["gelatin"], body=body)
-
-    def stable(timestep: float) -> bool:
-        numerics = Setting(body, links, timestep, integrator).numerics()
-        model = _at_rest(scene, replace(numerics, damping_time=damping_time))
-        model.opt.gravity[:] = 0
-        off = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_AUTORESET
-        model.opt.disableflags |= int(off)
-        data = mujoco.MjData(model)
-        data.qvel[:] = _TURN * np.random.default_rng(1).standard_normal(model.nv)
-        start = float(np.linalg.norm(data.qvel))
-        for _ in range(_STEPS):
-            mujoco.mj_step(model, data)
-            if not np.linalg.norm(data.qvel) < _GROWN * start:
-                return False
-        return True
-
-    low, high = 1e-7, 0.1
-    if stable(high):
-        return math.inf
-    while high / low > 1.05:
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if stable(middle) else (low, middle)
-    return low
-
-
-def _at_rest(scene: Scene, given: Numerics) -> mujoco.MjModel:
+def at_rest(scene: Scene, numerics: Numerics) -> mujoco.MjModel:
     """The model with the stiffness of a strip without pressure."""
-    numerics = resolved(scene, given)
-    model = compile_model(scene, numerics)
+    chosen = resolved(scene, numerics)
+    model = compile_model(scene, chosen)
     if scene.body == "rod":
-        rest_stiffness(model, scene, numerics.links)
+        rest_stiffness(model, scene, chosen.links)
     return model
 
 
 def _rise(model: mujoco.MjModel, data: mujoco.MjData, end: str) -> Array:
-    """How fast an end rises with each velocity of the flat strip, (nv,)."""
+    """Speed at which an end rises per velocity of the flat strip, (nv,)."""
     moves = np.zeros((3, model.nv))
     mujoco.mj_jacSite(model, data, moves, None, model.site(f"robot_end_{end}").id)
     return np.asarray(moves[2])

@@ -1,138 +1,156 @@
-"""Grids of outcomes: where each integrator, and each solver, still walks and where it fails."""
+"""Grids of outcomes: where each integrator, and each solver, still walks and where it fails.
 
+Outcomes: accurate, within NEAR of the reference's displacement; drifting, finite but farther off;
+wrong, the opposite way by more than a standstill; toppled, an end left the ground; diverged;
+finished, where there is no reference to be near to.
+"""
+
+import itertools
+import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from analytic import GAITS, SURFACES, ContactShapes, Prediction, Robot, Status, predict
+from analytic import GAITS, SURFACES, ContactShapes, Prediction, Robot, direction, predict
+from analytic import Status as Shape
 from analytic.scene import pneunet
+from mjsim.results.measures import measure
+from mjsim.results.status import Status
 from mjsim.scene import INTEGRATORS, Numerics, Scene
-from studies.stability.outcome import GROUND, outcome, tried
+from mjsim.simulation.simulation import simulate
+from studies.accuracy.benchmark_cases import WALK, exact
+from studies.accuracy.setting import Setting
 
+OUTCOMES = ("accurate", "drifting", "wrong direction", "toppled", "diverged", "finished")
+NEAR = 0.05  # relative error of an accurate displacement; chosen
+GROUND = "gelatin"
 LINKS = tuple(range(6, 73, 6))
-TIMESTEPS = tuple(float(f"{dt:.4g}") for dt in np.geomspace(0.1, 1e-3, 12))
-STIFFNESSES = tuple(float(f"{f:.4g}") for f in np.geomspace(0.01, 100, 12))
-GAMMAS = tuple(float(f"{g:.4g}") for g in np.geomspace(2, 60, 12))
-PRESSURES = tuple(float(f"{p:.4g}") for p in np.linspace(12e3, 78e3, 12))
 USUAL_LINKS = 12  # of the maps that do not vary them; chosen
 LONG = 20  # cycles that a walk must last, if its first is accurate
 CYCLES = {"planar": LONG, "cable": 1, "rod": 5}  # those are too slow for more everywhere
 
 
-@dataclass(frozen=True)
-class Tried:
-    """One walk of the default gait: its time step [s], stiffness over the default's, outcome."""
-
-    body: str
-    integrator: str
-    links: int
-    timestep: float
-    stiffness: float
-    cycles: int
-    outcome: str = ""
-    versions: str = ""
-    commit: str = ""
-
-    @property
-    def key(self) -> tuple[str, str, int, float, float, int]:
-        """What tells this walk from others."""
-        return (self.body, self.integrator, self.links, self.timestep, self.stiffness,
-                self.cycles)  # fmt: skip
-
-    def done(self) -> "Tried":
-        """The same with its outcome."""
-        return replace(self, outcome=tried(*self.key))
+def rounded(values: np.typing.ArrayLike) -> list[float]:
+    """Values of a grid with four digits."""
+    return [float(f"{value:.4g}") for value in np.asarray(values)]
 
 
-@dataclass(frozen=True)
-class Standing:
-    """One robot on every solver, the pressure in Pa.
+TIMESTEPS, STIFFNESSES = rounded(np.geomspace(0.1, 1e-3, 12)), rounded(np.geomspace(0.01, 100, 12))
+GAMMAS, PRESSURES = rounded(np.geomspace(2, 60, 12)), rounded(np.linspace(12e3, 78e3, 12))
 
-    Attributes:
+
+def outcome(scene: Scene, numerics: Numerics, reference: float) -> str:
+    """Walk a scene; returns one of OUTCOMES.
+
+    Args:
+        scene, numerics: the walk.
+        reference: the displacement per cycle over L that it should have, NaN if there is none.
+    """
+    walk = simulate(scene, numerics)
+    numbers = measure(walk)
+    if walk.status is Status.UNSETTLED:
+        return "drifting"
+    if numbers is None:
+        return "diverged" if walk.status is Status.DIVERGED else "toppled"
+    if math.isnan(reference):
+        return "finished"
+    if abs(numbers.displacement / reference - 1) <= NEAR:
+        return "accurate"
+    directions = {direction(numbers.displacement, 1.0), direction(reference, 1.0)}
+    return "wrong direction" if directions == {"forward", "backward"} else "drifting"
+
+
+def walked(
+    body: str, integrator: str, links: int, timestep: float, stiffness: float = 1.0, cycles: int = 1
+) -> dict[str, str]:
+    """Outcome of the default gait on gelatin, of a strip so many times as stiff.
+
+    A walk whose first cycle is not accurate does not go on.
+    """
+    numerics = Setting(body, links, timestep, integrator).numerics()
+    scene, reference = replace(stiffened(stiffness), body=body), exact(WALK, GROUND)
+    name = outcome(scene, numerics, reference)
+    if name == "accurate" and cycles > 1:
+        name = outcome(replace(scene, cycles=cycles), numerics, reference)
+    return {"outcome": name}
+
+
+def stiffened(stiffness: float) -> Scene:
+    """The benchmark scene on GROUND with a strip so many times as stiff, of the same mass.
+
+    Stiffness scales the modulus, the pressure and the weight, but not the mass: the shapes stay,
+    and with them the reference, while the strip's frequencies rise with its square root.
+    """
+    base = Robot()
+    scaled = {name: stiffness * getattr(base, name)
+              for name in ("modulus", "peak_pressure", "weight_per_length")}  # fmt: skip
+    return Scene(replace(base, **scaled), ground=SURFACES[GROUND],
+                 gravity=stiffness * Scene.gravity)  # fmt: skip
+
+
+def robot_outcome(gamma: float, pressure: float) -> dict[str, Any]:
+    """Outcomes of one robot on every solver.
+
+    Args:
+        gamma: load w L^3 / D0.
+        pressure: the peak [Pa].
+
+    Returns:
         elastica: "ok", or the flag of the first state that has no shape.
         planar: MuJoCo's outcome.
-        sunk: how far the paper's modes lie below the ground at worst, over L.
-        penetrating: part of the states in which they do.
-        newton: linear systems a state that the elastica solves, where it has shapes.
+        sunk: greatest depth of the paper's modes below the ground, over L.
+        penetrating: part of the states that lie below it.
+        newton: linear systems per state that the elastica solves, where it has shapes.
         exchanges: the same of the obstacle's active set.
         unconverged: part of the states in which that gives up.
-        versions, commit: of what it was found with.
     """
-
-    gamma: float
-    pressure: float
-    elastica: str = ""
-    planar: str = ""
-    sunk: float = 0.0
-    penetrating: float = 0.0
-    newton: float = 0.0
-    exchanges: float = 0.0
-    unconverged: float = 0.0
-    versions: str = ""
-    commit: str = ""
-
-    @property
-    def key(self) -> tuple[float, float]:
-        """What tells this robot from others."""
-        return self.gamma, self.pressure
-
-    def done(self) -> "Standing":
-        """The same with what became of it."""
-        robot = pneunet.with_load(replace(Robot(), peak_pressure=self.pressure), self.gamma)
-        gait, surface = GAITS["wave"], SURFACES[GROUND]
-        exact, obstacle, modes = (
-            predict(robot, gait, surface, solver) for solver in ("elastica", "obstacle", "modes")
-        )
-        _, height = modes.shapes.curve(np.linspace(0, robot.length, 121))
-        reference = exact.locomotion.per_cycle / robot.length
-        return replace(
-            self,
-            elastica=_first_flag(exact),
-            planar=outcome(Scene(robot, gait, surface), Numerics(), reference),
-            sunk=-float(np.nanmin(height)) / robot.length,
-            penetrating=_part(modes, Status.PENETRATES),
-            newton=_work(exact),
-            exchanges=_work(obstacle),
-            unconverged=_part(obstacle, Status.NOT_CONVERGED),
-        )
+    robot = pneunet.with_load(replace(Robot(), peak_pressure=pressure), gamma)
+    gait, surface = GAITS["wave"], SURFACES[GROUND]
+    exact, obstacle, modes = (
+        predict(robot, gait, surface, solver) for solver in ("elastica", "obstacle", "modes")
+    )
+    _, height = modes.shapes.curve(np.linspace(0, robot.length, 121))
+    failed = exact.shapes.status[exact.shapes.status != 0]
+    reference = exact.locomotion.per_cycle / robot.length
+    return {
+        "elastica": str(Shape(int(failed[0])).name).lower() if len(failed) else "ok",
+        "planar": outcome(Scene(robot, gait, surface), Numerics(), reference),
+        "sunk": -float(np.nanmin(height)) / robot.length,
+        "penetrating": _part(modes, Shape.PENETRATES),
+        "newton": _iterations(exact),
+        "exchanges": _iterations(obstacle),
+        "unconverged": _part(obstacle, Shape.NOT_CONVERGED),
+    }
 
 
-def _first_flag(walk: Prediction) -> str:
-    status = walk.shapes.status
-    failed = np.flatnonzero(status)
-    return Status(int(status[failed[0]])).name.lower() if len(failed) else "ok"
-
-
-def _part(walk: Prediction, flag: Status) -> float:
+def _part(walk: Prediction, flag: Shape) -> float:
     """Part of the states that carry a flag."""
     return float(np.mean(walk.shapes.status & int(flag) > 0))
 
 
-def _work(walk: Prediction) -> float:
+def _iterations(walk: Prediction) -> float:
     """Mean number of linear systems of the states that have a shape."""
     shapes = walk.shapes
     assert isinstance(shapes, ContactShapes)
     return float(shapes.iterations[shapes.status == 0].mean())
 
 
-def integrators(body: str, quick: bool = False) -> Iterator[Tried]:
+def walks(body: str, quick: bool = False) -> Iterator[tuple[Any, ...]]:
     """Time step over links, and over stiffness, for each integrator; and some walks for LONG."""
-    skip = 5 if quick else 1
+    skip, links = (5, LINKS[:6:2]) if quick else (1, LINKS)
     cycles = 1 if quick else CYCLES[body]
-    for integrator in INTEGRATORS:
-        for timestep in TIMESTEPS[::skip]:
-            for n in LINKS[:6:2] if quick else LINKS:
-                yield Tried(body, integrator, n, timestep, 1.0, cycles)
-            for stiffness in STIFFNESSES[::skip]:
-                yield Tried(body, integrator, USUAL_LINKS, timestep, stiffness, cycles)
-            if not quick:
-                yield Tried(body, integrator, USUAL_LINKS, timestep, 1.0, LONG)
+    for integrator, timestep in itertools.product(INTEGRATORS, TIMESTEPS[::skip]):
+        for n in links:
+            yield body, integrator, n, timestep, 1.0, cycles
+        for stiffness in STIFFNESSES[::skip]:
+            yield body, integrator, USUAL_LINKS, timestep, stiffness, cycles
+        if not quick:
+            yield body, integrator, USUAL_LINKS, timestep, 1.0, LONG
 
 
-def robots(quick: bool = False) -> Iterator[Standing]:
+def robots(quick: bool = False) -> Iterator[tuple[float, float]]:
     """Pressure over Gamma = w L^3 / D0."""
     skip = 4 if quick else 1
-    for gamma in GAMMAS[::skip]:
-        for pressure in PRESSURES[::skip]:
-            yield Standing(gamma, pressure)
+    yield from itertools.product(GAMMAS[::skip], PRESSURES[::skip])

@@ -1,8 +1,9 @@
-"""One parameter at a time, over its range: where does it begin to change the distance?"""
+"""One parameter at a time, over its range, to see where it begins to change the distance."""
 
+import itertools
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from mjsim.results.record import reference as quasi_static
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.simulation import simulate
 from studies.accuracy import benchmark_cases
+from studies.stability.maps import rounded
 
 PARAMETERS = {  # name: least value, greatest, what it is called
     "ramp_time": (0.5, 32.0, "time of a ramp [s]"),
@@ -28,57 +30,51 @@ _PLACES = 13
 _CASE = {"constant": benchmark_cases.WALK, "coulomb": benchmark_cases.COULOMB}
 
 
-@dataclass(frozen=True)
-class Varied:
-    """The default walk with one parameter at a value.
+def varied(parameter: str, value: float, ground: str) -> dict[str, Any]:
+    """Walk the default gait with one parameter at a value.
 
-    Attributes:
+    Returns:
         error: relative on displacement per cycle, signed; NaN where it failed.
         status: of the walk.
-        versions, commit: of what it was found with.
     """
-
-    parameter: str
-    value: float
-    ground: str
-    error: float = math.nan
-    status: str = ""
-    versions: str = ""
-    commit: str = ""
-
-    @property
-    def key(self) -> tuple[str, float, str]:
-        """What tells this walk from others."""
-        return self.parameter, self.value, self.ground
-
-    def done(self) -> "Varied":
-        """The same with what became of it."""
-        law = law_of(self.parameter)
-        scene, numerics = scene_of(law, self.ground), Numerics().resolved("planar", law)
-        varied: dict[str, Any] = {self.parameter: self.value}
-        if self.parameter == "ramp_time":
-            scene = replace(scene, gait=replace(scene.gait, ramp_time=self.value))
-        elif self.parameter == "friction_number":
-            scene = replace(scene, ground=as_strong(scene, self.value))
-            numerics = replace(numerics, tie_bound=self.value)
-        else:
-            numerics = replace(numerics, **varied)
-        walk = simulate(scene, numerics)
-        numbers = measure(walk)
-        if self.parameter == "friction_number":  # friction so strong bends the strip
-            reference = float(quasi_static(walk).displacement[0])
-        else:
-            reference = benchmark_cases.exact(_CASE[law], self.ground)
-        error = numbers.displacement / reference - 1 if numbers else math.nan
-        return replace(self, error=error, status=str(walk.status))
+    law = law_of(parameter)
+    scene, numerics = scene_of(law, ground), Numerics().resolved("planar", law)
+    if parameter == "ramp_time":
+        scene = replace(scene, gait=replace(scene.gait, ramp_time=value))
+    elif parameter == "friction_number":
+        scene = replace(scene, ground=with_friction_number(scene, value))
+        numerics = replace(numerics, tie_bound=value)
+    else:
+        change: dict[str, Any] = {parameter: value}
+        numerics = replace(numerics, **change)
+    walk = simulate(scene, numerics)
+    numbers = measure(walk)
+    if parameter == "friction_number":  # friction so strong bends the strip
+        reference = float(quasi_static(walk).displacement[0])
+    else:
+        reference = benchmark_cases.exact(_CASE[law], ground)
+    error = numbers.displacement / reference - 1 if numbers else math.nan
+    return {"error": error, "status": str(walk.status)}
 
 
-def variations(quick: bool = False) -> Iterator[Varied]:
+def variations(quick: bool = False) -> Iterator[tuple[str, float, str]]:
     """Every parameter on every ground; Coulomb's law leaves felt undecided."""
     for parameter, (low, high, _) in PARAMETERS.items():
-        for value in np.geomspace(low, high, 3 if quick else _PLACES):
-            for ground in benchmark_cases.GROUNDS[_CASE[law_of(parameter)]]:
-                yield Varied(parameter, float(f"{value:.4g}"), ground)
+        values = rounded(np.geomspace(low, high, 3 if quick else _PLACES))
+        grounds = benchmark_cases.GROUNDS[_CASE[law_of(parameter)]]
+        for value, ground in itertools.product(values, grounds):
+            yield parameter, value, ground
+
+
+def default(parameter: str) -> float:
+    """Value of a parameter in the default walk."""
+    law = law_of(parameter)
+    scene, numerics = scene_of(law, "felt"), Numerics().resolved("planar", law)
+    if parameter == "friction_number":
+        return _friction_number(scene)
+    if parameter == "ramp_time":
+        return float(scene.gait.ramp_times[0])
+    return float(getattr(numerics, parameter))
 
 
 def law_of(parameter: str) -> str:
@@ -89,16 +85,18 @@ def law_of(parameter: str) -> str:
 def scene_of(law: str, ground: str) -> Scene:
     """The benchmark scene under a law: with slow ramps under Coulomb friction.
 
-    What an anchor creeps there is then not inertia.
+    Creep of an anchor is then not inertia.
     """
     scene = benchmark_cases.scene_of(_CASE[law], ground)
     return scene if law == "coulomb" else replace(scene, gait=Scene.gait)
 
 
-def as_strong(scene: Scene, number: float) -> Surface:
-    """The scene's surface with bounds of a friction number Phi = V L^2 / D0."""
-    surface = scene.ground.at(0.0)
-    rigidity = pneunet.base_rigidity(scene.strip)
-    factor = number / friction_number(surface, scene.strip, rigidity)
+def with_friction_number(scene: Scene, number: float) -> Surface:
+    """The scene's surface with friction bounds of a friction number Phi = V L^2 / D0."""
+    surface, factor = scene.ground.at(0.0), number / _friction_number(scene)
     return replace(surface, tip_force=factor * surface.tip_force,
                    shear_strength=factor * surface.shear_strength)  # fmt: skip
+
+
+def _friction_number(scene: Scene) -> float:
+    return friction_number(scene.ground.at(0.0), scene.strip, pneunet.base_rigidity(scene.strip))

@@ -2,9 +2,12 @@
 
 import json
 import math
+import subprocess
+import sys
 from dataclasses import replace
 
 import mujoco
+import pandas as pd
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -42,8 +45,8 @@ def test_a_settled_strip_is_of_second_order_in_its_elements(method):
 def test_the_planar_chain_settles_where_the_elastica_of_as_many_links_does():
     theory = cantilever_bodies.run(Setting("elastica", 24))
     for integrator in ("discrete", "implicitfast"):
-        found = cantilever_bodies.run(Setting("planar", 24, 0.01, integrator))
-        assert found.error == pytest.approx(theory.error, rel=1e-3)
+        chain = cantilever_bodies.run(Setting("planar", 24, 0.01, integrator))
+        assert chain.error == pytest.approx(theory.error, rel=1e-3)
 
 
 def test_a_strip_that_cannot_settle_is_no_number():
@@ -86,9 +89,9 @@ points = st.lists(
 
 @given(points)
 def test_nothing_is_both_cheaper_and_more_accurate_than_a_point_of_the_front(drawn):
-    rows = [some_row(cost=cost, error=error, status=status) for cost, error, status in drawn]
-    fine = [row for row in rows if row.status == "ok"]
-    front = figure.pareto(rows)
+    rows = pd.DataFrame(drawn, columns=["cost", "error", "status"])
+    fine = list(rows[rows["status"] == "ok"].itertuples())
+    front = list(figure.pareto(rows).itertuples())
     assert bool(front) == bool(fine)
     for row in front:
         assert not any(o.cost < row.cost and o.error < row.error for o in fine)
@@ -123,15 +126,15 @@ def test_the_error_of_a_slow_walk_is_of_second_order_in_the_links(case):
 def test_nothing_is_both_cheaper_and_more_accurate_than_the_default():
     """But for numerical scatter: by how much its error changes as its time step shrinks."""
     for ground in GROUNDS[WALK]:
-        here = [row for row in read() if (row.case, row.scene) == (WALK, ground)]
-        usual = next(row for row in here if figure.is_default(row))
+        rows = [row for row in read() if (row.case, row.scene) == (WALK, ground)]
+        usual = next(row for row in rows if figure.is_default(row))
         assert usual.error < 0.002
-        like = [row.error for row in here
+        like = [row.error for row in rows
                 if (row.method, row.integrator, row.links) == ("planar", "discrete", usual.links)
                 and row.timestep <= 2 * usual.timestep]  # fmt: skip
         scatter = max(like) - min(like)
         assert scatter < 0.005
-        assert not any(row.cost < usual.cost and row.error < usual.error - scatter for row in here)
+        assert not any(row.cost < usual.cost and row.error < usual.error - scatter for row in rows)
 
 
 def test_engines_that_share_no_code_agree_with_the_elastica_on_the_distance():
@@ -170,7 +173,8 @@ def test_what_auto_cannot_do_gets_one_line(tmp_path, capsys, words, named):
 def test_the_quick_chart_is_made_and_goes_on_where_it_was(tmp_path, capsys):
     words = ["--quick", "--case", "walk", "--out", str(tmp_path)]
     words += ["--rows", str(tmp_path / "rows.csv")]
-    assert chart.main(words) == 0
+    # as a program, whose workers import what measures from a module of its own
+    subprocess.run([sys.executable, "-m", "studies.accuracy", *words], check=True)
     first = (tmp_path / "rows.csv").read_text()
     assert chart.main(words) == 0
     assert (tmp_path / "rows.csv").read_text() == first

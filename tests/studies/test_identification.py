@@ -34,6 +34,6 @@ def test_another_start_finds_the_same_robot_to_the_last_digit_but_one():
 @pytest.mark.slow
 def test_one_command_prints_it(capsys):
     assert main() == 0
-    said = capsys.readouterr().out
-    assert "w = 1.416 N/m, H = 0.003928 m" in said
-    assert "Gamma = 8.10" in said
+    printed = capsys.readouterr().out
+    assert "w = 1.416 N/m, H = 0.003928 m" in printed
+    assert "Gamma = 8.10" in printed

@@ -37,7 +37,7 @@ def test_every_figure_can_be_made(tmp_path, name):
     assert not blank(make(name, tmp_path))
 
 
-def test_every_caption_says_what_agrees_with_the_seed_and_what_does_not():
+def test_every_caption_says_what_agrees_with_the_paper_and_what_does_not():
     for name in FIGURES:
         text = page([name])
         assert f"({name}.png)" in text
@@ -87,7 +87,7 @@ def test_with_three_increments_a_ramp_it_falls_past_a_quarter_of_the_length():
 def test_bad_input_gets_one_line_and_exit_2(tmp_path, capsys, words, named):
     with pytest.raises(SystemExit) as stop:
         main([*words, "--out", str(tmp_path / "out")])
-    said = capsys.readouterr()
+    printed = capsys.readouterr()
     assert stop.value.code == cli.BAD_INPUT
-    assert len(said.err.strip().splitlines()) == 1
-    assert named in said.err
+    assert len(printed.err.strip().splitlines()) == 1
+    assert named in printed.err

@@ -57,8 +57,8 @@ def test_noise_of_a_good_gait_changes_it_rarely_and_a_bad_one_is_found_all_the_s
 
 def test_a_cycle_on_patches_is_the_prediction_of_the_same_states(cycles):
     for left in (0.0, 0.05, 0.1):
-        here = seam(1.15 - left)
-        alone = predict(Robot(), GAITS["wave"], here, Elastica(48), 50, refinement=1)
+        ground = seam(1.15 - left)
+        alone = predict(Robot(), GAITS["wave"], ground, Elastica(48), 50, refinement=1)
         assert cycles.displacement(left * L, 0) == pytest.approx(
             alone.locomotion.per_cycle, abs=1e-12
         )
@@ -84,15 +84,15 @@ def test_the_wave_stalls_at_the_seam_and_so_does_a_map_of_two_ways_but_not_the_c
 def test_from_gelatin_onto_felt_it_goes_on_and_the_wave_alone_runs_away_backwards():
     theory = Cycles(Robot(), seam(1.15, GELATIN, FELT))
     assert theory.without(40).left[-1] < -1.2 * L
-    found, best = (walk.left[-1] / L for walk in (theory.reversing(60), theory.knowing(60)))
-    assert best - 0.1 < found <= best + 0.02
+    reversing, best = (walk.left[-1] / L for walk in (theory.reversing(60), theory.knowing(60)))
+    assert best - 0.1 < reversing <= best + 0.02
 
 
 @pytest.mark.slow
 def test_on_stripes_of_three_lengths_it_loses_a_tenth_to_one_with_the_map(cycles):
     theory = Cycles(Robot(), stripes(FELT, GELATIN, 3 * L, 5 * L))
-    found, best = (walk.left[-1] / L for walk in (theory.reversing(80), theory.knowing(80)))
-    assert 0.9 * best < found <= best
+    reversing, best = (walk.left[-1] / L for walk in (theory.reversing(80), theory.knowing(80)))
+    assert 0.9 * best < reversing <= best
 
 
 @pytest.mark.slow

@@ -1,6 +1,7 @@
 """Every command takes every robot, and prints the distance that `undulator run` prints."""
 
 import json
+import sqlite3
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,12 +13,16 @@ from analytic.scene.limbs import quadruped
 from mjsim import load
 from mjsim.commands import analysis, compare, export, fit, optimise, run, sweep
 from mjsim.env.task import Settings, Walker
-from mjsim.files.tables import build, read_tables
+from mjsim.files.tables import build, merged, read_tables
+from mjsim.optimising.objective import Objective, coarse
+from mjsim.optimising.search import search
+from mjsim.optimising.space import Space
 from mjsim.pictures.live_session import Session
 from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.checked import walk_checked
 from mjsim.simulation.simulation import Simulation, simulate
+from mjsim.sweeps.rows import Job, rows_of
 
 EQUAL = 1e-9  # of the length
 
@@ -118,27 +123,31 @@ def test_compare_prints_the_distances_of_run(robot, tmp_path, capsys):
     assert by_model[table["reference"]]["uncertainty_over_L"] == pytest.approx(bar, abs=EQUAL)
 
 
-def test_a_sweep_has_the_distances_of_run(robot, tmp_path, capsys):
-    path, *_ = robot
+def test_rows_of_a_sweep_have_the_distances_of_run(robot, tmp_path, capsys):
+    path, scene, *_ = robot
     row = said(run, ["--scene", path, "--no-video", "--out", tmp_path], capsys)
+    points = [(0, {"robot.peak_pressure": scene.robot.peak_pressure}), (1, {"robot.modulus": -1.0})]
     for model, key in (("mujoco", "displacement_over_L"),
                        ("quasi-static", "predicted_displacement_over_L")):  # fmt: skip
-        plan = tmp_path / f"{model}.toml"
-        plan.write_text(
-            f'model = "{model}"\nscene = "{path}"\n[grid]\n'
-            '"robot.peak_pressure" = [30e3, "40 kPa", 48263.299]\n'
-        )
-        out = tmp_path / f"{model}.sqlite"
-        words = [plan, "--out", out, "--workers", "1", "--export", out.with_suffix(".csv")]
-        said(sweep, words, capsys)
-        rows = pd.read_csv(out.with_suffix(".csv"), comment="#")
-        peak = row["peak_pressure_Pa"]
-        (near,) = rows[(rows["robot.peak_pressure"] - peak).abs() < 1e-3 * peak].index
-        # 7 psi was rounded to a millionth
-        within = EQUAL if peak == 40e3 else 1e-5
-        assert rows["displacement_over_L"][near] == pytest.approx(row[key], abs=within)
-        record = said(analysis, [out, "--out", tmp_path], capsys)
-        assert record["scenes"] == 3
+        good, bad = rows_of(Job(_base(robot), model, points))
+        assert good["displacement_over_L"] == pytest.approx(row[key], abs=EQUAL)
+        assert (good["turn_deg"] is None) == (not scene.in_space)
+        assert bad["status"] == "refused"
+
+
+def test_a_sweep_of_walks_is_made_and_analysed(robot, tmp_path, capsys):
+    path, *_ = robot
+    row = said(run, ["--scene", path, "--no-video", "--out", tmp_path], capsys)
+    plan, out = tmp_path / "plan.toml", tmp_path / "sweep.sqlite"
+    levels = '"robot.peak_pressure" = ["30 kPa", "40 kPa", "7 psi"]'
+    plan.write_text(f'model = "mujoco"\nscene = "{path}"\n[grid]\n{levels}\n')
+    said(sweep, [plan, "--out", out, "--workers", "1"], capsys)
+    with sqlite3.connect(out) as base:
+        rows = base.execute('select "robot.peak_pressure", displacement_over_L from scenes')
+        shifts = {round(pressure, 3): shift for pressure, shift in rows}
+    peak = round(row["peak_pressure_Pa"], 3)
+    assert shifts[peak] == pytest.approx(row["displacement_over_L"], abs=EQUAL)
+    assert said(analysis, [out, "--out", tmp_path], capsys)["scenes"] == 3
 
 
 def test_controllers_sessions_and_environments_walk_as_the_gait_does(robot):
@@ -174,29 +183,40 @@ def _base(robot):
     return read_tables(robot[0])
 
 
-def test_a_fit_finds_the_strength_that_a_walk_had(robot, tmp_path, capsys):
-    path, scene, numerics, _ = robot
-    key = "tip_force" if scene.ground.name == "gelatin" else "shear_strength"
-    strong = replace(scene.ground, name="strong", **{key: 1.5 * getattr(scene.ground, key)})
-    walk = simulate(replace(scene, ground=strong), numerics)
+def test_a_fit_finds_the_modulus_that_a_walk_had(robot, tmp_path, capsys):
+    path, _, numerics, _ = robot
+    stiff, _ = build(merged(read_tables(path), {"robot": {"modulus": 2.1e6}}))
+    walk = simulate(stiff, numerics)
     x, z = walk.nodes()
     rows = slice(walk.start, None, 5)
-    track = pd.DataFrame({"time [s]": walk.time[rows], "left [m]": x[rows, 0],
-                          "right [m]": x[rows, -1], "z@0.5 [m]": z[rows].max(axis=1)})  # fmt: skip
-    track.drop(columns="z@0.5 [m]").to_csv(tmp_path / "track.csv", index=False)
-    words = [tmp_path / "track.csv", "--scene", path, "--free", f"surface.{key}", "--out", tmp_path]
-    record = said(fit, words, capsys)
-    (found,) = record["parameters"]
-    assert found["value"] == pytest.approx(getattr(strong, key), rel=0.05)
+    track = {"time [s]": walk.time[rows], "left [m]": x[rows, 0], "right [m]": x[rows, -1],
+             "z@1.0 [m]": z[rows, -1]}  # fmt: skip
+    pd.DataFrame(track).to_csv(tmp_path / "track.csv", index=False)
+    words = [tmp_path / "track.csv", "--scene", path, "--free", "robot.modulus", "--out", tmp_path]
+    (parameter,) = said(fit, words, capsys)["parameters"]
+    assert parameter["value"] == pytest.approx(2.1e6, rel=0.01)
 
 
-def test_a_search_finds_no_worse_a_gait_than_it_began_with(robot, tmp_path, capsys):
-    path, *_ = robot
-    words = ["--scene", path, "--evaluations", 16, "--workers", 1, "--model", "mujoco",
-             "--out", tmp_path]  # fmt: skip
+def test_a_search_counts_the_distance_of_its_own_walks(robot):
+    _, scene, *_ = robot
+    objective = Objective(scene, (scene.ground,), backward=True, model="mujoco")
+    walk = measure(simulate(scene, coarse(scene)))
+    assert objective(scene.gait) == pytest.approx(-walk.displacement, abs=EQUAL)
+    space = Space(len(scene.robot.chambers), 5.0)
+    (generation,) = search(objective, space, 1, seed=0)
+    assert generation.best.segments == len(scene.robot.chambers)
+
+
+@pytest.mark.slow
+def test_the_best_gait_of_a_quadruped_is_confirmed(tmp_path, capsys):
+    path = tmp_path / "scene.toml"
+    path.write_text(QUADRUPED)
+    words = ["--scene", path, "--evaluations", 16, "--out", tmp_path]
     record = said(optimise, words, capsys)
-    assert record["evaluations"] == 16
+    assert record["model"] == "mujoco"
     assert {row["surface"] for row in record["surfaces"]} >= {"felt", "gelatin"}
+    best, _ = build(merged(read_tables(path), {"gait": {"file": str(tmp_path / "best.toml")}}))
+    assert best.gait.segments == 5
 
 
 def test_a_file_that_walks_by_itself_has_a_control_per_chamber(robot, tmp_path):
@@ -218,7 +238,8 @@ def test_valves_measured_pressures_inflated_starts_and_cycles_are_for_every_robo
 
     stages = scene.gait.stages
     inflated = replace(scene.gait, stages=(*stages[1:], stages[1]))
-    started = simulate(replace(scene, gait=inflated, cycles=2), numerics)
+    finer = Numerics(timestep=0.02, links=4) if scene.in_space else numerics
+    started = simulate(replace(scene, gait=inflated, cycles=2), finer)
     numbers = measure(started)
     assert started.time[0] < -scene.settle_time
     assert len(numbers.by_cycle) == 2
