@@ -1,13 +1,18 @@
 """Every command takes every robot, and prints the distance that `undulator run` prints."""
 
+import contextlib
+import io
 import json
 import sqlite3
 from dataclasses import replace
 from pathlib import Path
+from typing import NamedTuple
 
+import mujoco
 import numpy as np
 import pandas as pd
 import pytest
+from walks import coarsen
 
 from analytic.scene.limbs import quadruped
 from mjsim import load
@@ -15,10 +20,11 @@ from mjsim.commands import analysis, compare, export, fit, optimise, run, sweep
 from mjsim.env.task import Settings, Walker
 from mjsim.files.tables import build, merged, read_tables
 from mjsim.optimising.objective import Objective, coarse
-from mjsim.optimising.search import search
 from mjsim.optimising.space import Space
 from mjsim.pictures.live_session import Session
+from mjsim.results import prediction
 from mjsim.results.measures import measure
+from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.checked import walk_checked
 from mjsim.simulation.simulation import Simulation, simulate
@@ -81,16 +87,40 @@ timestep = 0.04
 """
 ROBOTS = {"strip": STRIP, "quadruped": QUADRUPED, "three-legs": THREE_LEGS}
 
-pytestmark = pytest.mark.usefixtures("coarse")
+
+@pytest.fixture(scope="module", autouse=True)
+def few_states():
+    """Make references coarse, as only that they are the same is asked of them."""
+    with pytest.MonkeyPatch.context() as patch:
+        coarsen(patch)
+        patch.setattr(prediction, "LIMB_STATES", 4)
+        yield
+
+
+class Case(NamedTuple):
+    """A scene file, its tables, scene and numerics, the walk of its gait, and what run prints."""
+
+    path: Path
+    tables: dict
+    scene: Scene
+    numerics: Numerics
+    walk: Trajectory
+    row: dict
 
 
 @pytest.fixture(scope="module", params=list(ROBOTS))
-def robot(request, tmp_path_factory):
-    """A scene file, its scene and numerics, and the walk of its gait."""
-    path = tmp_path_factory.mktemp(request.param) / "scene.toml"
+def case(request, tmp_path_factory):
+    folder = tmp_path_factory.mktemp(request.param)
+    path = folder / "scene.toml"
     path.write_text(ROBOTS[request.param])
-    scene, numerics = build(read_tables(path))
-    return path, scene, numerics, simulate(scene, numerics)
+    tables = read_tables(path)
+    scene, numerics = build(tables)
+    out = io.StringIO()
+    with contextlib.redirect_stdout(out):
+        assert run.main(["--scene", str(path), "--no-video", "--out", str(folder), "--json"]) == 0
+    return Case(
+        path, tables, scene, numerics, simulate(scene, numerics), json.loads(out.getvalue())
+    )
 
 
 def said(command, words, capsys):
@@ -99,10 +129,8 @@ def said(command, words, capsys):
     return json.loads(capsys.readouterr().out)
 
 
-def test_the_walk_of_run_is_that_of_simulate_and_is_read_back(robot, tmp_path, capsys):
-    path, _, _, walk = robot
-    row = said(run, ["--scene", path, "--no-video", "--out", tmp_path], capsys)
-    numbers = measure(walk)
+def test_the_walk_of_run_is_that_of_simulate_and_is_read_back(case):
+    row, numbers = case.row, measure(case.walk)
     assert row["displacement_over_L"] == pytest.approx(numbers.displacement, abs=EQUAL)
     again = measure(load(row["trajectory"]))
     assert again.displacement == pytest.approx(numbers.displacement, abs=EQUAL)
@@ -111,10 +139,9 @@ def test_the_walk_of_run_is_that_of_simulate_and_is_read_back(robot, tmp_path, c
     assert row["body"] == "planar"
 
 
-def test_compare_prints_the_distances_of_run(robot, tmp_path, capsys):
-    path, *_ = robot
-    row = said(run, ["--scene", path, "--no-video", "--out", tmp_path], capsys)
-    table = said(compare, ["--scene", path], capsys)
+def test_compare_prints_the_distances_of_run(case, capsys):
+    row, by = case.row, case.row["predicted_by"]
+    table = said(compare, ["--scene", case.path, "--model", f"{by},planar"], capsys)
     by_model = {line["model"]: line for line in table["rows"]}
     for model, key in (("planar", "displacement_over_L"),
                        (table["reference"], "predicted_displacement_over_L")):  # fmt: skip
@@ -123,21 +150,19 @@ def test_compare_prints_the_distances_of_run(robot, tmp_path, capsys):
     assert by_model[table["reference"]]["uncertainty_over_L"] == pytest.approx(bar, abs=EQUAL)
 
 
-def test_rows_of_a_sweep_have_the_distances_of_run(robot, tmp_path, capsys):
-    path, scene, *_ = robot
-    row = said(run, ["--scene", path, "--no-video", "--out", tmp_path], capsys)
+def test_rows_of_a_sweep_have_the_distances_of_run(case):
+    scene, row = case.scene, case.row
     points = [(0, {"robot.peak_pressure": scene.robot.peak_pressure}), (1, {"robot.modulus": -1.0})]
     for model, key in (("mujoco", "displacement_over_L"),
                        ("quasi-static", "predicted_displacement_over_L")):  # fmt: skip
-        good, bad = rows_of(Job(_base(robot), model, points))
+        good, bad = rows_of(Job(case.tables, model, points))
         assert good["displacement_over_L"] == pytest.approx(row[key], abs=EQUAL)
         assert (good["turn_deg"] is None) == (not scene.in_space)
         assert bad["status"] == "refused"
 
 
-def test_a_sweep_of_walks_is_made_and_analysed(robot, tmp_path, capsys):
-    path, *_ = robot
-    row = said(run, ["--scene", path, "--no-video", "--out", tmp_path], capsys)
+def test_a_sweep_of_walks_is_made_and_analysed(case, tmp_path, capsys):
+    path, row = case.path, case.row
     plan, out = tmp_path / "plan.toml", tmp_path / "sweep.sqlite"
     levels = '"robot.peak_pressure" = ["30 kPa", "40 kPa", "7 psi"]'
     plan.write_text(f'model = "mujoco"\nscene = "{path}"\n[grid]\n{levels}\n')
@@ -150,8 +175,8 @@ def test_a_sweep_of_walks_is_made_and_analysed(robot, tmp_path, capsys):
     assert said(analysis, [out, "--out", tmp_path], capsys)["scenes"] == 3
 
 
-def test_controllers_sessions_and_environments_walk_as_the_gait_does(robot):
-    _, scene, numerics, walk = robot
+def test_controllers_sessions_and_environments_walk_as_the_gait_does(case):
+    scene, numerics, walk = case.scene, case.numerics, case.walk
     rows = walk.pressure[walk.start + 1 :]
     simulation = Simulation(scene, numerics)
 
@@ -166,7 +191,7 @@ def test_controllers_sessions_and_environments_walk_as_the_gait_does(robot):
     assert session.displacement == pytest.approx(measure(walk).displacement, abs=2e-3)
 
     settings = Settings(
-        surfaces=(scene.ground.name,), base=_base(robot), control_period=0.04, numerics=numerics,
+        surfaces=(scene.ground.name,), base=case.tables, control_period=0.04, numerics=numerics,
         contacts="all" if scene.between else "ends",
     )  # fmt: skip
     walker = Walker(settings.scene({"ground.surface": scene.ground.name}), settings)
@@ -179,13 +204,9 @@ def test_controllers_sessions_and_environments_walk_as_the_gait_does(robot):
     assert np.sign(went) == np.sign(measure(walk).displacement) or abs(went) < 0.01
 
 
-def _base(robot):
-    return read_tables(robot[0])
-
-
-def test_a_fit_finds_the_modulus_that_a_walk_had(robot, tmp_path, capsys):
-    path, _, numerics, _ = robot
-    stiff, _ = build(merged(read_tables(path), {"robot": {"modulus": 2.1e6}}))
+def test_a_fit_finds_the_modulus_that_a_walk_had(case, tmp_path, capsys):
+    path, numerics = case.path, case.numerics
+    stiff, _ = build(merged(case.tables, {"robot": {"modulus": 2.1e6}}))
     walk = simulate(stiff, numerics)
     x, z = walk.nodes()
     rows = slice(walk.start, None, 5)
@@ -197,14 +218,15 @@ def test_a_fit_finds_the_modulus_that_a_walk_had(robot, tmp_path, capsys):
     assert parameter["value"] == pytest.approx(2.1e6, rel=0.01)
 
 
-def test_a_search_counts_the_distance_of_its_own_walks(robot):
-    _, scene, *_ = robot
+def test_a_search_counts_the_distance_of_its_own_walks(case):
+    scene = case.scene
     objective = Objective(scene, (scene.ground,), backward=True, model="mujoco")
     walk = measure(simulate(scene, coarse(scene)))
     assert objective(scene.gait) == pytest.approx(-walk.displacement, abs=EQUAL)
-    space = Space(len(scene.robot.chambers), 5.0)
-    (generation,) = search(objective, space, 1, seed=0)
-    assert generation.best.segments == len(scene.robot.chambers)
+    chambers = len(scene.robot.chambers)
+    gait = Space(chambers, 5.0).gait(Space(chambers, 5.0).middle())
+    assert gait.segments == chambers
+    assert np.isfinite(objective(gait))
 
 
 @pytest.mark.slow
@@ -219,18 +241,16 @@ def test_the_best_gait_of_a_quadruped_is_confirmed(tmp_path, capsys):
     assert best.gait.segments == 5
 
 
-def test_a_file_that_walks_by_itself_has_a_control_per_chamber(robot, tmp_path):
-    import mujoco
-
-    path, scene, *_ = robot
-    assert export.main(["--scene", str(path), "--out", str(tmp_path)]) == 0
+def test_a_file_that_walks_by_itself_has_a_control_per_chamber(case, tmp_path):
+    scene = case.scene
+    assert export.main(["--scene", str(case.path), "--out", str(tmp_path)]) == 0
     (file,) = tmp_path.glob("*.xml")
     model = mujoco.MjModel.from_xml_path(str(file))
     assert model.nu == len(scene.robot.chambers)
 
 
-def test_valves_measured_pressures_inflated_starts_and_cycles_are_for_every_robot(robot, tmp_path):
-    _, scene, numerics, walk = robot
+def test_valves_measured_pressures_inflated_starts_and_cycles_are_for_every_robot(case, tmp_path):
+    scene, numerics, walk = case.scene, case.numerics, case.walk
     slow = replace(scene, valves=replace(scene.valves, fill_time=0.1))
     lagged = simulate(slow, numerics)
     assert lagged.pressure.max() < walk.pressure.max()
@@ -249,15 +269,14 @@ def test_valves_measured_pressures_inflated_starts_and_cycles_are_for_every_robo
     pd.DataFrame(walk.pressure[walk.start :], columns=heads).assign(
         **{"time [s]": walk.time[walk.start :]}
     )[["time [s]", *heads]].to_csv(path, index=False)
-    tables = {**_base(robot), "gait": {"file": str(path)}}
+    tables = {**case.tables, "gait": {"file": str(path)}}
     measured, _ = build(tables)
     numbers = measure(simulate(measured, numerics))
     assert numbers.displacement == pytest.approx(measure(walk).displacement, abs=2e-3)
 
 
-def test_auto_walks_every_robot_until_two_walks_agree(robot):
-    _, scene, *_ = robot
-    check = walk_checked(scene, 0.5)
+def test_auto_walks_every_robot_until_two_walks_agree(case):
+    check = walk_checked(case.scene, 0.5)
     assert check.agreed
     assert len(check.tried) >= 2
     assert all(two.timestep <= one.timestep for one, two in zip(check.tried, check.tried[1:],
