@@ -23,7 +23,7 @@ __getattr__, __dir__, __all__ = lazily(
         "analytic.scene.quadruped_gaits": ("QUADRUPED_GAITS", "undulation"),
         "analytic.scene.robot": ("Robot",),
         "analytic.scene.surface": ("SURFACES", "Ground", "Surface"),
-        "analytic.shapes": ("ContactShapes", "Mode", "Shapes", "Status"),
+        "analytic.shapes": ("ContactShapes", "Mode", "Shapes", "Flag"),
         "analytic.solvers.elastica": ("solve_elastica",),
         "analytic.solvers.lifted": ("solve_lifted",),
         "analytic.solvers.modes": ("solve_modes",),

@@ -15,7 +15,7 @@ from analytic.scene.gait import Gait
 from analytic.scene.ground import depends_on_speed, surfaces_of
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground, Surface
-from analytic.shapes import Shapes, Status
+from analytic.shapes import Flag, Shapes
 
 Array = NDArray[np.float64]
 
@@ -159,7 +159,7 @@ class Prediction(NamedTuple):
     pressures: Array
     shapes: Shapes
     locomotion: Locomotion
-    flags: Status
+    flags: Flag
     by_cycle: Array
 
     @property
@@ -267,7 +267,7 @@ class _Walk(NamedTuple):
         if len(changes) and self.refinement > 1:
             path, clock = (_refined(values, changes, self.refinement) for values in (path, clock))
             shapes = self._shapes(grounds[0], path, clock)
-        flags = Status(int(np.bitwise_or.reduce(shapes.status)))
+        flags = Flag(int(np.bitwise_or.reduce(shapes.status)))
         ends = np.linspace(clock[0], clock[-1], self.cycles + 1)
         predictions = []
         for ground in grounds:

@@ -26,7 +26,7 @@ class Mode(IntEnum):
     BOTH = 8  # both ends lie flat; the paper's modes do not know it
 
 
-class Status(IntFlag):
+class Flag(IntFlag):
     """Flags of a state that say how far it can be trusted; they add up.
 
     Values are NaN with NO_ROOT, NOT_CONVERGED, BRANCH_END and ROLLED_UP, else numbers.
@@ -54,7 +54,7 @@ class Shapes:
         contact_left: length of side contact at the left end, 0 for a tip, shape (B,) [m].
         contact_right: the same at the right end, shape (B,) [m].
         amplitude: greatest height of the strip, shape (B,) [m].
-        status: shape (B,), values of Status.
+        status: shape (B,), values of Flag.
         curve: material points s of shape (S,) [m] -> (x, y), each of shape (B, S) [m], with x
             measured from the left end.
     """

@@ -5,18 +5,18 @@ import math
 import numpy as np
 
 from analytic.prediction import Prediction
-from analytic.shapes import Status
+from analytic.shapes import Flag
 
 # flags of shapes that are no equilibrium: somewhere the ground would have to pull, or exert a
 # moment. Several roots alone are no such thing, the one taken is the stable one
-UNSOUND = Status.NO_ROOT | Status.PENETRATES | Status.BOTH_FLAT | Status.HELD_FLAT
+UNSOUND = Flag.NO_ROOT | Flag.PENETRATES | Flag.BOTH_FLAT | Flag.HELD_FLAT
 
 
 # flags of states of which nothing is sure, of any solver
-DOUBTFUL = UNSOUND | Status.NOT_CONVERGED | Status.BRANCH_END | Status.ROLLED_UP | Status.JUMPED
+DOUBTFUL = UNSOUND | Flag.NOT_CONVERGED | Flag.BRANCH_END | Flag.ROLLED_UP | Flag.JUMPED
 
 
-def flagged_change(prediction: Prediction, flags: Status = DOUBTFUL) -> float:
+def flagged_change(prediction: Prediction, flags: Flag = DOUBTFUL) -> float:
     """Change of separation per cycle in increments that begin or end in a flagged state [m].
 
     So much of the displacement rests on states that carry a flag: what is left of it when they do

@@ -14,7 +14,7 @@ import numpy as np
 
 from analytic import Elastica, Gait, Patches, Robot, Surface, predict
 from analytic.scene import pneunet
-from analytic.shapes import Status
+from analytic.shapes import Flag
 from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.simulation import simulate
@@ -121,7 +121,7 @@ def main() -> None:
     for result in failed:
         print(describe(result))
     both = [result for result in kept if not math.isnan(result.found)]
-    plain = [r for r in both if Status.JUMPED.name not in r.flags]
+    plain = [r for r in both if Flag.JUMPED.name not in r.flags]
     far = [r for r in both if abs(r.theory) > FAR]
     for name, chosen in (("all", both), ("without a jump", plain), (f"beyond {FAR} L", far)):
         error = np.array([abs(r.found - r.theory) for r in chosen])

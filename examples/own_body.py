@@ -1,4 +1,4 @@
-"""A body of one's own: the planar chain with a payload on its middle link.
+"""A body of one's own: body chain with a payload on its middle link.
 
 For commands: undulator run --plugin examples/own_body.py --body laden
 """
@@ -6,11 +6,11 @@ For commands: undulator run --plugin examples/own_body.py --body laden
 import mujoco
 
 from mjsim import Numerics, Scene, measure, simulate
-from mjsim.model.planar import Planar
+from mjsim.model.chain import Chain
 from mjsim.scene import registry
 
 
-class Laden(Planar):
+class Laden(Chain):
     """One module against one small protocol, mjsim.model.body.Body; here most is inherited."""
 
     name = "laden"
@@ -27,7 +27,7 @@ registry.register(Laden())
 
 def main() -> dict[str, float]:
     shifts = {}
-    for body in ("planar", "laden"):
+    for body in ("chain", "laden"):
         numbers = measure(simulate(Scene(body=body)))
         assert numbers is not None
         shifts[body] = numbers.displacement

@@ -10,11 +10,11 @@ from mjsim.files.files import whole
 from studies import Array
 
 COLOURS = {
-    "planar": "#d1495b", "cable": "#edae49", "rod": "#66a182", "stock cable": "#8b5e34",
+    "chain": "#d1495b", "cable": "#edae49", "rod": "#66a182", "stock cable": "#8b5e34",
     "modes": "#8d99ae", "lifted": "#52796f", "obstacle": "#3a7ca5", "elastica": "black",
     "Drake": "#5e548e", "PyElastica": "#00798c", "PyBullet": "#b56576",
 }  # fmt: skip
-SIMULATED = COLOURS["planar"]
+SIMULATED = COLOURS["chain"]
 PASSIVE, INFLATED = "0.68", "black"  # as the shading of Figure 4
 FONT: dict[Any, Any] = {"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False}
 

@@ -1,5 +1,6 @@
 """Contact lengths that follow from the contact forces on nodes, for one or many states."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -73,6 +74,26 @@ def flat_length(weight: Any, total: Any, moment: Any) -> Any:
     """
     square = total * total - 2.0 * weight * moment
     return (total - (0.5 * (square + abs(square))) ** 0.5) / weight
+
+
+def length_between(weight: float, places: Sequence[float], push: Sequence[float]) -> float:
+    """Length of a flat stretch between the ends, either half of which carries its weight [m].
+
+    Args:
+        weight: per length [N/m].
+        places: of the nodes that push there, ascending [m].
+        push: of each [N].
+    """
+    middle, length = 0.5 * (places[0] + places[-1]), 0.0
+    for sign in (-1.0, 1.0):
+        total = moment = 0.0
+        for place, part in zip(places, push, strict=True):
+            reach = sign * (place - middle)
+            if reach >= 0:
+                total += part if reach else 0.5 * part
+                moment += part * reach
+        length += float(flat_length(weight, total, moment))
+    return length
 
 
 def may_lie_flat(pressure: Any, peak_pressure: Any) -> Any:

@@ -9,14 +9,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_length, ripple
+from analytic.friction.contact_length import flat_length, length_between, ripple
 from analytic.scene.robot import Robot
 from analytic.shapes import ContactShapes
 
 Array = NDArray[np.float64]
 
 _FLAT = 1e-3  # rad; less steep than this is flat, as in the simulation; chosen
-_POINT = 2  # nodes in a row that push in one point of contact, as it may fall between two
+POINT = 2  # nodes in a row that push in one point of contact, as it may fall between two
 
 
 class StripContact(NamedTuple):
@@ -117,19 +117,9 @@ class Finder:
         return float(flat_length(self._weight, sum(push), moment))
 
     def _length_between(self, run: list[int], push: list[float]) -> float:
-        if run[-1] - run[0] < _POINT:
+        if run[-1] - run[0] < POINT:
             return 0.0
-        middle = 0.5 * (self._place[run[0]] + self._place[run[-1]])
-        length = 0.0
-        for sign in (-1.0, 1.0):
-            total = moment = 0.0
-            for node, part in zip(run, push, strict=True):
-                reach = sign * (self._place[node] - middle)
-                if reach >= 0:
-                    total += part if reach else 0.5 * part
-                    moment += part * reach
-            length += float(flat_length(self._weight, total, moment))
-        return length
+        return length_between(self._weight, [self._place[node] for node in run], push)
 
 
 def contacts_of(shapes: ContactShapes, height: Array, state: int) -> list[StripContact]:

@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from analytic.scene import pneunet
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
-from analytic.shapes import Shapes, Status
+from analytic.shapes import Flag, Shapes
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -83,7 +83,7 @@ def solve_lifted(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
         np.asarray(robot.borders, dtype=float),
     )
     count = len(p)
-    xi, status = np.zeros(count), np.full(count, int(Status.OK))
+    xi, status = np.zeros(count), np.full(count, int(Flag.OK))
     flat: Mask = np.asarray((beam.curvature <= _FLAT).all(axis=1))
     slope, converged = _tips(beam)
     into_left, into_right = -slope[:, 0, 0], slope[:, -1, -1]
@@ -97,17 +97,17 @@ def solve_lifted(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
             rigidity=np.where(turned, beam.rigidity[rows, ::-1], beam.rigidity[rows]),
         )
         xi[rows], slope[rows], exists, converged[rows] = _one_flat(part, mirrored[rows])
-        status[rows[~exists]] |= int(Status.NO_ROOT)
-    status[~converged & (status == 0)] |= int(Status.NOT_CONVERGED)
-    blank = np.where(status & int(Status.NO_ROOT | Status.NOT_CONVERGED), np.nan, robot.length)
+        status[rows[~exists]] |= int(Flag.NO_ROOT)
+    status[~converged & (status == 0)] |= int(Flag.NOT_CONVERGED)
+    blank = np.where(status & int(Flag.NO_ROOT | Flag.NOT_CONVERGED), np.nan, robot.length)
 
     curve = _Curve(robot.length, beam, mirrored, xi, slope, flat, blank)
     # an end that lies flat has slope 0 there, so this looks at the ends in point contact only
     sinking = np.maximum(-slope[:, 0, 0], slope[:, -1, -1]) > 100 * _TOLERANCE
-    status[sinking & ~flat] |= int(Status.BOTH_FLAT)
-    status[~flat & (curve.height.min(axis=(1, 2)) < -10 * _TOLERANCE)] |= int(Status.PENETRATES)
+    status[sinking & ~flat] |= int(Flag.BOTH_FLAT)
+    status[~flat & (curve.height.min(axis=(1, 2)) < -10 * _TOLERANCE)] |= int(Flag.PENETRATES)
     lying = np.diff(beam.borders) - curve.spans > _TOLERANCE
-    status[lies & (lying & (beam.curvature > _FLAT)).any(axis=1)] |= int(Status.HELD_FLAT)
+    status[lies & (lying & (beam.curvature > _FLAT)).any(axis=1)] |= int(Flag.HELD_FLAT)
 
     return Shapes(
         robot=robot,

@@ -20,7 +20,7 @@ from analytic.scene import pneunet
 from analytic.scene.chain import segment_overlap, segments_fit
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
-from analytic.shapes import ContactShapes, Status
+from analytic.shapes import ContactShapes, Flag
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -54,21 +54,21 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
 
     values = np.zeros((len(p), elements + 1, 2))  # y and y' at the nodes
     force = np.zeros((len(p), elements + 1))
-    status = np.full(len(p), int(Status.OK))
+    status = np.full(len(p), int(Flag.OK))
     iterations = np.zeros(len(p), dtype=int)
     state = np.zeros((elements + 1, 2))
     for i in range(len(p)):
         state, force[i], iterations[i], converged = _solve(rigidity[i], curvature[i], load, state)
         values[i] = state
         if not converged:
-            status[i] = Status.NOT_CONVERGED
+            status[i] = Flag.NOT_CONVERGED
 
     nodes = np.linspace(0.0, robot.length, elements + 1)
     newtons = force * d0 / robot.length**2
     height = values[..., 0] * robot.length
     left, right = side_contact(robot, nodes, newtons, height, p)
     curve = _Curve(robot.length, values, load / rigidity)
-    blank = np.where(status == Status.OK, 1.0, np.nan)
+    blank = np.where(status == Flag.OK, 1.0, np.nan)
     return ContactShapes(
         robot=robot,
         separation=curve(np.array([robot.length]))[0][:, 0] * blank,

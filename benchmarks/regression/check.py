@@ -62,7 +62,8 @@ def quasi_static(case: Case, robot: Robot, gait: Gait) -> Row:
 
 def simulated(case: Case, robot: Robot, gait: Gait) -> Row:
     scene = Scene(
-        robot, gait, Surface("any", **case["ground"]), cycles=case["cycles"], body=case["model"],
+        robot, gait, Surface("any", **case["ground"]), cycles=case["cycles"],
+        body={"planar": "chain"}.get(case["model"], case["model"]),
         friction=case["friction"], slope=case["slope"], chamber=case["chamber"],
         valves=Valves(case["lag"]),
         actuation={"springs": "rest-angles"}.get(case["actuation"], case["actuation"]),

@@ -39,7 +39,7 @@ from mjsim.scene import Numerics, Scene, registry
 
 PROGRAM = "undulator compare"
 EXAMPLES = (
-    "--surface felt,gelatin --gait wave --model modes,elastica,planar",
+    "--surface felt,gelatin --gait wave --model modes,elastica,chain",
     "--robot quadruped --surface gelatin --gait wave",
     "--scene my.toml",
 )
@@ -59,8 +59,8 @@ class Options:
     """wave, full-wave, pulse, of the quadruped spin and crawl too, several with commas between;
     all: those, or the scene's"""
     model: str = "all"
-    """modes, lifted, obstacle, elastica, planar, cable, rod, or a body of your own, several with
-    commas between, or all; of a robot of limbs quasi-static and planar"""
+    """modes, lifted, obstacle, elastica, chain, cable, rod, or a body of your own, several with
+    commas between, or all; of a robot of limbs quasi-static and chain"""
     scene: Annotated[Path | None, tyro.conf.arg(help_behavior_hint="")] = None
     """a TOML file, whose robot walks; its gait and its ground where none is named"""
     robot: Annotated[str | None, tyro.conf.arg(help_behavior_hint="")] = None

@@ -45,7 +45,7 @@ class Options(SceneOptions):
     """
 
     tolerance: float | None = None
-    """of body auto, which walks the planar body ever finer, along numerics that were measured on
+    """of body auto, which walks body chain ever finer, along numerics that were measured on
     many scenes, until two walks agree within it: relative error of the displacement that the
     numerics may make, or 0.001 L, beside what inertia does; from 0.005; 0.02 if not given"""
     out: Path = Path("videos")
@@ -90,7 +90,7 @@ def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables]
     """The tables, and the tolerance within which auto is to walk them, if it is asked for."""
     if tables[0]["numerics"].get("body") != AUTO:
         if tolerance is not None:
-            body = tables[0]["numerics"].get("body", "planar")
+            body = tables[0]["numerics"].get("body", "chain")
             raise ValueError(f"tolerance is for body {AUTO}, got body {body!r}")
         return tables, None
     tolerance = _TOLERANCE if tolerance is None else tolerance

@@ -31,7 +31,7 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
 
     @classmethod
     def of(cls, scene: Scene, numerics: Numerics | None = None) -> "Physics":
-        """Make the physics of a scene, of the planar body.
+        """Make the physics of a scene, of body chain.
 
         Raises:
             ValueError: the body cannot do what the scene asks for.

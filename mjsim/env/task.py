@@ -114,11 +114,11 @@ class Settings:
         """Scene with other values of some fields.
 
         Raises:
-            ValueError: they do not make one, or it is not of the planar body.
+            ValueError: they do not make one, or it is not of body chain.
         """
         scene, _ = build(with_fields(self.base, values))
-        if scene.body != "planar":
-            raise ValueError(f"environments are of body planar, got {scene.body}")
+        if scene.body != "chain":
+            raise ValueError(f"environments are of body chain, got {scene.body}")
         return scene if scene.in_space else replace(scene, contacts=self.contacts)
 
     def draw(self, rng: np.random.Generator) -> Scene:

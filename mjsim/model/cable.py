@@ -31,7 +31,7 @@ class Cable:
 
     def check(self, scene: Scene, numerics: Resolved) -> None:
         """Neither actuators nor sealed chambers."""
-        parts.refuse_planar_only(self.name, scene)
+        parts.refuse_chain_only(self.name, scene)
 
     def spec(self, scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
         """Links that hang from each other, the first one free in space."""

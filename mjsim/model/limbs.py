@@ -103,10 +103,11 @@ def tree_spec(
 def places_of(robot: LimbedRobot, limb: int) -> int:
     """How many places of a limb may be held at once.
 
-    Two of a side, for each end that something may touch the ground by, and one between such ends.
+    Two of a side, for each end that something may touch the ground by, and one between such ends;
+    a limb of several segments may touch there too.
     """
     own = robot.limbs[limb]
-    free_end_alone = own.on is not None and own.name in robot.outer
+    free_end_alone = own.on is not None and own.name in robot.outer and len(own.strip.segments) == 1
     return 2 if free_end_alone else 5
 
 

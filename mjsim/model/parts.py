@@ -34,11 +34,11 @@ def template() -> mujoco.MjSpec:
     return mujoco.MjSpec.from_file(str(TEMPLATE))
 
 
-def refuse_planar_only(body: str, scene: Scene) -> None:
-    """Raise ValueError where a scene asks for what only the planar body does."""
+def refuse_chain_only(body: str, scene: Scene) -> None:
+    """Raise ValueError where a scene asks for what only body chain does."""
     if scene.actuation == "actuators" or scene.chamber == "sealed":
         raise ValueError(
-            "actuation actuators and chamber sealed are for body planar; got "
+            "actuation actuators and chamber sealed are for body chain; got "
             f"body {body}, actuation {scene.actuation}, chamber {scene.chamber}"
         )
 

@@ -35,7 +35,7 @@ class Rod:
 
     def check(self, scene: Scene, numerics: Resolved) -> None:
         """Neither actuators nor sealed chambers."""
-        parts.refuse_planar_only(self.name, scene)
+        parts.refuse_chain_only(self.name, scene)
 
     def spec(self, scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
         """Point masses on slides along each axis, and the flex through them."""

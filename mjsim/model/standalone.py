@@ -47,7 +47,7 @@ def walking_scene(scene: Scene) -> Scene:
         ground = Surface(ground.name, ground.tip_force, ground.shear_strength,
                          ground.shear_strength * area / load,
                          2.0 / feet * ground.tip_force / load)  # fmt: skip
-    actuated = "actuators" if (scene.body, scene.in_space) == ("planar", False) else scene.actuation
+    actuated = "actuators" if (scene.body, scene.in_space) == ("chain", False) else scene.actuation
     return replace(scene, ground=ground, friction="coulomb", actuation=actuated,
                    chamber="constant-pressure")  # fmt: skip
 
@@ -55,7 +55,7 @@ def walking_scene(scene: Scene) -> Scene:
 def standalone_spec(scene: Scene, numerics: Numerics | None = None) -> mujoco.MjSpec:
     """The scene to open in MuJoCo's viewer and to drive by its controls.
 
-    Controls are the pressures of the chambers for strips of the planar body and for robots of
+    Controls are the pressures of the chambers for strips of body chain and for robots of
     limbs, of the joints for the cable. The rod has none: its pressure is a couple on each edge,
     which only mjsim applies.
     """
@@ -71,7 +71,7 @@ def standalone_spec(scene: Scene, numerics: Numerics | None = None) -> mujoco.Mj
 
 def _spec_of_strip(scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
     spec = scene_spec(scene, numerics)
-    if scene.body in ("planar", "cable"):
+    if scene.body in ("chain", "cable"):
         _show_links(spec, scene, numerics)
     if scene.body == "cable":
         _actuate_balls(spec, scene, numerics)

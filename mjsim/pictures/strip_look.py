@@ -32,7 +32,7 @@ class StripLook(Look):
         more: Callable[[mujoco.MjSpec], None] | None = None,
     ) -> None:  # fmt: skip
         drawn_as = replace(
-            scene, body="planar", friction="constant", actuation="rest-angles",
+            scene, body="chain", friction="constant", actuation="rest-angles",
             chamber="linearized", ground=_visible(scene.ground),
         )  # fmt: skip
         numerics = resolved(drawn_as, Numerics(links=numerics.links))

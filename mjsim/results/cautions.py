@@ -11,7 +11,7 @@ from analytic.locomotion import undecided
 from analytic.prediction import Elastica, Prediction
 from analytic.scene.limbs import limbs_of
 from analytic.scene.surface import Surface
-from analytic.shapes import Status
+from analytic.shapes import Flag
 from mjsim.model.limbs import longest_step
 from mjsim.results.measures import Measures
 from mjsim.results.prediction import displacement, prediction
@@ -103,9 +103,9 @@ def _near_end(scene: Scene, prediction: Prediction) -> list[str]:
     path = more.peak_pressure * scene.gait.pressures(_STATES)
     links = max(_LINKS, 10 * len(robot.segments))
     shapes = Elastica(links, scene.chamber).solve(more, path, scene.ground, Friction(), None)
-    flags = Status(int(np.bitwise_or.reduce(shapes.status)))
-    for flag, what in ((Status.BRANCH_END, "the stable branch ends"),
-                       (Status.ROLLED_UP, "an end rolls up off the ground")):  # fmt: skip
+    flags = Flag(int(np.bitwise_or.reduce(shapes.status)))
+    for flag, what in ((Flag.BRANCH_END, "the stable branch ends"),
+                       (Flag.ROLLED_UP, "an end rolls up off the ground")):  # fmt: skip
         if flag & flags:
             return [f"{what} within {NEARLY:.0%} more pressure"]
     return []

@@ -16,6 +16,7 @@ from mjsim.scene import Numerics, Resolved, Scene, Valves, resolved
 Kind = TypeVar("Kind")
 
 _RENAMED = {"elements": "links"}  # of the numerics, in older files
+_RENAMED_BODY = {"planar": "chain"}
 
 DISTRIBUTION = "undulator"
 _PACKAGES = (DISTRIBUTION, "mujoco", "dm_control", "numpy", "scipy")
@@ -66,6 +67,8 @@ def configuration(described: dict[str, Any]) -> tuple[Scene, Resolved]:
     for old, new in _RENAMED.items():
         if old in numbers:
             numbers[new] = numbers.pop(old)
+    body = values.get("body", Scene.body)
+    values["body"] = _RENAMED_BODY.get(body, body)
     if isinstance(values["ground"], dict) and "borders" in values["ground"]:
         patches = values["ground"]
         surfaces = tuple(_made(Surface, surface, "surface") for surface in patches["surfaces"])

@@ -42,7 +42,7 @@ class Trajectory:
         status: OK, or why it stopped; then the last rows lead up to the failure.
         time: end of each step since the first cycle began, negative while settling, (T,) [s].
         pressure: in the chambers, in the order of the gait's columns, (T, S) [Pa].
-        coordinates: MuJoCo's generalised coordinates, (T, nq). For a strip of the planar body x and
+        coordinates: MuJoCo's generalised coordinates, (T, nq). For a strip of body chain x and
             z of the left end, slope of the first link, hinge angles, (T, N + 3) [m, m, rad ...];
             for a robot in space x, y, height, yaw, pitch and roll of the trunk's beginning, then
             the hinges [m, rad].

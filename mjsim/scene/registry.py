@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 BODIES: "Registry[Body]" = Registry(
     "undulator.bodies",
-    {name: f"mjsim.model.{name}:BODY" for name in ("planar", "cable", "rod")},
+    {name: f"mjsim.model.{name}:BODY" for name in ("chain", "cable", "rod")},
 )
 
 

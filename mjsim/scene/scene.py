@@ -43,8 +43,8 @@ class Scene:
     ground: Ground = SURFACES["felt"]
     cycles: int = 1
     """number of cycles"""
-    body: str = "planar"
-    """model of the robot: planar, links joined by hinges, in the plane for a strip and in space for
+    body: str = "chain"
+    """model of the robot: chain, links joined by hinges, in the plane for a strip and in space for
     a robot of limbs; cable, links with ball joints in space; rod, point masses in space that are
     held in a plane: for bending out of it take the cable"""
     friction: str = "constant"
@@ -69,6 +69,8 @@ class Scene:
     """at rest before the first cycle [s]; chosen"""
 
     def __post_init__(self) -> None:
+        if self.body == "planar":
+            raise ValueError("body 'planar' is now called 'chain'")
         one_of("body", self.body, registry.BODIES)
         one_of("friction", self.friction, LAWS)
         one_of("chamber", self.chamber, CHAMBER_LAWS)

@@ -34,8 +34,8 @@ def refusal(scene: Scene) -> str | None:
     ground = scene.ground
     if scene.in_space:
         return "the robot must be a strip"
-    if (scene.body, scene.friction, scene.actuation) != ("planar", "constant", "rest-angles"):
-        return "body, friction and actuation must be planar, constant and rest-angles"
+    if (scene.body, scene.friction, scene.actuation) != ("chain", "constant", "rest-angles"):
+        return "body, friction and actuation must be chain, constant and rest-angles"
     if scene.between:
         return "friction must act at the ends alone"
     if scene.chamber == "sealed":

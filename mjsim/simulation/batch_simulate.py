@@ -125,7 +125,7 @@ def _trajectory(
 
 
 def planar_nodes(scene: Scene, numerics: Resolved, coordinates: Array) -> Array:
-    """Vertices of the planar body's neutral line, z over flat rest, (T, N + 2, 3) [m].
+    """Vertices of body chain's neutral line, z over flat rest, (T, N + 2, 3) [m].
 
     The kinematics of a chain in a plane, in closed form.
     """

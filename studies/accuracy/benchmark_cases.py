@@ -25,7 +25,7 @@ FAR = 0.5  # relative error of a displacement that is none; chosen
 _RAMP = 16.0  # s; chosen, inertia is below 0.1 % by then, and below 0.4 % under Coulomb's law
 
 
-def scene_of(case: str, ground: str, body: str = "planar") -> Scene:
+def scene_of(case: str, ground: str, body: str = "chain") -> Scene:
     """Scene of a case on a ground: constant bounds, or a law that other engines know as well.
 
     That is Coulomb's, with chambers at constant pressure: the rest curvature alone follows them.

@@ -29,12 +29,12 @@ def settings(quick: bool = False) -> Iterator[Setting]:
     steps = (0.02, 0.005) if quick else fine
     yield from grid("elastica", (*links, 240), (0.0,), "")
     few = ("discrete", "implicitfast", "Euler")
-    integrators = {"planar": INTEGRATORS, "cable": few, "rod": few[:1]}
+    integrators = {"chain": INTEGRATORS, "cable": few, "rod": few[:1]}
     if mujoco.mj_version() < 4_000_000:  # it went with MuJoCo 4
         integrators[STOCK] = few
     for method, names in integrators.items():
         for name in names:
-            yield from grid(method, links if method == "planar" else links[:3], steps, name)
+            yield from grid(method, links if method == "chain" else links[:3], steps, name)
 
 
 def run(setting: Setting) -> Row:

@@ -83,9 +83,9 @@ def pareto(rows: pd.DataFrame) -> pd.DataFrame:
 
 def is_default(row: Any) -> bool:
     """True for the numerics of `undulator run` unless told otherwise."""
-    if row.case not in benchmark_cases.GROUNDS or row.method != "planar":
+    if row.case not in benchmark_cases.GROUNDS or row.method != "chain":
         return False
-    usual = Numerics().resolved("planar", "coulomb" if row.cone else "constant")
+    usual = Numerics().resolved("chain", "coulomb" if row.cone else "constant")
     return setting_of(row).numerics() == usual
 
 

@@ -18,28 +18,28 @@ _ELLIPTIC, _PYRAMIDAL = CONES
 _USUAL = "discrete", _ELLIPTIC, Numerics.impratio
 _BODIES: dict[str, list[Any]] = {  # see grid
     WALK: [
-        ("planar", (6, 12, 18, 24, 48), (0.05, 0.02, 0.01, 0.005, 0.002, 0.001)),
-        ("planar", (96,), (0.05, 0.02, 0.01, 0.005)),
+        ("chain", (6, 12, 18, 24, 48), (0.05, 0.02, 0.01, 0.005, 0.002, 0.001)),
+        ("chain", (96,), (0.05, 0.02, 0.01, 0.005)),
         ("cable", (6, 12, 18, 24), (0.02, 0.01, 0.005)),
         ("cable", (48,), (0.02, 0.01)),
         ("rod", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005, 0.002)),
-        *(("planar", (12,), (0.005, 0.002, 0.001, 0.0005), name) for name in INTEGRATORS[1:]),
+        *(("chain", (12,), (0.005, 0.002, 0.001, 0.0005), name) for name in INTEGRATORS[1:]),
     ],
     COULOMB: [
-        ("planar", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005, 0.002, 0.001), *_USUAL),
-        *(("planar", (12, 24), (0.02, 0.01, 0.005, 0.002), "discrete", _ELLIPTIC, impratio)
+        ("chain", (6, 12, 18, 24, 48), (0.02, 0.01, 0.005, 0.002, 0.001), *_USUAL),
+        *(("chain", (12, 24), (0.02, 0.01, 0.005, 0.002), "discrete", _ELLIPTIC, impratio)
           for impratio in (1.0, 10.0, 1000.0)),
-        *(("planar", (12,), (0.01, 0.005, 0.002, 0.001), "discrete", _PYRAMIDAL, impratio)
+        *(("chain", (12,), (0.01, 0.005, 0.002, 0.001), "discrete", _PYRAMIDAL, impratio)
           for impratio in (1.0, Numerics.impratio)),
         *((body, (6, 12, 24), (0.01, 0.005, 0.002), *_USUAL) for body in ("cable", "rod")),
-        *(("planar", (12,), (0.002, 0.001, 0.0005), name, *_USUAL[1:])
+        *(("chain", (12,), (0.002, 0.001, 0.0005), name, *_USUAL[1:])
           for name in INTEGRATORS[1:]),
     ],
 }  # fmt: skip
 _QUICK: dict[str, list[Any]] = {
-    WALK: [("planar", (6, 12), (0.02, 0.01)), ("cable", (6,), (0.02,)), ("rod", (6,), (0.01,)),
-           ("planar", (6,), (0.01,), "Euler")],
-    COULOMB: [("planar", (6, 12), (0.02, 0.01), *_USUAL)],
+    WALK: [("chain", (6, 12), (0.02, 0.01)), ("cable", (6,), (0.02,)), ("rod", (6,), (0.01,)),
+           ("chain", (6,), (0.01,), "Euler")],
+    COULOMB: [("chain", (6, 12), (0.02, 0.01), *_USUAL)],
 }  # fmt: skip
 
 

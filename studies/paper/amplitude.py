@@ -63,7 +63,7 @@ def make() -> xr.Dataset:
         {
             "displacement": (("gamma", "solver", "pressure"), displacement),
             "height": (("gamma", "solver", "pressure"), height),
-            "planar": (("gamma", "quantity", "simulated_pressure"), np.swapaxes(simulated, 1, 2)),
+            "chain": (("gamma", "quantity", "simulated_pressure"), np.swapaxes(simulated, 1, 2)),
             "coarse": (("increments", "quantity", "pressure"), np.swapaxes(coarse, 1, 2)),
         },
         coords={"gamma": list(_GAMMAS), "solver": list(SOLVERS), "pressure": _PRESSURES,
@@ -87,7 +87,7 @@ def draw(data: xr.Dataset) -> Figure:
             left.plot(x, y, color=COLOURS[name], label=None if style else name, **style)
             if points.sizes["pressure"] < data.sizes["pressure"]:
                 left.plot(x[-1], y[-1], "x", color=COLOURS[name], markersize=7)
-        y, x = robot["planar"].values
+        y, x = robot["chain"].values
         left.plot(x, y, "o", color=SIMULATED, markersize=4, fillstyle="none" if style else "full",
                   label=None if style else "MuJoCo")  # fmt: skip
         left.annotate(f"Γ = {gamma:.3g}", (x[-1], y[-1]), xytext=(6, -14), fontsize=8,

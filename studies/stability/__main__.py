@@ -38,7 +38,7 @@ MAPS = {
 class Options:
     """Walk the default gait over grids of settings and of robots, and map how each walk came out.
 
-    planar, cable, rod: time step over links and over stiffness of that body, for each integrator,
+    chain, cable, rod: time step over links and over stiffness of that body, for each integrator,
     with the time step beyond which its highest mode is predicted to grow. robots: pressure over
     weight, where the reference's stable branch ends, where MuJoCo topples, how far the paper's
     modes lie below the ground, and what the solvers of the theory have to do. parameters: the error
@@ -49,7 +49,7 @@ class Options:
     """
 
     map: str = "all"
-    """planar, cable, rod, robots, parameters, or all"""
+    """chain, cable, rod, robots, parameters, or all"""
     out: Path = Path("docs")
     """folder for tables and figures"""
     fresh: bool = False

@@ -38,7 +38,7 @@ def highest_frequency(scene: Scene, numerics: Numerics, standing: bool = False) 
 
 
 def predicted_limit(
-    integrator: str, omega: float, damping_time: float, body: str = "planar"
+    integrator: str, omega: float, damping_time: float, body: str = "chain"
 ) -> float:
     """Largest stable time step of a mode, inf where there is none [s].
 

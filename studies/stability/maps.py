@@ -13,8 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from analytic import GAITS, SURFACES, ContactShapes, Prediction, Robot, direction, predict
-from analytic import Status as Shape
+from analytic import GAITS, SURFACES, ContactShapes, Flag, Prediction, Robot, direction, predict
 from analytic.scene import pneunet
 from mjsim.results.measures import measure
 from mjsim.results.status import Status
@@ -29,7 +28,7 @@ GROUND = "gelatin"
 LINKS = tuple(range(6, 73, 6))
 USUAL_LINKS = 12  # of the maps that do not vary them; chosen
 LONG = 20  # cycles that a walk must last, if its first is accurate
-CYCLES = {"planar": LONG, "cable": 1, "rod": 5}  # those are too slow for more everywhere
+CYCLES = {"chain": LONG, "cable": 1, "rod": 5}  # those are too slow for more everywhere
 
 
 def rounded(values: np.typing.ArrayLike) -> list[float]:
@@ -115,17 +114,17 @@ def robot_outcome(gamma: float, pressure: float) -> dict[str, Any]:
     failed = exact.shapes.status[exact.shapes.status != 0]
     reference = exact.locomotion.per_cycle / robot.length
     return {
-        "elastica": str(Shape(int(failed[0])).name).lower() if len(failed) else "ok",
-        "planar": outcome(Scene(robot, gait, surface), Numerics(), reference),
+        "elastica": str(Flag(int(failed[0])).name).lower() if len(failed) else "ok",
+        "chain": outcome(Scene(robot, gait, surface), Numerics(), reference),
         "sunk": -float(np.nanmin(height)) / robot.length,
-        "penetrating": _part(modes, Shape.PENETRATES),
+        "penetrating": _part(modes, Flag.PENETRATES),
         "newton": _iterations(exact),
         "exchanges": _iterations(obstacle),
-        "unconverged": _part(obstacle, Shape.NOT_CONVERGED),
+        "unconverged": _part(obstacle, Flag.NOT_CONVERGED),
     }
 
 
-def _part(walk: Prediction, flag: Shape) -> float:
+def _part(walk: Prediction, flag: Flag) -> float:
     """Part of the states that carry a flag."""
     return float(np.mean(walk.shapes.status & int(flag) > 0))
 

@@ -38,7 +38,7 @@ def varied(parameter: str, value: float, ground: str) -> dict[str, Any]:
         status: of the walk.
     """
     law = law_of(parameter)
-    scene, numerics = scene_of(law, ground), Numerics().resolved("planar", law)
+    scene, numerics = scene_of(law, ground), Numerics().resolved("chain", law)
     if parameter == "ramp_time":
         scene = replace(scene, gait=replace(scene.gait, ramp_time=value))
     elif parameter == "friction_number":
@@ -69,7 +69,7 @@ def variations(quick: bool = False) -> Iterator[tuple[str, float, str]]:
 def default(parameter: str) -> float:
     """Value of a parameter in the default walk."""
     law = law_of(parameter)
-    scene, numerics = scene_of(law, "felt"), Numerics().resolved("planar", law)
+    scene, numerics = scene_of(law, "felt"), Numerics().resolved("chain", law)
     if parameter == "friction_number":
         return _friction_number(scene)
     if parameter == "ramp_time":

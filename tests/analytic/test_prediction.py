@@ -2,7 +2,7 @@
 
 import pytest
 
-from analytic import GAITS, SOLVERS, SURFACES, Robot, Status, predict
+from analytic import GAITS, SOLVERS, SURFACES, Flag, Robot, predict
 
 
 def distance(solver, surface="felt", **options):
@@ -32,7 +32,7 @@ def test_the_solvers_agree_on_the_distance_as_far_as_small_slopes_go():
 def test_flags_tell_what_was_met_on_the_way():
     heavy = Robot(weight_per_length=2.0, chamber_height=4.1e-3, peak_pressure=70e3)
     walked = predict(heavy, GAITS["wave"], SURFACES["felt"])
-    assert walked.flags == Status.BRANCH_END
+    assert walked.flags == Flag.BRANCH_END
     assert walked.locomotion.per_cycle != walked.locomotion.per_cycle  # NaN
 
 

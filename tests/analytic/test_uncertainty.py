@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 from many_seeds import from_groups, modes
 
-from analytic import GAITS, SURFACES, Gait, Robot, Status, predict
+from analytic import GAITS, SURFACES, Flag, Gait, Robot, predict
 from analytic.uncertainty import UNSOUND, modes_error
 
 FINE = 1e-4  # of L: discretization of both solvers
@@ -35,7 +35,7 @@ def test_modes_without_a_root_have_no_bound():
     middle = ((0.0, 0.5, 0.0), (0.0, 1.0, 0.5), (0.0, 1.0, 1.0))  # found by chance
     gait = Gait("middle", ((0.0,) * 3, *middle, (0.0,) * 3))
     walk = predict(from_groups(25.4, 2.71, 0.0145), gait, SURFACES["felt"], "modes", 12, 1)
-    assert walk.flags & Status.NO_ROOT
+    assert walk.flags & Flag.NO_ROOT
     assert math.isinf(modes_error(walk))
 
 

@@ -15,7 +15,7 @@ from mjsim.commands import run, sweep
 from mjsim.files import plugins
 from mjsim.files.cli import BAD_INPUT
 from mjsim.fitting.walks import by_mujoco
-from mjsim.model.planar import Planar
+from mjsim.model.chain import Chain
 from mjsim.scene import Numerics, Scene, registry
 from mjsim.simulation.batch import Refused, simulate_all
 from mjsim.simulation.simulation import simulate
@@ -25,7 +25,7 @@ COARSE = Numerics(links=6, timestep=0.02)
 LAW = """
 from analytic.friction.laws import ConstantBounds, register
 from mjsim.scene import registry
-from mjsim.model.planar import Planar
+from mjsim.model.chain import Chain
 
 class Firm(ConstantBounds):
     name = "firm"
@@ -33,7 +33,7 @@ class Firm(ConstantBounds):
     def bound(self, surface, width, contact, load):
         return 2.0 * super().bound(surface, width, contact, load)
 
-class Heavy(Planar):
+class Heavy(Chain):
     name = "heavy"
 """
 REGISTERED = f"{LAW}\nregister(Firm())\nregistry.register(Heavy())\n"
@@ -51,7 +51,7 @@ class Halved(ConstantBounds):
         return self.factor * super().bound(surface, width, contact, load)
 
 
-class Twin(Planar):
+class Twin(Chain):
     name = "twin"
 
 

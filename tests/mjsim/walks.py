@@ -30,7 +30,7 @@ def walk(
     reverse: bool = False,
     cycles: int = 1,
     robot: Robot | None = None,
-    body: str = "planar",
+    body: str = "chain",
     friction: str = "constant",
     forces: bool = False,
     **changes: float | str,

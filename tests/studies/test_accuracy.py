@@ -28,7 +28,7 @@ def test_the_exact_tip_is_the_published_one():
     assert heavy_cantilever.exact() == pytest.approx((0.32218, -0.88079), abs=5e-5)
 
 
-@pytest.mark.parametrize("method", ["elastica", "planar", "cable", "stock cable"])
+@pytest.mark.parametrize("method", ["elastica", "chain", "cable", "stock cable"])
 def test_a_settled_strip_is_of_second_order_in_its_elements(method):
     if method == cantilever_bodies.STOCK and mujoco.mj_version() >= 4_000_000:
         pytest.skip("MuJoCo 4 has no composite cable")
@@ -45,18 +45,18 @@ def test_a_settled_strip_is_of_second_order_in_its_elements(method):
 def test_the_planar_chain_settles_where_the_elastica_of_as_many_links_does():
     theory = cantilever_bodies.run(Setting("elastica", 24))
     for integrator in ("discrete", "implicitfast"):
-        chain = cantilever_bodies.run(Setting("planar", 24, 0.01, integrator))
+        chain = cantilever_bodies.run(Setting("chain", 24, 0.01, integrator))
         assert chain.error == pytest.approx(theory.error, rel=1e-3)
 
 
 def test_a_strip_that_cannot_settle_is_no_number():
-    row = cantilever_bodies.run(Setting("planar", 24, 0.01, "RK4"))
+    row = cantilever_bodies.run(Setting("chain", 24, 0.01, "RK4"))
     assert row.status == "diverged"
     assert math.isnan(row.error)
 
 
 def some_row(**changes):
-    row = Row("walk", "felt", "planar", "discrete", "", 0.0, 24, 0.01, 0.0411, 0.0418, 0.0157,
+    row = Row("walk", "felt", "chain", "discrete", "", 0.0, 24, 0.01, 0.0411, 0.0418, 0.0157,
               2e-3, 2e-3, 2e-3, "ok", "a machine", "mujoco=3.17.0", "abc")  # fmt: skip
     return replace(row, **changes)
 
@@ -101,7 +101,7 @@ def test_nothing_is_both_cheaper_and_more_accurate_than_a_point_of_the_front(dra
 
 def test_the_committed_rows_say_where_they_are_from_and_hold_every_method():
     rows = read()
-    assert {"planar", "cable", "rod", "stock cable", "modes", "elastica"} <= {
+    assert {"chain", "cable", "rod", "stock cable", "modes", "elastica"} <= {
         row.method for row in rows
     }
     assert all(row.machine and "=" in row.versions and row.commit for row in rows)
@@ -116,7 +116,7 @@ def test_the_error_of_a_slow_walk_is_of_second_order_in_the_links(case):
     errors = []
     for links in (6, 12, 24):
         cone = ("elliptic", 1000.0) if case == COULOMB else ()
-        row = walking.run(case, "gelatin", Setting("planar", links, 0.005, "discrete", *cone))
+        row = walking.run(case, "gelatin", Setting("chain", links, 0.005, "discrete", *cone))
         errors.append(row.error)
     assert errors[0] / errors[1] > 3
     assert errors[1] < 0.011
@@ -130,7 +130,7 @@ def test_nothing_is_both_cheaper_and_more_accurate_than_the_default():
         usual = next(row for row in rows if figure.is_default(row))
         assert usual.error < 0.002
         like = [row.error for row in rows
-                if (row.method, row.integrator, row.links) == ("planar", "discrete", usual.links)
+                if (row.method, row.integrator, row.links) == ("chain", "discrete", usual.links)
                 and row.timestep <= 2 * usual.timestep]  # fmt: skip
         scatter = max(like) - min(like)
         assert scatter < 0.005
@@ -142,7 +142,7 @@ def test_engines_that_share_no_code_agree_with_the_elastica_on_the_distance():
     for row in read():
         if row.case == COULOMB and row.status == "ok":
             best[row.method] = min(best.get(row.method, math.inf), row.error)
-    assert max(best[name] for name in ("planar", "cable", "Drake", "PyElastica")) < 0.01
+    assert max(best[name] for name in ("chain", "cable", "Drake", "PyElastica")) < 0.01
 
 
 @pytest.mark.slow
@@ -150,7 +150,7 @@ def test_the_command_picks_a_body(tmp_path, capsys):
     words = ["--body", "auto", "--tolerance", "0.05", "--json", "--no-video"]
     assert run.main([*words, "--surface", "gelatin", "--out", str(tmp_path)]) == 0
     row, choice = json.loads(capsys.readouterr().out), next(ladder(Scene()))
-    assert row["body"] == "planar"
+    assert row["body"] == "chain"
     assert row["links"] >= choice.links
     assert row["timestep_s"] < choice.timestep  # the second of two that agree
     (note,) = row["prediction_notes"]
@@ -160,7 +160,7 @@ def test_the_command_picks_a_body(tmp_path, capsys):
 
 @pytest.mark.parametrize(
     ("words", "named"),
-    [(["--tolerance", "0.1"], "planar"), (["--body", "auto", "--links", "12"], "links"),
+    [(["--tolerance", "0.1"], "chain"), (["--body", "auto", "--links", "12"], "links"),
      (["--body", "auto", "--tolerance", "1e-9"], "1e-09"),
      (["--body", "auto", "--tolerance", "nan"], "nan"),
      (["--body", "auto", "--friction", "coulomb"], "coulomb")],

@@ -27,7 +27,7 @@ def skip_what_mujoco_refuses(body, integrator):
         pytest.skip("MuJoCo 4 takes no rod under implicit and implicitfast")
 
 
-def measured_limit(integrator, links, damping_time, body="planar"):
+def measured_limit(integrator, links, damping_time, body="chain"):
     """Largest time step at which a strip free of ground and weight stays finite [s], to 5 %."""
     # Coulomb's: no dry friction on the ends
     scene = Scene(friction="coulomb", ground=SURFACES["gelatin"], body=body)
@@ -58,7 +58,7 @@ def measured_limit(integrator, links, damping_time, body="planar"):
 
 @pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "implicit", "RK4"])
 @pytest.mark.parametrize("damping", [UNDAMPED, Numerics().damping_time])
-@pytest.mark.parametrize(("body", "links"), [("planar", 12), ("cable", 12), ("rod", 6)])
+@pytest.mark.parametrize(("body", "links"), [("chain", 12), ("cable", 12), ("rod", 6)])
 def test_a_body_diverges_where_its_highest_mode_is_predicted_to(body, links, integrator, damping):
     skip_what_mujoco_refuses(body, integrator)
     numerics = Numerics(links=links, damping_time=damping).resolved(body, "constant")
@@ -68,7 +68,7 @@ def test_a_body_diverges_where_its_highest_mode_is_predicted_to(body, links, int
 
 
 def test_without_damping_that_is_2_over_omega_max():
-    omega = highest_frequency(Scene(), Numerics(links=12).resolved("planar", "constant"))
+    omega = highest_frequency(Scene(), Numerics(links=12).resolved("chain", "constant"))
     assert predicted_limit("Euler", omega, 0.0) == pytest.approx(2 / omega)
     assert measured_limit("Euler", 12, UNDAMPED) == pytest.approx(2 / omega, rel=0.1)
 
@@ -80,14 +80,14 @@ def test_the_discrete_integrator_has_no_limit(body):
 
 def test_twice_the_links_have_four_times_the_highest_frequency():
     low, high = (
-        highest_frequency(Scene(), Numerics(links=n).resolved("planar", "constant"))
+        highest_frequency(Scene(), Numerics(links=n).resolved("chain", "constant"))
         for n in (12, 24)
     )
     assert high == pytest.approx(4 * low, rel=0.01)
 
 
 def test_stiffness_raises_frequencies_by_its_root():
-    numerics = Numerics(links=12).resolved("planar", "constant")
+    numerics = Numerics(links=12).resolved("chain", "constant")
     soft, stiff = (highest_frequency(stiffened(f), numerics) for f in (1.0, 100.0))
     assert stiff == pytest.approx(10 * soft, rel=1e-6)
 
@@ -97,11 +97,11 @@ FAILED = {"diverged", "toppled"}
 
 @pytest.mark.parametrize(
     ("body", "integrator", "links", "timestep", "expected"),
-    [("planar", "discrete", 12, 0.02, {"accurate"}),
-     ("planar", "discrete", 6, 0.1, {"accurate", "drifting"}),
-     ("planar", "RK4", 12, 0.002, FAILED), ("planar", "Euler", 24, 0.02, FAILED),
-     ("planar", "Euler", 12, 0.005, {"drifting", "wrong direction", *FAILED}),
-     ("planar", "implicitfast", 12, 0.02, FAILED), ("planar", "implicit", 12, 0.02, FAILED),
+    [("chain", "discrete", 12, 0.02, {"accurate"}),
+     ("chain", "discrete", 6, 0.1, {"accurate", "drifting"}),
+     ("chain", "RK4", 12, 0.002, FAILED), ("chain", "Euler", 24, 0.02, FAILED),
+     ("chain", "Euler", 12, 0.005, {"drifting", "wrong direction", *FAILED}),
+     ("chain", "implicitfast", 12, 0.02, FAILED), ("chain", "implicit", 12, 0.02, FAILED),
      ("cable", "discrete", 12, 0.005, {"accurate", "drifting"}),
      ("cable", "Euler", 12, 0.02, FAILED),
      ("cable", "RK4", 12, 0.002, FAILED),
@@ -115,10 +115,10 @@ def test_walks_fail_as_the_map_says(body, integrator, links, timestep, expected)
 
 
 def test_a_walk_that_is_accurate_stays_so_for_20_cycles():
-    assert walked("planar", "discrete", 12, 0.02, cycles=20) == {"outcome": "accurate"}
+    assert walked("chain", "discrete", 12, 0.02, cycles=20) == {"outcome": "accurate"}
 
 
-@pytest.mark.parametrize("body", ["planar", "cable"])
+@pytest.mark.parametrize("body", ["chain", "cable"])
 def test_a_walk_diverges_where_the_strip_on_its_ends_is_predicted_to(body):
     """Within a factor of 1.5 either way; its light end links are what is fast, and they stand."""
     numerics = Numerics(links=6).resolved(body, "constant")
@@ -150,16 +150,16 @@ def test_what_is_accurate_is_so_by_the_written_bound():
 @pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "RK4"])
 def test_a_walk_that_diverges_is_never_called_ok(integrator):
     """Left alone, MuJoCo starts anew from its first state, which looks like a robot at rest."""
-    numerics = Setting("planar", 24, 0.05, integrator).numerics()
+    numerics = Setting("chain", 24, 0.05, integrator).numerics()
     assert simulate(Scene(), numerics).status in (Status.DIVERGED, Status.TOPPLED)
 
 
 def test_a_heavier_robot_stands_at_55_kilopascals_and_not_at_85():
     """Either side of the end of the stable branch, by theory and in MuJoCo."""
     low, high = (robot_outcome(11.44, pressure) for pressure in (55e3, 85e3))
-    assert (low["elastica"], low["planar"]) == ("ok", "accurate")
+    assert (low["elastica"], low["chain"]) == ("ok", "accurate")
     assert high["elastica"] in ("branch_end", "rolled_up")
-    assert high["planar"] == "toppled"
+    assert high["chain"] == "toppled"
 
 
 def test_the_paper_s_modes_sink_where_the_robot_is_heavy():

@@ -19,7 +19,7 @@ from analytic.scene.ground import check_adhesion
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground
-from analytic.shapes import ContactShapes, Status
+from analytic.shapes import ContactShapes, Flag
 from analytic.solvers.elastica.continuation import follow
 from analytic.solvers.elastica.newton import Chain
 from analytic.solvers.elastica.state import ChainState
@@ -124,7 +124,7 @@ class _Point(NamedTuple):
     """
 
     state: ChainState
-    status: Status
+    status: Flag
     iterations: int = 0
     residual: float = np.nan
     contacts: tuple[object, ...] | None = None
@@ -151,9 +151,9 @@ class _Branch:
     def step(self, pressure: Array, duration: float) -> _Point:
         """The state at the next pressure (S,) [Pa], so long after the one before [s]."""
         if self._ended:
-            return _Point(self._missing, Status.BRANCH_END)
+            return _Point(self._missing, Flag.BRANCH_END)
         chain, (_, before) = self._chain, self._path[-1]
-        steps, status = chain.iterations, Status.OK
+        steps, status = chain.iterations, Flag.OK
         chain.load_at(pressure)
         state = self._near(before, duration, self._extrapolated(pressure))
         state = state or self._in_smaller_steps(pressure, duration)
@@ -161,14 +161,14 @@ class _Branch:
             chain.load_at(pressure)
             state = self._damped(before)
             if state and _apart(state, before) > _JUMP:
-                status = Status.JUMPED
+                status = Flag.JUMPED
         steps = chain.iterations - steps
         if state is None:
             self._ended = True
-            return _Point(self._missing, Status.BRANCH_END, steps)
+            return _Point(self._missing, Flag.BRANCH_END, steps)
         self._path.append((pressure, state))
         if _rolled_up(state) and not self._may_curl:
-            return _Point(self._missing, Status.ROLLED_UP, steps)
+            return _Point(self._missing, Flag.ROLLED_UP, steps)
         contacts = self._traction.signature() if self._traction else None
         return _Point(state, status, steps, chain.residual(state), contacts)
 

@@ -13,8 +13,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_length, may_lie_flat
+from analytic.friction.contact_length import flat_length, length_between, may_lie_flat
 from analytic.friction.contact_length import ripple as strip_ripple
+from analytic.friction.contacts import POINT
 from analytic.friction.laws import LAWS
 from analytic.scene.ground import check_for_limbs, surfaces_of
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb
@@ -121,21 +122,35 @@ class Contacts:
                     state.reached.add(joint)
                 if contact.length >= length * (1 - _WHOLE):
                     state.passed[joint] = state.passed.get(joint, 0.0) + surplus
-        if at_tip and carrier is not None:
+        several = len(limb.strip.segments) > 1
+        if at_tip and carrier is not None and not several:
             return contacts
         # a joint belongs to the limb that is flat there, and else to the carrier
         if (i, "begin") in state.reached or carrier is not None:
             low = max(low, near)
         if (i, "end") in state.reached:
             high = min(high, length - near)
-        load = moment = 0.0
-        for push, place in zip(state.force[i], limb.arclength, strict=True):
-            if push > self._least and low < place < high:
-                load += push
-                moment += push * place
-        if load:  # an underside that touches, no end: a side of nearly no length, where it pushes
-            contacts.append(Contact(i, _SHORT * length, (moment / load,), load))
+        inner = [
+            (place, push) for push, place in zip(state.force[i], limb.arclength, strict=True)
+            if push > self._least and low < place < high
+        ]  # fmt: skip
+        if inner:
+            contacts.append(self._underside(i, inner))
         return contacts
+
+    def _underside(self, i: int, inner: list[tuple[float, float]]) -> Contact:
+        """The contact of an underside between the ends, from places [m] and pushes [N].
+
+        Of one segment it has nearly no length, since pressure or weight alone bends all of it; of
+        several it lies flat as that of a strip, see analytic.friction.contacts.
+        """
+        strip, load = self._limbs[i].strip, sum(push for _, push in inner)
+        at, length = sum(place * push for place, push in inner) / load, _SHORT * strip.length
+        if len(strip.segments) > 1:
+            places, push = zip(*inner, strict=True)
+            flat = len(inner) > POINT
+            length = length_between(strip.weight_per_length, places, push) if flat else 0.0
+        return Contact(i, length, (at,), load)
 
     def _at_end(self, state: "_State", i: int, end: str) -> tuple[Contact | None, float]:
         """The contact that begins at an end of a limb, and the force that it passes on [N]."""
@@ -157,7 +172,8 @@ class Contacts:
             if end not in limb.free:
                 return None, 0.0
             # bent by pressure it stands on its tip alone; only a trunk may have two
-            return Contact(i, 0.0, (tip,), total if limb.carrier is None else sum(force)), 0.0
+            alone = limb.carrier is not None and len(strip.segments) == 1
+            return Contact(i, 0.0, (tip,), sum(force) if alone else total), 0.0
         if whole and limb.carrier is not None:
             # limb and carrier share a joint, and which of them the ground pushes there is open
             carrier, ahead = limb.carrier, 1 if limb.at == "begin" else -1

@@ -6,7 +6,7 @@ from numpy.typing import ArrayLike, NDArray
 from analytic.scene import pneunet
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
-from analytic.shapes import Shapes, Status
+from analytic.shapes import Flag, Shapes
 from analytic.solvers.modes import beam
 from analytic.solvers.modes.beam import SEGMENTS
 from analytic.solvers.modes.liftoff import lift_off
@@ -49,13 +49,13 @@ def solve_modes(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
     lowest, highest = beam.extremes(lifted)
     # an end that lies flat has slope 0 there, so this looks at the ends in point contact only
     sinking = np.maximum(-lifted.slope[:, 0], lifted.slope_b) > _TOLERANCE
-    status |= np.where(~flat & sinking, Status.BOTH_FLAT, 0)
-    status |= np.where(~flat & (lowest < -_TOLERANCE), Status.PENETRATES, 0)
+    status |= np.where(~flat & sinking, Flag.BOTH_FLAT, 0)
+    status |= np.where(~flat & (lowest < -_TOLERANCE), Flag.PENETRATES, 0)
     on_ground = np.maximum(0.0, a[:, None] - beam.EDGES[:-1])
     on_ground = np.maximum(on_ground, beam.EDGES[1:] - b[:, None]) > _TOLERANCE
-    status |= np.where(~flat & (on_ground & (k > _FLAT)).any(axis=1), Status.HELD_FLAT, 0)
+    status |= np.where(~flat & (on_ground & (k > _FLAT)).any(axis=1), Flag.HELD_FLAT, 0)
 
-    scale = robot.length * np.where(status & Status.NO_ROOT, np.nan, 1.0)
+    scale = robot.length * np.where(status & Flag.NO_ROOT, np.nan, 1.0)
     shortened = beam.shortening(lifted, np.ones(1))[:, 0]
     return Shapes(
         robot=robot,
@@ -71,15 +71,15 @@ def solve_modes(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
 def _lifted_part(k: Array, g: Array, up: Mask) -> tuple[Array, Array, NDArray[np.int_]]:
     """Ends a, b of the lifted part of strips, `up` or flat, and the status of the search for it."""
     a, b = np.zeros(len(k)), np.ones(len(k))
-    status = np.full(len(k), Status.OK, dtype=int)
+    status = np.full(len(k), Flag.OK, dtype=int)
     tip = beam.lift(k, g, a, b)
     into_left, into_right = -tip.slope[:, 0], tip.slope_b
     lies = (np.maximum(into_left, into_right) > 0) & up
     left = lies & (into_left >= into_right - _TOLERANCE)
     for side, order in ((left, 1), (lies & ~left, -1)):
         point = lift_off(k[side, ::order], g[side, ::order])
-        status[side] |= np.where(point.roots == 0, Status.NO_ROOT, 0)
-        status[side] |= np.where(point.roots > 1, Status.SEVERAL_ROOTS, 0)
+        status[side] |= np.where(point.roots == 0, Flag.NO_ROOT, 0)
+        status[side] |= np.where(point.roots > 1, Flag.SEVERAL_ROOTS, 0)
         xi = np.nan_to_num(point.xi, nan=0.0)
         if order == 1:
             a[side] = xi

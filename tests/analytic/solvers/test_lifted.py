@@ -8,8 +8,8 @@ from strategies import batches, robot_from_groups, robots
 
 from analytic import (
     GAITS,
+    Flag,
     Robot,
-    Status,
     solve_elastica,
     solve_lifted,
     solve_modes,
@@ -28,7 +28,7 @@ def random_robots(count, seed=7):
 
 
 def sound(shapes):
-    return (shapes.status & int(UNSOUND | Status.NOT_CONVERGED)) == 0
+    return (shapes.status & int(UNSOUND | Flag.NOT_CONVERGED)) == 0
 
 
 def test_the_distance_is_the_elastica_s_within_a_percent_beyond_its_bound():

@@ -9,9 +9,9 @@ from strategies import batches, robots
 from analytic import (
     GAITS,
     SURFACES,
+    Flag,
     Mode,
     Robot,
-    Status,
     displacements,
     solve_modes,
     solve_obstacle,
@@ -19,7 +19,7 @@ from analytic import (
 from analytic.scene import pneunet
 
 # what the modes cannot have: contact elsewhere, two flat ends, moments that nothing carries
-BROKEN = ~np.int64(Status.OK)
+BROKEN = ~np.int64(Flag.OK)
 
 
 def random_states(count=200):
@@ -36,7 +36,7 @@ def test_contact_conditions_hold_to_1e_9_at_any_state():
     modes = set()
     for robot, pressures in random_states():
         shapes = solve_obstacle(robot, pressures)
-        assert (shapes.status == Status.OK).all()
+        assert (shapes.status == Flag.OK).all()
         assert shapes.residual.max() < 1e-9
         weight = robot.weight_per_length * robot.length
         height = shapes.curve(shapes.nodes)[1]

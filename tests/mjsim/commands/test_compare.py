@@ -31,7 +31,7 @@ def test_mujoco_goes_the_way_the_elastica_predicts(surface, gait, reverse, part)
     robot = replace(Robot(), peak_pressure=part * Robot().peak_pressure)
     stages = GAITS[gait].reversed() if reverse else GAITS[gait]
     scene = Scene(robot, stages, SURFACES[surface])
-    theory, planar = compare(scene, ["elastica", "planar"])
+    theory, planar = compare(scene, ["elastica", "chain"])
     assert theory["status"] == planar["status"] == "ok"
     assert planar["difference_over_L"] == pytest.approx(0, abs=0.005)
     if abs(theory["displacement_over_L"]) > STANDSTILL + theory["uncertainty_over_L"]:
@@ -60,7 +60,7 @@ def test_a_model_without_an_answer_says_why(capsys):
 @pytest.mark.parametrize(
     ("words", "valid"),
     [(["--surface", "ice"], "felt"), (["--gait", "wave,trot"], "pulse"),
-     (["--model", "string"], "planar"), (["--pressure", "1e9"], "128881"),
+     (["--model", "string"], "chain"), (["--pressure", "1e9"], "128881"),
      (["--pressure", "-1"], "positive")],
 )  # fmt: skip
 def test_bad_input_gets_one_line_and_exit_2(capsys, words, valid):

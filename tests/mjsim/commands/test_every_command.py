@@ -136,14 +136,14 @@ def test_the_walk_of_run_is_that_of_simulate_and_is_read_back(case):
     assert again.displacement == pytest.approx(numbers.displacement, abs=EQUAL)
     assert again.turn == pytest.approx(numbers.turn, abs=EQUAL)
     assert row["prediction_uncertainty_over_L"] > 0
-    assert row["body"] == "planar"
+    assert row["body"] == "chain"
 
 
 def test_compare_prints_the_distances_of_run(case, capsys):
     row, by = case.row, case.row["predicted_by"]
-    table = said(compare, ["--scene", case.path, "--model", f"{by},planar"], capsys)
+    table = said(compare, ["--scene", case.path, "--model", f"{by},chain"], capsys)
     by_model = {line["model"]: line for line in table["rows"]}
-    for model, key in (("planar", "displacement_over_L"),
+    for model, key in (("chain", "displacement_over_L"),
                        (table["reference"], "predicted_displacement_over_L")):  # fmt: skip
         assert by_model[model]["displacement_over_L"] == pytest.approx(row[key], abs=EQUAL)
     bar = row["prediction_uncertainty_over_L"]

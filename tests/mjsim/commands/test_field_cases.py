@@ -271,7 +271,7 @@ def test_one_bad_scene_of_many_is_a_row_with_its_message():
     one, two, three = simulate_all(scenes, Numerics(links=6))
     assert one.status == three.status == Status.OK
     assert isinstance(two, Refused)
-    assert "for body planar" in two.message
+    assert "for body chain" in two.message
 
 
 @pytest.mark.slow

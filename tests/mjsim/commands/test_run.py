@@ -80,7 +80,7 @@ BAD = [
     (["--slope", "90"], "90 degrees", "less steep"),
     (["--numerics.integrator", "euler"], "'euler'", "Euler"),
     (["--friction", "wet"], "'wet'", "constant"),
-    (["--body", "snake"], "'snake'", "planar"),
+    (["--body", "snake"], "'snake'", "chain"),
     (["--flavour", "x"], "--flavour", "--help"),
     (["--cycles"], "--cycles", "--help"),
 ]

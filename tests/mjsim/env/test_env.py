@@ -198,7 +198,7 @@ def test_without_dm_control_one_line_says_why(monkeypatch):
         ({"duration": -1.0}, "duration must be a positive"),
         ({"randomise": {"robot.colour": (0, 1)}}, "key 'colour'"),
         ({"randomise": {"robot.length": (1,)}}, "range of robot.length must be two numbers"),
-        ({"base": {"numerics": {"body": "rod"}}}, "environments are of body planar"),
+        ({"base": {"numerics": {"body": "rod"}}}, "environments are of body chain"),
     ],
 )
 def test_bad_settings_are_named(settings, words):

@@ -23,7 +23,7 @@ parts = st.floats(0.0, 0.4).map(lambda part: part * SCENE.robot.length)
 
 
 def resolved(links=24, friction="constant", **more):
-    return Numerics(links=links, **more).resolved("planar", friction)
+    return Numerics(links=links, **more).resolved("chain", friction)
 
 
 MODELS = {n: compile_model(SCENE, resolved(n)) for n in (12, 24, 48)}

@@ -31,7 +31,7 @@ def small(body, friction="constant"):
 def test_the_cable_goes_as_far_as_the_planar_chain(surface):
     """The same rigid links and springs: what differs is MuJoCo's joints, pads and solver."""
     planar, cable = (measured(surface, links=12, body=body, timestep=0.002)
-                     for body in ("planar", "cable"))  # fmt: skip
+                     for body in ("chain", "cable"))  # fmt: skip
     assert cable.displacement == pytest.approx(planar.displacement, abs=5e-4)
     assert cable.amplitude == pytest.approx(planar.amplitude, abs=1e-3)
 
@@ -161,7 +161,7 @@ def test_cable_and_rod_are_held_between_their_ends_too():
     assert scene.between
     planar, cable, rod = (
         measure(simulation.simulate(replace(scene, body=body), Numerics(links=30))).displacement
-        for body in ("planar", "cable", "rod")
+        for body in ("chain", "cable", "rod")
     )
     assert cable == pytest.approx(planar, abs=5e-4)
     assert rod == pytest.approx(planar, abs=1e-3)

@@ -72,7 +72,7 @@ def test_chambers_follow_a_step_of_the_valve_exponentially():
 
 def test_mujoco_s_filters_hold_the_pressure_and_its_square():
     scene = replace(BASE, valves=Valves(0.2), actuation="actuators", friction="coulomb")
-    numerics = Numerics(links=6).resolved("planar", "coulomb")
+    numerics = Numerics(links=6).resolved("chain", "coulomb")
     model = compile_model(scene, numerics)
     data = mujoco.MjData(model)
     rest, time = np.zeros(3), np.arange(1, 401) * numerics.timestep

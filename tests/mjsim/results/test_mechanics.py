@@ -14,8 +14,8 @@ from mjsim.scene import Scene
 from mjsim.simulation.simulation import simulate
 
 EVERY = [
-    ("gelatin", "planar", "constant"), ("felt", "planar", "constant"),
-    ("gelatin", "cable", "constant"), ("felt", "rod", "constant"), ("gelatin", "planar", "coulomb"),
+    ("gelatin", "chain", "constant"), ("felt", "chain", "constant"),
+    ("gelatin", "cable", "constant"), ("felt", "rod", "constant"), ("gelatin", "chain", "coulomb"),
 ]  # fmt: skip
 
 
@@ -24,7 +24,7 @@ def weights(result):
     return robot.weight_per_length * link_lengths(robot, result.numerics.links)
 
 
-def recorded(surface, body="planar", friction="constant"):
+def recorded(surface, body="chain", friction="constant"):
     return walk(surface, body=body, friction=friction, forces=True)
 
 

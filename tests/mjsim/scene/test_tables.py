@@ -150,9 +150,9 @@ def test_a_long_robot_that_never_closes_is_no_circle():
 def test_classic_integrators_get_contacts_that_they_can_bear():
     """As soft as two of their steps, and never harder than those of 5 ms steps."""
     for integrator in ("Euler", "implicitfast", "implicit", "RK4"):
-        numerics = Numerics(integrator=integrator, timestep=1e-3).resolved("planar", "constant")
+        numerics = Numerics(integrator=integrator, timestep=1e-3).resolved("chain", "constant")
         assert numerics.contact_time * numerics.timestep == pytest.approx(0.005)
-        coarse = Numerics(integrator=integrator, timestep=0.01).resolved("planar", "constant")
+        coarse = Numerics(integrator=integrator, timestep=0.01).resolved("chain", "constant")
         assert coarse.contact_time == 2.0
-    given = Numerics(integrator="Euler", contact_time=7.0).resolved("planar", "constant")
+    given = Numerics(integrator="Euler", contact_time=7.0).resolved("chain", "constant")
     assert given.contact_time == 7.0

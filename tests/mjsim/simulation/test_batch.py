@@ -57,7 +57,7 @@ def test_side_by_side_every_scene_walks_as_it_does_alone(slope):
 
 
 def test_models_of_one_layout_differ_in_the_fields_that_rows_have_and_in_no_other():
-    robot, numerics = Robot(), COARSE.resolved("planar", "constant")
+    robot, numerics = Robot(), COARSE.resolved("chain", "constant")
     one = bare_model(Scene(), numerics)
     others = [
         Scene(replace(robot, length=0.1, width=0.02, modulus=1.3e6)),
@@ -96,7 +96,7 @@ def test_a_strip_that_falls_stops_there_and_the_others_walk_on():
 
 
 def test_a_row_can_be_given_another_scene():
-    numerics = COARSE.resolved("planar", "constant")
+    numerics = COARSE.resolved("chain", "constant")
     strips = Strips([Scene(), Scene()], numerics)
     other = Scene(replace(Robot(), length=0.1), ground=SURFACES["gelatin"])
     strips.reset(np.array([1]), [other])
@@ -108,8 +108,8 @@ def test_a_row_can_be_given_another_scene():
 
 
 def test_scenes_of_other_kinds_are_refused_in_one_line():
-    numerics = COARSE.resolved("planar", "constant")
-    with pytest.raises(ValueError, match="body, friction and actuation must be planar"):
+    numerics = COARSE.resolved("chain", "constant")
+    with pytest.raises(ValueError, match="body, friction and actuation must be chain"):
         Strips([Scene(friction="coulomb")], numerics)
     with pytest.raises(ValueError, match="one layout"):
         Strips([Scene(), Scene(settle_time=1.0)], numerics)

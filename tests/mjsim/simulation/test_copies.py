@@ -9,7 +9,7 @@ import pytest
 from analytic.friction.laws import ConstantBounds, register
 from analytic.scene.limbs import quadruped
 from analytic.scene.surface import SURFACES
-from mjsim.model.planar import Planar
+from mjsim.model.chain import Chain
 from mjsim.scene import Numerics, Scene, registry
 from mjsim.simulation.schedule import walking
 from mjsim.simulation.simulation import Simulation
@@ -133,7 +133,7 @@ class Own:
         self.set(0, self.data.qpos[0] - distance)
 
 
-class OwnBody(Planar):
+class OwnBody(Chain):
     name = "own"
 
     def bind(self, model, data, scene, numerics):

@@ -8,7 +8,7 @@ import pytest
 
 from analytic import GAITS, LAWS, SURFACES, Elastica, Patches, Robot, Surface, predict
 from analytic.friction import laws as laws
-from mjsim.model.planar import Planar
+from mjsim.model.chain import Chain
 from mjsim.model.standalone import write
 from mjsim.results.measures import measure
 from mjsim.results.status import Status
@@ -16,7 +16,7 @@ from mjsim.scene import Numerics, Scene, registry
 from mjsim.simulation.simulation import Simulation, simulate
 
 
-class Twin(Planar):
+class Twin(Chain):
     """The planar body with links of twice the inertia: alike, where inertia is none."""
 
     name = "twin"
@@ -80,9 +80,9 @@ def displacement(scene, numerics=None):
 
 def test_a_body_of_ones_own_walks_by_its_name():
     registry.register(Twin())
-    twin, planar = (displacement(Scene(body=body)) for body in ("twin", "planar"))
+    twin, planar = (displacement(Scene(body=body)) for body in ("twin", "chain"))
     assert twin == pytest.approx(planar, abs=2e-4)
-    with pytest.raises(ValueError, match="planar, cable, rod, twin; got 'triplet'"):
+    with pytest.raises(ValueError, match="chain, cable, rod, twin; got 'triplet'"):
         Scene(body="triplet")
 
 

@@ -6,13 +6,13 @@ import pytest
 from analytic.scene.limbs import quadruped
 from analytic.scene.robot import Robot
 from mjsim.model.builder import compile_model
-from mjsim.model.planar import Planar
+from mjsim.model.chain import Chain
 from mjsim.scene import Numerics, Scene, registry
 from mjsim.simulation.simulation import Simulation
 
 
-class Damped(Planar):
-    """Planar, with hinges that are damped more, by a factor that `bind` puts on what it finds."""
+class Damped(Chain):
+    """Chain, with hinges that are damped more, by a factor that `bind` puts on what it finds."""
 
     name = "damped"
 

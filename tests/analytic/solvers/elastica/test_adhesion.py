@@ -8,10 +8,10 @@ import pytest
 from analytic import (
     GAITS,
     SURFACES,
+    Flag,
     Friction,
     Patches,
     Robot,
-    Status,
     Surface,
     predict,
     solve_elastica,
@@ -82,7 +82,7 @@ def test_the_stickier_the_farther_either_way():
 
 def test_it_may_hold_an_inflated_end_flat_at_full_pressure():
     _, shapes = inflated_end(4.0, 1e-3)
-    assert shapes.status.max() == Status.OK
+    assert shapes.status.max() == Flag.OK
     assert shapes.amplitude.max() < 1e-3
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_bvp
 
-from analytic import GAITS, SURFACES, Friction, Gait, Robot, Status, predict, solve_elastica
+from analytic import GAITS, SURFACES, Flag, Friction, Gait, Robot, predict, solve_elastica
 from analytic.friction.laws import slip_fraction
 from analytic.locomotion import undecided
 from analytic.scene import pneunet
@@ -102,7 +102,7 @@ def test_where_the_ground_cannot_hold_the_weight_there_is_no_number():
     steep = Friction(tension=1.0, slope=0.3)
     assert steep.downhill(ROBOT) > 2 * GROUND.tip_force
     found = predict(ROBOT, GAITS["wave"], GROUND, friction=steep)
-    assert Status.BRANCH_END in found.flags
+    assert Flag.BRANCH_END in found.flags
     assert np.isnan(found.locomotion.per_cycle)
 
 

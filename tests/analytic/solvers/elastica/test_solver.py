@@ -11,10 +11,10 @@ from strategies import batches, groups, robot_from_groups, robots
 from analytic import (
     GAITS,
     SURFACES,
+    Flag,
     Friction,
     Mode,
     Robot,
-    Status,
     displacements,
     solve_elastica,
     solve_modes,
@@ -114,7 +114,7 @@ def test_the_distance_converges_at_second_order_in_links():
 def test_residuals_of_contact_and_balance_are_rounding():
     for gait in GAITS:
         shapes = along(gait)
-        assert (shapes.status == Status.OK).all()
+        assert (shapes.status == Flag.OK).all()
         assert shapes.residual.max() < 1e-9
         weight = Robot().weight_per_length * Robot().length
         assert np.allclose(shapes.force.sum(axis=1), weight)
@@ -165,7 +165,7 @@ def test_the_lift_off_point_is_the_closed_form_s_at_small_slopes():
     robot = Robot(weight_per_length=2 * small, peak_pressure=small * Robot().peak_pressure)
     p = np.linspace(0.3, 1, 8)[:, None] * np.array([1.0, 0, 0]) * robot.peak_pressure
     exact, found = solve_modes(robot, p), solve_elastica(robot, p, links=240)
-    assert (exact.status == Status.OK).all()
+    assert (exact.status == Flag.OK).all()
     assert (exact.contact_right > 0).all()
     assert np.abs(found.contact_right - exact.contact_right).max() < 0.003 * robot.length
     assert (found.contact_left == 0).all()
@@ -200,7 +200,7 @@ def test_no_feasible_shape_nearby_has_less_energy(fraction):
 def test_past_its_stable_branch_it_says_so_and_gives_no_number():
     robot = replace(HEAVIER, peak_pressure=70e3)
     shapes = along("wave", robot)
-    lost = shapes.status == Status.BRANCH_END
+    lost = shapes.status == Flag.BRANCH_END
     first = int(np.argmax(lost))
     assert 50 < first < 150  # on the second ramp, as the middle segment inflates
     assert lost[first:].all()
@@ -213,10 +213,10 @@ def test_past_its_stable_branch_it_says_so_and_gives_no_number():
 def test_an_end_that_curls_off_the_ground_is_called_rolled_up():
     robot = replace(HEAVIER, peak_pressure=75e3, weight_per_length=2 / 3)
     shapes = along("wave", robot)
-    rolled = shapes.status == Status.ROLLED_UP
+    rolled = shapes.status == Flag.ROLLED_UP
     assert rolled.any()
     assert np.isnan(shapes.separation[rolled]).all()
-    assert np.isfinite(shapes.separation[shapes.status == Status.OK]).all()
+    assert np.isfinite(shapes.separation[shapes.status == Flag.OK]).all()
 
 
 def test_the_branch_ends_at_a_pressure_that_does_not_depend_on_steps_or_links():
@@ -225,7 +225,7 @@ def test_the_branch_ends_at_a_pressure_that_does_not_depend_on_steps_or_links():
         robot = replace(HEAVIER, peak_pressure=70e3)
         path = GAITS["wave"].pressures(n) * robot.peak_pressure
         shapes = solve_elastica(robot, path, links)
-        ends.append(path[int(np.argmax(shapes.status == Status.BRANCH_END)), 1])
+        ends.append(path[int(np.argmax(shapes.status == Flag.BRANCH_END)), 1])
     assert np.ptp(ends) < 0.03 * 70e3
 
 

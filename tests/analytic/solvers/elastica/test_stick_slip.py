@@ -12,11 +12,11 @@ from analytic import (
     GAITS,
     SURFACES,
     Elastica,
+    Flag,
     Friction,
     Gait,
     Patches,
     Robot,
-    Status,
     displacements,
     predict,
     solve_elastica,
@@ -265,7 +265,7 @@ def test_the_work_of_the_pressure_in_a_cycle_is_what_friction_dissipates():
 def test_every_strength_has_an_answer_or_says_so(surface, phi):
     ground = SURFACES[surface].scaled(max(phi, 1e-6) / PHI)
     walked = predict(ROBOT, GAITS["wave"], ground, Elastica(30), 25, 1, BENT)
-    assert np.isfinite(walked.locomotion.per_cycle) or Status.BRANCH_END in walked.flags
+    assert np.isfinite(walked.locomotion.per_cycle) or Flag.BRANCH_END in walked.flags
     if phi <= 15:
         assert not walked.flags
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analytic import Mode, Robot, Status, solve_modes
+from analytic import Flag, Mode, Robot, solve_modes
 from analytic.scene import pneunet
 
 BORDERS = (0.0, 1 / 3, 2 / 3, 1.0)
@@ -84,7 +84,7 @@ def test_the_modes_are_the_solutions_of_appendix_a_to_1e_9():
         k = pneunet.natural_curvature(robot, pressures) * robot.length
         g = robot.weight_per_length * robot.length**3 / pneunet.rigidity(robot, pressures)
         for i, mode in enumerate(Mode(m) for m in shapes.mode):
-            if mode == Mode.FLAT or shapes.status[i] & Status.NO_ROOT:
+            if mode == Mode.FLAT or shapes.status[i] & Flag.NO_ROOT:
                 continue
             met.add(mode)
             begin = shapes.contact_left[i] / robot.length
@@ -110,6 +110,6 @@ def test_the_end_that_is_a_tip_slopes_away_from_the_ground_where_status_says_so(
     for robot, _, shapes in random_states():
         near = np.array([0.0, 1e-4, 1 - 1e-4, 1.0]) * robot.length
         _, y = shapes.curve(near)
-        fine = (shapes.status & (Status.BOTH_FLAT | Status.NO_ROOT | Status.PENETRATES)) == 0
+        fine = (shapes.status & (Flag.BOTH_FLAT | Flag.NO_ROOT | Flag.PENETRATES)) == 0
         assert (y[fine, 1] >= -1e-12).all()
         assert (y[fine, 2] >= -1e-12).all()

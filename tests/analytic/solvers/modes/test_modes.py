@@ -6,7 +6,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from strategies import batches, groups, robot_from_groups, robots
 
-from analytic import Mode, Robot, Status, solve_modes
+from analytic import Flag, Mode, Robot, solve_modes
 from analytic.scene import pneunet
 
 MEASURES = ("separation", "contact_left", "contact_right", "amplitude")
@@ -57,7 +57,7 @@ def test_a_uniform_arch_lifts_off_sqrt_12_d_kappa_over_w(robot, fraction):
         t = np.clip(s - shape.contact_left[0], 0, lifted)
         expected = -0.5 * kappa * t**2 * (1 - t / lifted) ** 2
         assert same(y, expected, 1e-12 * robot.length)
-        assert shape.status[0] & Status.PENETRATES
+        assert shape.status[0] & Flag.PENETRATES
         # and int (y')^2 / 2 = kappa^2 l^3 / 420
         assert robot.length - shape.separation[0] == pytest.approx(
             kappa**2 * lifted**3 / 420, rel=1e-9
@@ -81,13 +81,13 @@ def test_a_curve_that_dips_below_the_ground_is_always_flagged(robot, fractions):
     shapes = solve_modes(robot, fractions * robot.peak_pressure)
     _, y = shapes.curve(np.linspace(0, robot.length, 501))
     dips = np.nan_to_num(y.min(axis=1)) < -1e-8 * robot.length
-    assert ((shapes.status[dips] & Status.PENETRATES) != 0).all()
+    assert ((shapes.status[dips] & Flag.PENETRATES) != 0).all()
 
 
 def test_a_strip_without_pressure_lies_flat():
     shape = solve_modes(Robot(), [0.0, 0.0, 0.0])
     assert shape.mode[0] == Mode.FLAT
-    assert shape.status[0] == Status.OK
+    assert shape.status[0] == Flag.OK
     assert shape.separation[0] == Robot().length
     assert shape.contact_left[0] + shape.contact_right[0] == Robot().length
     assert shape.amplitude[0] == 0
@@ -96,29 +96,29 @@ def test_a_strip_without_pressure_lies_flat():
 def test_a_weak_middle_arch_has_no_solution_with_one_flat_end():
     heavy = Robot(weight_per_length=20.0)
     shape = solve_modes(heavy, [0.0, 0.05 * heavy.peak_pressure, 0.0])
-    assert shape.status[0] & Status.NO_ROOT
+    assert shape.status[0] & Flag.NO_ROOT
     assert np.isnan(shape.separation[0])
 
 
 def test_a_middle_arch_wants_both_ends_flat():
     shape = solve_modes(Robot(), [0.0, 0.5 * Robot().peak_pressure, 0.0])
-    assert shape.status[0] & Status.BOTH_FLAT
-    assert shape.status[0] & Status.PENETRATES
+    assert shape.status[0] & Flag.BOTH_FLAT
+    assert shape.status[0] & Flag.PENETRATES
 
 
 def test_two_arches_at_the_ends_press_the_middle_into_the_ground():
     heavy = Robot(weight_per_length=4.0)
     shape = solve_modes(heavy, np.array([1.0, 0.0, 1.0]) * heavy.peak_pressure)
     assert shape.mode[0] == Mode.TIP
-    assert shape.status[0] == Status.PENETRATES
+    assert shape.status[0] == Flag.PENETRATES
     _, y = shape.curve(np.linspace(0, heavy.length, 101))
     assert y[0, 50] < -0.05 * heavy.length
 
 
 def test_an_inflated_segment_does_not_lie_flat_by_itself():
     p = 0.1 * Robot().peak_pressure
-    assert solve_modes(Robot(), [p, p, p]).status[0] & Status.HELD_FLAT
-    assert not solve_modes(Robot(), [0, 0, 10 * p]).status[0] & Status.HELD_FLAT
+    assert solve_modes(Robot(), [p, p, p]).status[0] & Flag.HELD_FLAT
+    assert not solve_modes(Robot(), [0, 0, 10 * p]).status[0] & Flag.HELD_FLAT
 
 
 def test_several_lift_off_points_are_reported_and_the_least_contact_is_taken():
@@ -127,7 +127,7 @@ def test_several_lift_off_points_are_reported_and_the_least_contact_is_taken():
     robot = Robot(weight_per_length=30.0)
     fractions = rng.uniform(0, 1, (20000, 3))
     shapes = solve_modes(robot, fractions * robot.peak_pressure)
-    several = (shapes.status & Status.SEVERAL_ROOTS) != 0
+    several = (shapes.status & Flag.SEVERAL_ROOTS) != 0
     assert several.any()
     assert (shapes.separation[several] > 0).all()
 

@@ -11,7 +11,7 @@ from mjsim.model.parts import FAR, TOUCH
 from mjsim.model.skin import add_skins
 from mjsim.scene import Numerics, Scene
 
-NUMERICS = Numerics().resolved("planar", "constant")
+NUMERICS = Numerics().resolved("chain", "constant")
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""The planar body: a chain of rigid links in the x-z plane, joined by hinges with springs.
+"""Body chain, of a strip: rigid links in the x-z plane, joined by hinges with springs.
 
 Its neutral line (the strain-limiting layer) runs through the centres of the contact pads, so that
 neither the ground's push nor its friction has a lever arm about the strip: the theory's strip has
@@ -29,10 +29,10 @@ Array = NDArray[np.float64]
 _FIRST_HINGE = 3  # the joints are x, z, pitch, then the hinges, each with one coordinate
 
 
-class Planar:
+class Chain:
     """See mjsim.model.body.Body."""
 
-    name = "planar"
+    name = "chain"
 
     def check(self, scene: Scene, numerics: Resolved) -> None:
         """Sealed chambers and actuators need whole elements."""
@@ -140,4 +140,4 @@ class _Actuated(_Hinges):
         self._control[:] = load
 
 
-BODY = Planar()
+BODY = Chain()
