@@ -110,7 +110,7 @@ class Problem:
                 free = len(part) * max(1 - self.unknowns / self.count, 0.1)
                 bent = np.clip(part / old, -BEND, BEND)
                 new = old * math.sqrt(float(bent @ bent) / (free * _SPREAD))
-            new = max(new, _LEAST * float(np.ptp(data) or abs(data).max()))
+            new = max(new, _LEAST * float(np.ptp(data) or abs(data).max() or 1.0))
             change = max(change, abs(new / old - 1))
             self.noise[rows] = new
         return change

@@ -2,6 +2,7 @@
 
 import tomllib
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -82,3 +83,13 @@ def test_a_saved_walk_is_drawn_again(tmp_path):
     simulate(scene(), NUMERICS).save(tmp_path / "walk.nc")
     assert replay.main([str(tmp_path / "walk.nc")]) == 0
     assert (tmp_path / "walk.mp4").stat().st_size > 10_000
+
+
+def test_a_file_of_the_version_before_is_read_as_the_walk_that_it_was():
+    """It has angles limb by limb, the places of the trunk alone, and elements for links."""
+    path = Path(__file__).parents[1] / "results" / "limbs_of_0.2.0.nc"
+    before = load(path)
+    walk = simulate(before.scene, before.numerics)
+    assert np.array_equal(before.coordinates, walk.coordinates)
+    assert before.position == pytest.approx(walk.position, abs=1e-6 * before.scene.robot.length)
+    assert went(before) == pytest.approx(went(walk), abs=1e-12)
