@@ -6,7 +6,7 @@ import pytest
 from analytic.friction.laws import Friction
 from analytic.prediction import Elastica, predict
 from analytic.scene.gait import GAITS, Gait
-from analytic.scene.limbs import LENGTH, as_strip, quadruped
+from analytic.scene.limbs import LENGTH, Limb, LimbedRobot, as_strip, quadruped
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
@@ -129,3 +129,33 @@ def test_limbs_under_part_of_the_pressure_go_alike_however_fine_their_links(gait
         path = follow(tree, rests, pressures, SURFACES["gelatin"], law)
         far.append(path.displacement[0] / LENGTH)
     assert far[0] == pytest.approx(far[1], rel=0.05, abs=2e-4)
+
+
+ELSEWHERE = [pytest.param("felt", marks=pytest.mark.slow),
+             pytest.param("polyethylene", marks=pytest.mark.slow), "gelatin"]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ELSEWHERE)
+def test_a_limb_of_three_segments_in_space_goes_as_far_as_the_strip_s_elastica(name):
+    strip, gait, ground = Robot(), GAITS["wave"], SURFACES[name]
+    path = walk(LimbedRobot((Limb("solo", strip, angle=0.5),)), gait, ground, 10, 12)
+    friction = Friction(tension=1.0, contacts="all")
+    theory = predict(strip, gait, ground, Elastica(36), 20, friction=friction)
+    ((ahead, aside),), (turn,) = path.by_cycle(1)
+    assert ahead == pytest.approx(theory.locomotion.per_cycle, abs=3e-4 * strip.length)
+    assert aside == pytest.approx(0.0, abs=1e-9)
+    assert turn == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["felt", "gelatin"])
+def test_a_limb_that_lies_flat_between_its_ends_resists_there_as_the_strip_does(name):
+    strip, ground = Robot(length=0.2, segments=(1.0,) * 5), SURFACES[name]
+    words = ("00000", "10000", "11000", "11011", "00011", "00001", "00000")
+    gait = Gait("dips", tuple(tuple(float(digit) for digit in word) for word in words))
+    path = walk(LimbedRobot((Limb("solo", strip, angle=0.5),)), gait, ground, 10, 20)
+    friction = Friction(tension=1.0, contacts="all")
+    theory = predict(strip, gait, ground, Elastica(60), 20, friction=friction)
+    ((ahead, _),), _ = path.by_cycle(1)
+    # one point of friction in place of an area, and first order in the increments
+    assert ahead == pytest.approx(theory.locomotion.per_cycle, rel=0.07)
