@@ -9,7 +9,7 @@ from typing import Any
 def lazily(
     package: ModuleType | str, homes: Mapping[str, tuple[str, ...]]
 ) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
-    """What a package assigns to `__getattr__`, `__dir__` and `__all__`.
+    """Functions for `__getattr__` and `__dir__` of a package, and its list `__all__`.
 
     Args:
         package: its name.

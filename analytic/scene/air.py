@@ -13,7 +13,7 @@ ATMOSPHERE = 101_325.0  # Pa, what gauge pressures are counted from
 
 
 class Air(NamedTuple):
-    """What one cycle takes from the supply.
+    """Air and work that one cycle takes from the supply.
 
     Attributes:
         volume: as it is at atmospheric pressure [m^3].

@@ -96,10 +96,10 @@ def check_for_limbs(ground: Ground) -> None:
     """Raise ValueError for ground that limbs are not told of: sticky, or stronger at rest."""
     for surface in surfaces_of(ground):
         if surface.adhesion or surface.static_ratio > 1:
-            what = "adhesion" if surface.adhesion else "static_ratio"
+            key = "adhesion" if surface.adhesion else "static_ratio"
             raise ValueError(
-                f"{what} of surface {surface.name!r} is for strips, not for robots of limbs; got "
-                f"{getattr(surface, what)!r}"
+                f"{key} of surface {surface.name!r} is for strips, not for robots of limbs; got "
+                f"{getattr(surface, key)!r}"
             )
 
 

@@ -60,16 +60,16 @@ class LimbedRobot:
     """that fractions of a gait are of [Pa]"""
 
     def __post_init__(self) -> None:
-        known: list[str] = []
+        carriers: list[str] = []
         for limb in self.limbs:
-            if limb.name in known:
+            if limb.name in carriers:
                 raise ValueError(f"limb {limb.name!r} is there twice")
-            if (limb.on is None) != (not known):
+            if (limb.on is None) != (not carriers):
                 raise ValueError(f"limb {limb.name!r}: the first limb, and no other, is the trunk")
             if limb.on is not None:
-                one_of(f"limb {limb.name!r}: on", limb.on, known)
-            known.append(limb.name)
-        if not known:
+                one_of(f"limb {limb.name!r}: on", limb.on, carriers)
+            carriers.append(limb.name)
+        if not carriers:
             raise ValueError("a robot must have one limb at least, got none")
 
     @property
@@ -135,16 +135,16 @@ def depth_first(robot: LimbedRobot, name: str | None = None) -> list[str]:
 
 def plan(robot: LimbedRobot) -> dict[str, tuple[Array, Array]]:
     """Where the middle line of each limb begins and ends, lying flat, by its name, (2,) [m]."""
-    found: dict[str, tuple[Array, Array]] = {}
+    ends: dict[str, tuple[Array, Array]] = {}
     for limb in robot.limbs:
         begin = np.zeros(2)
         if limb.on is not None:
             heading = robot.limbs[robot.place(limb.on)].angle
-            begin = found[limb.on][0 if limb.at == "begin" else 1]
+            begin = ends[limb.on][0 if limb.at == "begin" else 1]
             begin = begin + limb.offset * np.array([-np.sin(heading), np.cos(heading)])
         along = limb.strip.length * np.array([np.cos(limb.angle), np.sin(limb.angle)])
-        found[limb.name] = begin, begin + along
-    return found
+        ends[limb.name] = begin, begin + along
+    return ends
 
 
 def outline(robot: LimbedRobot) -> tuple[float, float]:

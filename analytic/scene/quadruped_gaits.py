@@ -25,21 +25,23 @@ def undulation(gait: Gait | str = "wave", left: float = 1.0, right: float = 1.0)
     Raises:
         ValueError: the gait is not of three segments, or a part not in [0, 1].
     """
-    own = GAITS[gait] if isinstance(gait, str) else gait
-    if own.segments != 3:
-        raise ValueError(f"gait {own.name!r} must be of three segments, got {own.segments}")
+    strip_gait = GAITS[gait] if isinstance(gait, str) else gait
+    if strip_gait.segments != 3:
+        raise ValueError(
+            f"gait {strip_gait.name!r} must be of three segments, got {strip_gait.segments}"
+        )
     for name, part in (("left", left), ("right", right)):
         if not (is_number(part) and 0 <= part <= 1):
             raise ValueError(f"{name} must be a part in [0, 1], got {part!r}")
     side = {"left": left, "right": right}
-    rear, middle, front = np.array(own.stages).T
+    rear, middle, front = np.array(strip_gait.stages).T
     columns = [middle] + [
         side[name.partition("-")[2]] * (rear if name.startswith("rear") else front)
         for name in ORDER[1:]
     ]
     stages = tuple(map(tuple, np.stack(columns, axis=1).tolist()))
-    name = own.name if left == right == 1 else f"{own.name}-{left:g}-{right:g}"
-    return replace(own, name=name, stages=stages)
+    name = strip_gait.name if left == right == 1 else f"{strip_gait.name}-{left:g}-{right:g}"
+    return replace(strip_gait, name=name, stages=stages)
 
 
 def for_robot(gait: Gait | str, robot: AnyRobot) -> Gait:
@@ -50,14 +52,14 @@ def for_robot(gait: Gait | str, robot: AnyRobot) -> Gait:
     """
     of_quadruped = robot.chambers == ORDER
     if isinstance(gait, str):
-        known = {**GAITS, **QUADRUPED_GAITS} if of_quadruped else GAITS
-        one_of("name of a gait", gait, known)
-        gait = known[gait]
+        gaits = {**GAITS, **QUADRUPED_GAITS} if of_quadruped else GAITS
+        one_of("name of a gait", gait, gaits)
+        gait = gaits[gait]
     return undulation(gait) if of_quadruped and gait.segments == 3 else gait
 
 
 def on_the_spot(gait: str = "wave", part: float = 0.3, ramp_time: float = 2.0) -> Gait:
-    """Turning on the spot: a cycle with the left legs pressed less, its mirror image backwards.
+    """Turning on the spot: a cycle with less pressure in the left legs, its mirror image backwards.
 
     Where friction is slow, a gait backwards takes the robot back; with its sides exchanged it turns
     it the other way. Both together take it back and turn it on.
@@ -67,9 +69,9 @@ def on_the_spot(gait: str = "wave", part: float = 0.3, ramp_time: float = 2.0) -
         part: of the pressure that the legs of the weaker side get.
         ramp_time: s.
     """
-    there = undulation(gait, left=part)
+    forward = undulation(gait, left=part)
     back = undulation(gait, right=part).reversed()
-    return Gait(f"spin-{gait}-{part:g}", (*there.stages, *back.stages[1:]), ramp_time)
+    return Gait(f"spin-{gait}-{part:g}", (*forward.stages, *back.stages[1:]), ramp_time)
 
 
 # Spin: of undulations and parts of the pressure, what turns most a second on gelatin; a full wave

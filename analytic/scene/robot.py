@@ -58,7 +58,7 @@ class Robot:
 
     def __post_init__(self) -> None:
         if isinstance(self.segments, str) or not hasattr(self.segments, "__iter__"):
-            raise ValueError(f"segments must be lengths, one a segment, got {self.segments!r}")
+            raise ValueError(f"segments must be lengths, one per segment, got {self.segments!r}")
         object.__setattr__(self, "segments", tuple(self.segments))
         if not self.segments:
             raise ValueError("segments must be at least one length, got none")

@@ -42,9 +42,9 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
                 "export writes"
             )
         scene = walking_scene(scene)
-        own = resolved(scene, numerics)
-        physics: Physics = cls.from_model(wrapper.MjModel(compile_model(scene, own)))
-        physics._scene, physics._numerics = scene, own
+        choice = resolved(scene, numerics)
+        physics: Physics = cls.from_model(wrapper.MjModel(compile_model(scene, choice)))
+        physics._scene, physics._numerics = scene, choice
         physics._pads = pads_by_node(physics.model.ptr)
         physics._start = float(physics.ends()[0, 0])
         return physics

@@ -46,7 +46,7 @@ def read_series(path: Path) -> Series:
     table = read_csv(path, "pressures")
     where, heads, rows = table
     if len(heads) < 2:
-        raise ValueError(f"{where}: needs a column of time and one a segment, got {heads}")
+        raise ValueError(f"{where}: needs a column of time and one per segment, got {heads}")
     if len(rows) < 2:
         raise ValueError(f"{where}: needs two samples at least, got {len(rows)}")
     time = table.numbers(0, "s", "s or ms")

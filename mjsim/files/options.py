@@ -115,7 +115,7 @@ class SceneOptions:
     valves_: Annotated[_ValveOptions, tyro.conf.arg(name="valves")] = field(
         default_factory=_ValveOptions
     )
-    """how chambers follow their valves; one number, or one a segment with commas between"""
+    """how chambers follow their valves; one number, or one per segment with commas between"""
     surface_: Annotated[_SurfaceOptions, tyro.conf.arg(name="surface")] = field(
         default_factory=_SurfaceOptions
     )

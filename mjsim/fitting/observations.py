@@ -164,14 +164,14 @@ def _abscissa(table: CsvTable, names: list[str], measured: list[str]) -> str:
     """Column that the others are a function of: time, pressure, or run where there is none."""
     abscissa = next((name for name in (_TIME, _PRESSURE) if name in names), RUN)
     others = [name for name in measured if name != abscissa]
-    known = _ALONG[abscissa]
+    heads = _ALONG[abscissa]
     places = {name: _PLACE.fullmatch(name) if abscissa == _TIME else None for name in others}
-    wrong = [name for name in others if not places[name] and name not in known.split(", ")]
+    wrong = [name for name in others if not places[name] and name not in heads.split(", ")]
     beside = "" if abscissa == RUN else f"beside {abscissa} "
     if wrong or not others:
         raise ValueError(
             f"{table.where}: column {wrong[0] if wrong else ''!r} is unknown; known {beside}are "
-            f"{known}, surface, and fields such as robot.peak_pressure"
+            f"{heads}, surface, and fields such as robot.peak_pressure"
         )
     for name, place in places.items():
         if place and float(place.group(2)) > 1:

@@ -75,15 +75,15 @@ def parameters(
     limits, priors = _assigned("bounds", bounds, names), _assigned("prior", prior, names)
     free_parameters = []
     for name in names:
-        known = _two("prior", name, priors[name], "+-") if name in priors else None
+        expected = _two("prior", name, priors[name], "+-") if name in priors else None
         if name in starts:
             begin = _number(name, starts[name])
         else:
-            begin = known[0] if known else nominal(base, name)
+            begin = expected[0] if expected else nominal(base, name)
         low, high = begin / _FACTOR, begin * _FACTOR
         if name in limits:
             low, high = _two("bounds", name, limits[name], "..")
-        free_parameters.append(Parameter(name, begin, low, high, known))
+        free_parameters.append(Parameter(name, begin, low, high, expected))
     return free_parameters
 
 

@@ -14,7 +14,7 @@ class Valves:
 
     A command acts after the dead time; then the chamber's pressure approaches it exponentially, by
     one time constant while it fills and by another while it vents, and never faster than the flow
-    limit. Each may be one number, or one a segment, left first.
+    limit. Each may be one number, or one per segment, left first.
 
     Raises:
         ValueError: a number is negative, or a flow limit is not positive.

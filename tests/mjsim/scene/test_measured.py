@@ -112,7 +112,7 @@ def test_records_that_start_inflated_or_do_not_close_agree_with_theory(tmp_path,
     ("text", "named"),
     [
         ("", "empty"),
-        ("time [s]", "one a segment"),
+        ("time [s]", "one per segment"),
         ("time [s],p1\n0,1\n1,2", "'p1'"),
         ("time,p1 [kPa]\n0,1\n1,2", "'time'"),
         ("time [s],p1 [mm]\n0,1\n1,2", "'p1 [mm]'"),
