@@ -40,21 +40,41 @@ def side_contact(
         Two arrays of shape (B,) [m]; half the length each where no node is in the air, NaN where
         a force is.
     """
-    up = height > ripple(robot, nodes)
-    finite, half = np.isfinite(force).all(axis=1), 0.5 * robot.length
-    weight = robot.weight_per_length + press
-    lengths = []
-    for order in (1, -1):
-        distance, push, air = nodes[::order], force[:, ::order], up[:, ::order]
-        begun = np.cumsum(push > 0, axis=1) > 0  # the outermost node may hover by a rounding of h
-        push = push * (np.cumsum(begun & air, axis=1) == 0)
-        moment = push @ np.abs(distance - distance[0])
-        length = np.where(up.any(axis=1), flat_length(weight, push.sum(axis=1), moment), half)
-        if not press:
-            may_lie = may_lie_flat(pressures[:, ::order][:, 0], robot.peak_pressure)
-            length = np.where(may_lie, length, 0.0)
-        lengths.append(np.where(finite, length, np.nan))
-    return lengths[0], lengths[1]
+    lifted = ripple(robot, nodes)
+    lengths = [
+        [end_contact(robot, nodes[::order], f[::order], y[::order] > lifted, p[::order][0], press)
+         for f, y, p in zip(force, height, pressures, strict=True)]
+        for order in (1, -1)
+    ]  # fmt: skip
+    return np.array(lengths[0]), np.array(lengths[1])
+
+
+def end_contact(
+    robot: Robot, nodes: Array, push: Array, air: NDArray[np.bool_], pressure: float, press: float
+) -> float:
+    """Length of side contact at the end that comes first, of one state; see side_contact [m].
+
+    Args:
+        robot: the strip.
+        nodes: arclength, from that end or towards it, (S,) [m].
+        push: force on each, (S,) [N].
+        air: whether it is higher than a flat stretch ripples, (S,).
+        pressure: of the segment at that end [Pa].
+        press: pull of adhesion, see side_contact [N/m].
+    """
+    if not np.isfinite(push[0]):
+        return np.nan
+    if not press and not may_lie_flat(pressure, robot.peak_pressure):
+        return 0.0
+    first = int((push > 0).argmax())  # the outermost node may hover by a rounding of h
+    end = first + int(air[first:].argmax())
+    if not air[end]:
+        if not air.any():
+            return 0.5 * robot.length
+        end = len(push)
+    push = push[:end]
+    moment = float(push @ np.abs(nodes[:end] - nodes[0]))
+    return float(flat_length(robot.weight_per_length + press, float(push.sum()), moment))
 
 
 def ripple(robot: Robot, nodes: Array) -> float:

@@ -83,6 +83,11 @@ class Chain:
         self.stiffness, self.rest = np.zeros(links), np.zeros(links)
         self.pressure = np.zeros(len(robot.segments))
         self.iterations = 0
+        self._least_force = -_ROUNDING * self.weight.sum()
+        # general band storage: entry (i, j) at [kl + ku + i - j, j], kl = ku = 3
+        self._band = np.zeros((10, 3 * links + 4), order="F")
+        self._band[5, 3::3] = 1.0  # kinematics, row 3 i + 2
+        self._band[8, 0:-1:3] = -1.0
         self._damping: tuple[float, Array] | None = None
 
     def flat(self) -> ChainState:
@@ -148,37 +153,32 @@ class Chain:
     def _newton(self, state: ChainState, traction: GroundTraction | None) -> ChainState | None:
         """One step for the active nodes, all unknowns at once."""
         self.iterations += 1
-        n, l = self.links + 1, self.length  # noqa: E741
-        size = 3 * n + 1
-        cosine, sine = l * np.cos(state.theta), l * np.sin(state.theta)
+        cosine, sine = self.length * np.cos(state.theta), self.length * np.sin(state.theta)
         stiffness, rest = self.hinges(state.theta)
-        bend = np.zeros(n + 1)
-        bend[1:-1] = stiffness
-        turn = np.zeros(n + 1)
-        turn[1:-1] = stiffness * rest
-        columns = np.zeros((n, 0)) if traction is None else traction.tensions()
+        turn = stiffness * rest
         tension = state.tension + self.hanging
         geometric = state.shear * sine + tension * cosine
-        # general band storage: entry (i, j) at [kl + ku + i - j, j], kl = ku = 3
-        band = np.zeros((10, size))
-        right = np.zeros((size, 1 + columns.shape[1]), order="F")
-        free = ~state.active
+        free = (~state.active).astype(float)
+        band = self._band.copy(order="F")
         # nodes, row 3 k: y_k = 0, or V_k - V_{k-1} = W_k
         band[6, 0::3] = state.active
         band[4, 2::3] = free[:-1]  # V_k in the row of node k
-        band[7, 2::3] = -1.0 * free[1:]  # V_k in the row of node k + 1
-        right[0::3, 0] = (self.weight + self.adhesion * state.near) * free
+        band[7, 2::3] = -free[1:]  # V_k in the row of node k + 1
         # moments, row 3 i + 1
-        band[6, 1::3] = bend[:-1] + bend[1:] + geometric
-        band[9, 1:-3:3] = -bend[1:-1]
-        band[3, 4::3] = -bend[1:-1]
-        band[5, 2::3] = -cosine
-        pulling = tension if traction is None else self.hanging
-        right[1::3, 0] = turn[:-1] - turn[1:] + geometric * state.theta - pulling * sine
-        # kinematics, row 3 i + 2
-        band[5, 3::3] = 1.0
-        band[8, 0:-1:3] = -1.0
-        band[7, 1::3] = -cosine
+        diagonal = geometric.copy()
+        diagonal[:-1] += stiffness
+        diagonal[1:] += stiffness
+        band[6, 1::3] = diagonal
+        band[9, 1:-3:3] = band[3, 4::3] = -stiffness
+        band[5, 2::3] = band[7, 1::3] = -cosine
+        columns = traction.tensions() if traction else np.zeros((len(sine), 0))
+        right = np.zeros((band.shape[1], 1 + columns.shape[1]), order="F")
+        right[0::3, 0] = self._down(state) * free
+        pulling = self.hanging if traction else tension
+        moment = geometric * state.theta - pulling * sine
+        moment[:-1] -= turn
+        moment[1:] += turn
+        right[1::3, 0] = moment
         right[2::3, 0] = sine - cosine * state.theta
         right[1::3, 1:] = -columns * sine[:, None]
         if self.clamped:
@@ -194,24 +194,29 @@ class Chain:
 
     def ground_force(self, state: ChainState) -> Array:
         """Force of the ground on each node, shape (N + 2,)."""
-        before = np.concatenate([[0.0], state.shear])
-        after = np.concatenate([state.shear, [0.0]])
-        down = self.weight + self.adhesion * state.near
-        return np.where(state.active, down + before - after, 0.0)
+        force = self._down(state).copy()
+        force[1:] += state.shear
+        force[:-1] -= state.shear
+        return np.asarray(force * state.active)
+
+    def _down(self, state: ChainState) -> Array:
+        """Weight and adhesion on each node."""
+        return self.weight + self.adhesion * state.near if self.reach else self.weight
 
     def _revise(self, state: ChainState, revisions: int) -> ChainState | None:
         """The state with other nodes active or pulled, or None if these are right."""
         active = None if self.clamped else self._other_nodes(state, revisions)
-        near = state.active | (state.y < self.reach)
-        if self.reach and (near != state.near).any():
-            return state._replace(near=near, active=state.active if active is None else active)
+        if self.reach:
+            near = state.active | (state.y < self.reach)
+            if (near != state.near).any():
+                return state._replace(near=near, active=state.active if active is None else active)
         return None if active is None else state._replace(active=active)
 
     def _other_nodes(self, state: ChainState, revisions: int) -> Mask | None:
         """Other active nodes, or None if these are right; one at a time after many tries."""
-        sinking = ~state.active & (state.y < -_ROUNDING)
+        sinking = (state.y < -_ROUNDING) & ~state.active
         force = self.ground_force(state)
-        pulled = force < -_ROUNDING * self.weight.sum()
+        pulled = force < self._least_force
         if not (sinking.any() or pulled.any()):
             return None
         if revisions < 8:

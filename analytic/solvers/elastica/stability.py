@@ -4,7 +4,8 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cholesky_banded, null_space
+from scipy.linalg import null_space
+from scipy.linalg.lapack import dpbtrf
 
 from analytic.solvers.elastica.state import ChainState, GroundTraction
 
@@ -31,24 +32,23 @@ def stable(chain: Springs, state: ChainState, traction: GroundTraction | None) -
 
     If it has none while contacts were free to slide, those that stick are fixed along x too.
     """
-    n = chain.links + 1
     cosine = chain.length * np.cos(state.theta)
-    bend = np.zeros(n + 1)
-    bend[1:-1] = chain.hinges(state.theta)[0]
-    band = np.zeros((3, 2 * n + 1))  # upper, unknowns y_0, theta_0, y_1, ...
-    band[2, 0::2] = _PENALTY * state.active
-    band[2, 0:-1:2] += _PENALTY
-    band[2, 2::2] += _PENALTY
-    band[2, 1::2] = bend[:-1] + bend[1:] + state.shear * chain.length * np.sin(state.theta)
-    band[2, 1::2] += (state.tension + chain.hanging) * cosine + _PENALTY * cosine**2
+    stiffness = chain.hinges(state.theta)[0]
+    band = np.zeros((3, 2 * len(cosine) + 1), order="F")  # upper, unknowns y_0, theta_0, y_1, ...
+    band[2, 0::2] = _PENALTY * (2.0 + state.active)
+    band[2, [0, -1]] -= _PENALTY
+    turning = state.shear * chain.length * np.sin(state.theta)
+    turning += (state.tension + chain.hanging + _PENALTY * cosine) * cosine
+    turning[:-1] += stiffness
+    turning[1:] += stiffness
+    band[2, 1::2] = turning
     band[2, 1] += _PENALTY * chain.clamped
     band[1, 1::2] = _PENALTY * cosine  # y_i, theta_i
     band[1, 2::2] = -_PENALTY * cosine  # theta_i, y_{i+1}
     band[0, 2::2] = -_PENALTY  # y_i, y_{i+1}
-    band[0, 3::2] = -bend[1:-1]  # theta_i, theta_{i+1}
-    try:
-        cholesky_banded(band, check_finite=False)
-    except np.linalg.LinAlgError:
+    band[0, 3::2] = -stiffness  # theta_i, theta_{i+1}
+    _, failed = dpbtrf(band)
+    if failed:
         return traction is not None and _positive_under(traction.constraints(state), band)
     return True
 

@@ -11,12 +11,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import end_loads, side_contact
+from analytic.friction.contact_length import end_contact, end_loads, ripple
 from analytic.friction.contacts import Finder, StripContact
 from analytic.friction.laws import LAWS, Friction
 from analytic.scene.chain import node_positions
-from analytic.scene.ground import over
-from analytic.scene.surface import Ground
+from analytic.scene.ground import depends_on_speed, over
+from analytic.scene.surface import Ground, Surface
 from analytic.solvers.elastica.newton import Chain
 from analytic.solvers.elastica.state import ChainState
 from analytic.solvers.elastica.tractions import tractions
@@ -46,13 +46,17 @@ class StickSlip:
         self._chain, self._ground, self._friction = chain, ground, friction
         self._nodes = node_positions(chain.robot, chain.links)
         self._press = ground.at(0.0).press(chain.robot.width)
+        self._air = ripple(chain.robot, self._nodes)
         self._finder = Finder(chain.robot, self._nodes, self._press)
+        self._law = LAWS[friction.law]
+        self._by_speed = depends_on_speed(ground)
         self._pull = friction.downhill(chain.robot) / chain.force_unit
         self._unit = friction.tension / chain.force_unit
         self.contacts: list[StripContact] = []
         self.slips = np.zeros(0, dtype=int)
         self._before = self._nodes / chain.robot.length
         self._speed, self._slid = 0.0, np.zeros(0)
+        self._tensions = self._reach = np.zeros((chain.links + 1, 0))
         self._take([], np.zeros(0), np.zeros(0))
         self._search: _FixedPoint | None = None
         self._changes = 0
@@ -73,11 +77,11 @@ class StickSlip:
         """See GroundTraction.resolve."""
         across = -self._chain.length * np.sin(state.theta)
         along = self._chain.length * np.cos(state.theta)
-        x = _nodes_of(along + across * (free.theta - state.theta))
-        moved = _nodes_of(across[:, None] * response.theta)
+        along += across * (free.theta - state.theta)
+        # a contact is its part of each link beyond the left end
         increment = tractions(
-            self._share @ (x - self._before),
-            self._share @ moved,
+            along @ self._reach - self._share @ self._before,
+            self._reach.T @ (across[:, None] * response.theta),
             self.bounds,
             self._drag,
             self._pull,
@@ -98,18 +102,7 @@ class StickSlip:
     def update(self, state: ChainState) -> bool:
         """See GroundTraction.update."""
         contacts = self._touching(state)
-        robot, law = self._chain.robot, LAWS[self._friction.law]
-        x = self._places(state) * robot.length
-        under = [over(self._ground, *contact.extent(x)) for contact in contacts]
-        bounds, drag = self._unit * np.array([
-            (law.bound(surface, robot.width, contact.length, contact.load),
-             surface.drag(robot.width, contact.length))
-            for surface, contact in zip(under, contacts, strict=True)
-        ]).reshape(-1, 2).T  # fmt: skip
-        speed = self._slid if len(contacts) == len(self._slid) else np.zeros(len(contacts))
-        bounds *= [surface.at_speed(v * self._speed)
-                   for surface, v in zip(under, speed, strict=True)]  # fmt: skip
-        drag *= self._speed
+        bounds, drag = self._resistance(contacts, state)
         near = _ALIKE * float(bounds.max(initial=0.0))
         alike = self._touch_alike(contacts)
         if not alike:
@@ -122,17 +115,40 @@ class StickSlip:
         self._take(contacts, bounds, drag)
         return alike
 
+    def _resistance(self, contacts: list[StripContact], state: ChainState) -> tuple[Array, Array]:
+        """Dry bounds of contacts and their viscous resistance to a slip of 1, (C,) each."""
+        ground, robot = self._ground, self._chain.robot
+        if isinstance(ground, Surface):
+            under = [ground] * len(contacts)
+        else:
+            x = self._places(state) * robot.length
+            under = [over(ground, *contact.extent(x)) for contact in contacts]
+        pairs = list(zip(under, contacts, strict=True))
+        bounds = self._unit * np.array([
+            self._law.bound(surface, robot.width, contact.length, contact.load)
+            for surface, contact in pairs
+        ])  # fmt: skip
+        if not self._by_speed:
+            return bounds, np.zeros(len(contacts))
+        speed = self._slid if len(contacts) == len(self._slid) else np.zeros(len(contacts))
+        bounds *= [surface.at_speed(v * self._speed)
+                   for surface, v in zip(under, speed, strict=True)]  # fmt: skip
+        drag = [surface.drag(robot.width, contact.length) for surface, contact in pairs]
+        return bounds, self._unit * self._speed * np.array(drag)
+
     def _touch_alike(self, contacts: list[StripContact]) -> bool:
         """Tell whether contacts are where those before were."""
         if [contact.nodes for contact in contacts] != [old.nodes for old in self.contacts]:
             return False
-        pairs = zip(contacts, self.contacts, strict=True)
-        return all(np.allclose(new.share, old.share, rtol=0, atol=_ALIKE) for new, old in pairs)
+        return all(
+            abs(part - before) <= _ALIKE
+            for new, old in zip(contacts, self.contacts, strict=True)
+            for part, before in zip(new.share, old.share, strict=True)
+        )
 
     def constraints(self, state: ChainState) -> Array:
         """See GroundTraction.constraints."""
-        beyond = np.cumsum(self._share[:, :0:-1], axis=1)[:, ::-1]  # share of the nodes after
-        rows = -self._chain.length * np.sin(state.theta) * beyond
+        rows = -self._chain.length * np.sin(state.theta) * self._reach.T
         rows = rows[(self.slips == 0) & (self.bounds > 0)]
         return rows[1:] - rows[:1]
 
@@ -144,29 +160,42 @@ class StickSlip:
     def _take(self, contacts: list[StripContact], bounds: Array, drag: Array) -> None:
         if len(contacts) != len(self.contacts):
             self.slips = np.zeros(len(contacts), dtype=int)
+        alike = [(contact.nodes, contact.share) for contact in contacts] == [
+            (contact.nodes, contact.share) for contact in self.contacts
+        ]
         self.contacts, self.bounds, self._drag = contacts, bounds, drag
+        if alike and len(contacts):
+            return
         self._share = np.zeros((len(contacts), len(self._nodes)))
         for row, contact in zip(self._share, contacts, strict=True):
             row[contact.nodes] = contact.share
         self._tensions = -np.cumsum(self._share.T, axis=0)[:-1]
+        self._reach = 1.0 + self._tensions  # share of the nodes after each link
 
     def _places(self, state: ChainState) -> Array:
         """x of the nodes over L."""
-        return state.left + _nodes_of(self._chain.length * np.cos(state.theta))
+        places = np.full(len(self._nodes), state.left)
+        places[1:] += np.cumsum(self._chain.length * np.cos(state.theta))
+        return places
 
     def _touching(self, state: ChainState) -> list[StripContact]:
         chain, robot = self._chain, self._chain.robot
-        force = chain.ground_force(state)[None, :] * chain.force_unit
-        height = state.y[None, :] * robot.length
-        left, right = side_contact(
-            robot, self._nodes, force, height, chain.pressure[None, :], self._press
-        )
-        lengths = float(left[0]), float(right[0])
+        force = chain.ground_force(state) * chain.force_unit
+        height = state.y * robot.length
+        air = height > self._air
+        left, right = (
+            end_contact(robot, self._nodes[::order], force[::order], air[::order], pressure,
+                        self._press)
+            for order, pressure in ((1, chain.pressure[0]), (-1, chain.pressure[-1]))
+        )  # fmt: skip
         if self._friction.contacts == "all":
-            return self._finder.find(force[0].tolist(), height[0].tolist(), lengths)
-        loads = end_loads(force, height)
-        ends = 0, len(self._nodes) - 1
-        return [StripContact([ends[i]], [1.0], lengths[i], float(loads[i][0])) for i in (0, 1)]
+            return self._finder.find(force.tolist(), height.tolist(), (left, right))
+        loads = (0.0, 0.0)
+        if self._law.needs_load:
+            on_left, on_right = end_loads(force[None, :], height[None, :])
+            loads = float(on_left[0]), float(on_right[0])
+        return [StripContact([0], [1.0], left, loads[0]),
+                StripContact([len(height) - 1], [1.0], right, loads[1])]  # fmt: skip
 
 
 class _FixedPoint:
@@ -184,6 +213,8 @@ class _FixedPoint:
     def next(self, bounds: Array, results: Array, near: float) -> tuple[bool, Array]:
         """Tell whether bounds nearly result in themselves, and which to try next."""
         gap = results - bounds
+        if np.abs(gap).max(initial=0.0) <= near:
+            return True, bounds
         self._low = np.where(gap > near, np.maximum(self._low, bounds), self._low)
         self._high = np.where(gap < -near, np.minimum(self._high, bounds), self._high)
         between = self._low < self._high
@@ -201,8 +232,3 @@ class _FixedPoint:
             after = np.where(outside, 0.5 * (low + high), after)
         self._before = bounds, gap
         return solved, bounds if solved else after
-
-
-def _nodes_of(steps: Array) -> Array:
-    """Sums over the links before each node, (N + 1, ...) -> (N + 2, ...)."""
-    return np.concatenate([np.zeros_like(steps[:1]), np.cumsum(steps, axis=0)])

@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg.lapack import dgesv
 
 Array = NDArray[np.float64]
 
@@ -78,9 +79,8 @@ def tractions(
         matrix[range(count), range(count)] += np.where(stick, give, 1.0)
         matrix[:-1, -1] = factor
         right[:-1] = np.where(stick, 0.0, -slips * bounds) - factor * gaps
-        try:
-            solution: Array = np.linalg.solve(matrix, right).astype(np.float64)
-        except np.linalg.LinAlgError:
+        _, _, solution, singular = dgesv(matrix, right)
+        if singular:
             return None
         traction, whole = solution[:-1], float(solution[-1])
         slid = gaps + whole + compliance @ traction
