@@ -70,13 +70,8 @@ def left_end(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array,
         Displacement of the left end since the first state, (B,) [m]; and the increments in which
         another contact begins to stick, (B - 1,).
     """
-    if (
-        friction.tension
-        and isinstance(shapes, ContactShapes)
-        and shapes.left is not None
-        and shapes.switches is not None
-    ):
-        return shapes.left, shapes.switches
+    if friction.tension and isinstance(shapes, ContactShapes) and shapes.left is not None:
+        return shapes.left, np.zeros(len(shapes) - 1, dtype=bool)  # all known
     if friction.contacts == "all":
         return motion(shapes, ground, friction)
     if isinstance(ground, Surface):

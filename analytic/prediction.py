@@ -15,7 +15,7 @@ from analytic.scene.gait import Gait
 from analytic.scene.ground import depends_on_speed, surfaces_of
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground, Surface
-from analytic.shapes import Flag, Shapes
+from analytic.shapes import ContactShapes, Flag, Shapes
 
 Array = NDArray[np.float64]
 
@@ -267,6 +267,8 @@ class _Walk(NamedTuple):
         if len(changes) and self.refinement > 1:
             path, clock = (_refined(values, changes, self.refinement) for values in (path, clock))
             shapes = self._shapes(grounds[0], path, clock)
+        if isinstance(shapes, ContactShapes) and shapes.rows is not None:
+            path, clock = shapes.pressures, np.interp(shapes.rows, np.arange(len(clock)), clock)
         flags = Flag(int(np.bitwise_or.reduce(shapes.status)))
         ends = np.linspace(clock[0], clock[-1], self.cycles + 1)
         predictions = []

@@ -107,8 +107,9 @@ class ContactShapes(Shapes):
     pressures: Array
     residual: Array
     iterations: NDArray[np.int_]
+    rows: Array | None = None
+    """place of each state along the path that was asked for, in its rows, where states were added
+    to it, shape (B,)"""
     left: Array | None = None
     """displacement of the left end since the first state where friction bends the strip and so
     decides place and shape together, shape (B,) [m]"""
-    switches: NDArray[np.bool_] | None = None
-    """increments in which contacts come or go, or begin to stick or to slide, shape (B - 1,)"""

@@ -16,7 +16,7 @@ from mjsim.scene import Numerics, Resolved, Scene, resolved
 
 Array = NDArray[np.float64]
 
-STATES = 50  # of the reference in a ramp from no pressure to the peak
+STATES = 25  # of the reference in a ramp from no pressure to the peak
 WEAK = "weak friction"  # which bends nothing and only decides who slides
 _RESOLVED = 2e-4  # of the length: what no halving shows; then 51 of 53 random scenes hold
 _LINKS, _LINKS_A_SEGMENT = 60, 24  # of the reference: contacts between the ends need finer links

@@ -6,7 +6,6 @@ is followed as far as it is stable, and no other is ever returned.
 """
 
 import math
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -23,13 +22,15 @@ from analytic.shapes import ContactShapes, Flag
 from analytic.solvers.elastica.continuation import follow
 from analytic.solvers.elastica.newton import Chain
 from analytic.solvers.elastica.state import ChainState
-from analytic.solvers.elastica.stick_slip import StickSlip
+from analytic.solvers.elastica.stick_slip import Signature, StickSlip
 
 Array = NDArray[np.float64]
 
 _LEAST_STEP = 1e-4  # of the way between two states, below which the branch is taken to end
 _LEAST_PULLED = 1e-2  # where friction or adhesion may give way, and damped motion follows
 _CURLED = 0.02  # slope that an end in flat contact does not have, even where it lifts off [rad]
+_LOCATED = 1e-7  # motion over L within which a change of contacts is located; chosen
+_NO_NUMBERS = Flag.BRANCH_END | Flag.ROLLED_UP
 _JUMP = 0.03  # change of a direction at one pressure that is flagged as a jump [rad]; chosen
 _LEAP = 0.3  # change of a direction in one step that may be a leap to another branch [rad]
 
@@ -72,9 +73,6 @@ def solve_elastica(
             sealed chambers do not fit them, or ground that changes along x is adhesive.
     """
     p = check_pressures(robot, pressures_pa, both_ways=chamber != "sealed")
-    durations = np.full(len(p), np.inf)
-    if times is not None:
-        durations[1:] = np.diff(np.asarray(times, dtype=float))
     if links < 6:
         raise ValueError(f"links must be at least 6, got {links}")
     friction = friction or Friction()
@@ -84,14 +82,15 @@ def solve_elastica(
         surface = ground.at(0.0)
     chain = Chain(robot, links, chamber, slope=friction.slope, surface=surface)
     traction = StickSlip(chain, ground, friction) if ground and friction.tension else None
-    branch = _Branch(chain, traction, may_curl=friction.contacts == "all")
-    points = [branch.step(*row) for row in zip(p, durations.tolist(), strict=True)]
-    states = [point.state for point in points]
+    branch = _Branch(chain, traction, friction.contacts == "all", p, times)
+    points = branch.points()
+    states = [branch.missing if point.status & _NO_NUMBERS else point.state for point in points]
     theta = np.array([state.theta for state in states])
     height = np.array([state.y for state in states]) * robot.length
     force = np.array([chain.ground_force(state) for state in states]) * chain.force_unit
     place = np.array([state.left for state in states]) * robot.length
     nodes, lengths = node_positions(robot, links), link_lengths(robot, links)
+    p = np.array([point.pressure for point in points])
     press = surface.press(robot.width) if surface else 0.0
     left, right = side_contact(robot, nodes, force, height, p, press)
     return ContactShapes(
@@ -105,29 +104,33 @@ def solve_elastica(
         nodes=nodes,
         force=force,
         pressures=p,
+        rows=np.array([point.row for point in points]),
         residual=np.array([point.residual for point in points]),
         iterations=np.array([point.iterations for point in points]),
         left=place - place[0] if traction else None,
-        switches=_switches(points) if traction else None,
     )
 
 
 class _Point(NamedTuple):
-    """A state of the branch, NaN where it is missing.
+    """A state of the branch.
 
     Attributes:
+        row: place along the path of pressures, in its rows.
+        pressure: of the segments, (S,) [Pa].
         state: shape and forces.
         status: flag of it.
         iterations: Newton steps to it.
         residual: see ContactShapes.
-        contacts: tips and sides, each sticking or sliding, see StickSlip.signature.
+        contacts: tips and sides, and which of them slide, see StickSlip.signature.
     """
 
+    row: float
+    pressure: Array
     state: ChainState
-    status: Flag
+    status: Flag = Flag.OK
     iterations: int = 0
     residual: float = np.nan
-    contacts: tuple[object, ...] | None = None
+    contacts: Signature | None = None
 
 
 class _Branch:
@@ -137,58 +140,86 @@ class _Branch:
         chain: of the strip.
         traction: friction that bends it, if any does.
         may_curl: follow states with an end off the ground too, as far as they are wanted.
+        pressures: the path, (B, S) [Pa].
+        times: of its rows, (B,) [s]; None where time does not matter.
     """
 
-    def __init__(self, chain: Chain, traction: StickSlip | None, may_curl: bool) -> None:
+    def __init__(
+        self,
+        chain: Chain,
+        traction: StickSlip | None,
+        may_curl: bool,
+        pressures: Array,
+        times: ArrayLike | None,
+    ) -> None:
         self._chain, self._traction, self._may_curl = chain, traction, may_curl
-        self._path = [(np.zeros(len(chain.robot.segments)), chain.flat())]
-        self._ended = False
+        # row -1 is the strip without pressure, long ago
+        self._path = np.concatenate([np.zeros((1, pressures.shape[1])), pressures])
+        self._duration = np.full(len(pressures), np.inf)
+        if times is not None:
+            self._duration[1:] = np.diff(np.asarray(times, dtype=float))
         blank = np.full(chain.links + 2, np.nan)
-        self._missing = chain.flat()._replace(
+        self.missing = chain.flat()._replace(
             y=blank, theta=blank[1:], shear=blank[1:], left=math.nan
         )
 
-    def step(self, pressure: Array, duration: float) -> _Point:
-        """The state at the next pressure (S,) [Pa], so long after the one before [s]."""
-        if self._ended:
-            return _Point(self._missing, Flag.BRANCH_END)
-        chain, (_, before) = self._chain, self._path[-1]
+    def points(self) -> list[_Point]:
+        """States at the rows of the path, and two more on either side of changes of contacts."""
+        points = [_Point(-1.0, self._path[0], self._chain.flat())]
+        for row in range(len(self._path) - 1):
+            while points[-1].row < row:
+                after = self._after(points, float(row))
+                points += self._change(points, after) if _changes(points[-1], after) else [after]
+        return points[1:]
+
+    def _change(self, points: list[_Point], after: _Point) -> list[_Point]:
+        """States on either side of the first change of contacts before a point, by bisection.
+
+        Which contact slides is told wrongly on the way from one to the other alone.
+        """
+        before = points[-1]
+        moved = self._moved(before.state, after.state)
+        while moved > _LOCATED:
+            middle = self._after([*points, before], 0.5 * (before.row + after.row), after)
+            if _changes(before, middle):
+                after = middle
+            else:
+                before = middle
+            moved *= 0.5
+        if before is points[-1]:
+            return [after]
+        return [before, self._after([*points, before], after.row, after)]
+
+    def _after(self, points: list[_Point], row: float, beyond: _Point | None = None) -> _Point:
+        """The state that follows on those before it, at a row and perhaps before a known state."""
+        before = points[-1]
+        place = math.ceil(row)
+        part = row - (place - 1)
+        pressure = self._path[place] + part * (self._path[place + 1] - self._path[place])
+        if Flag.BRANCH_END in before.status:
+            return before._replace(row=row, pressure=pressure, iterations=0)
+        chain, duration = self._chain, (row - before.row) * float(self._duration[place])
         steps, status = chain.iterations, Flag.OK
         chain.load_at(pressure)
-        state = self._near(before, duration, self._extrapolated(pressure))
-        state = state or self._in_smaller_steps(pressure, duration)
+        state = self._near(before.state, duration, _guess(points, pressure, row, beyond))
+        state = state or self._in_smaller_steps(before, pressure, duration)
         if state is None and (self._traction or chain.reach):
             chain.load_at(pressure)
-            state = self._damped(before)
-            if state and _apart(state, before) > _JUMP:
+            state = self._damped(before.state)
+            if state and _apart(state, before.state) > _JUMP:
                 status = Flag.JUMPED
         steps = chain.iterations - steps
         if state is None:
-            self._ended = True
-            return _Point(self._missing, Flag.BRANCH_END, steps)
-        self._path.append((pressure, state))
+            return _Point(row, pressure, self.missing, Flag.BRANCH_END, steps)
         if _rolled_up(state) and not self._may_curl:
-            return _Point(self._missing, Flag.ROLLED_UP, steps)
+            return _Point(row, pressure, state, Flag.ROLLED_UP, steps)
         contacts = self._traction.signature() if self._traction else None
-        return _Point(state, status, steps, chain.residual(state), contacts)
+        return _Point(row, pressure, state, status, steps, chain.residual(state), contacts)
 
-    def _extrapolated(self, pressure: Array) -> ChainState:
-        """Linear prediction where the path goes on in the same direction, else the state before."""
-        middle, state = self._path[-1]
-        if len(self._path) < 3:
-            return state
-        start, before = self._path[-2]
-        step, previous = pressure - middle, middle - start
-        size = float(previous @ previous)
-        if size == 0:
-            return state
-        ratio = float(step @ previous) / size
-        if np.abs(step - ratio * previous).max() > 1e-6 * np.abs(step).max() or not 0 < ratio <= 2:
-            return state
-        return state._replace(
-            theta=state.theta + ratio * (state.theta - before.theta),
-            shear=state.shear + ratio * (state.shear - before.shear),
-        )
+    def _moved(self, before: ChainState, after: ChainState) -> float:
+        """Greatest motion of a node along x, over L."""
+        links = self._chain.length * (np.cos(after.theta) - np.cos(before.theta))
+        return abs(after.left - before.left) + float(np.abs(np.cumsum(links)).max())
 
     def _near(
         self, state: ChainState, duration: float = math.inf, guess: ChainState | None = None
@@ -199,16 +230,17 @@ class _Branch:
         candidate = self._chain.equilibrium(guess or state, self._traction)
         return None if candidate is None or _apart(candidate, state) > _LEAP else candidate
 
-    def _in_smaller_steps(self, pressure: Array, duration: float) -> ChainState | None:
+    def _in_smaller_steps(
+        self, before: _Point, pressure: Array, duration: float
+    ) -> ChainState | None:
         """The next state by continuation; None if the branch ends on the way."""
-        before, state = self._path[-1]
 
         def solve(begin: float, end: float, near: ChainState) -> ChainState | None:
-            self._chain.load_at(before + end * (pressure - before))
+            self._chain.load_at(before.pressure + end * (pressure - before.pressure))
             return self._near(near, (end - begin) * duration)
 
         least = _LEAST_PULLED if self._traction or self._chain.reach else _LEAST_STEP
-        part, state = follow(state, solve, first=0.25, least=least)
+        part, state = follow(before.state, solve, first=0.25, least=least)
         return state if part >= 1.0 else None
 
     def _damped(self, state: ChainState) -> ChainState | None:
@@ -231,12 +263,38 @@ class _Branch:
         return None
 
 
-def _switches(points: list[_Point]) -> NDArray[np.bool_]:
-    """Increments between states of unlike contacts, (B - 1,)."""
-    return np.array([
-        before.contacts != after.contacts and None not in (before.contacts, after.contacts)
-        for before, after in pairwise(points)
-    ], dtype=bool)  # fmt: skip
+def _changes(before: _Point, after: _Point) -> bool:
+    """Whether other contacts slide at the latter of two states than at the former."""
+    if before.contacts is None or after.contacts is None:
+        return False
+    return after.contacts.differs(before.contacts)
+
+
+def _guess(points: list[_Point], pressure: Array, row: float, beyond: _Point | None) -> ChainState:
+    """First guess of a state: between two known ones, or beyond where the path goes on straight."""
+    middle = points[-1]
+    if beyond is not None and math.isfinite(beyond.state.left):
+        part = (row - middle.row) / (beyond.row - middle.row)
+        return _along(middle.state, beyond.state, part)
+    if len(points) < 3:
+        return middle.state
+    start = points[-2]
+    step, previous = pressure - middle.pressure, middle.pressure - start.pressure
+    size = float(previous @ previous)
+    if size == 0:
+        return middle.state
+    ratio = float(step @ previous) / size
+    if np.abs(step - ratio * previous).max() > 1e-6 * np.abs(step).max() or not 0 < ratio <= 2:
+        return middle.state
+    return _along(middle.state, start.state, -ratio)
+
+
+def _along(state: ChainState, toward: ChainState, part: float) -> ChainState:
+    """A shape part of the way from one towards another."""
+    return state._replace(
+        theta=state.theta + part * (toward.theta - state.theta),
+        shear=state.shear + part * (toward.shear - state.shear),
+    )
 
 
 def _rolled_up(state: ChainState) -> bool:

@@ -34,7 +34,7 @@ class GroundTraction(Protocol):
     """Additions of the ground's traction to Newton's method, see solvers.elastica.stick_slip."""
 
     def tensions(self) -> Array:
-        """Tension in the links by a unit of traction at each contact, (N + 1, C)."""
+        """Tension in the links by a unit of traction at each contact that pulls any, (N + 1, C)."""
         ...
 
     def resolve(
@@ -45,7 +45,7 @@ class GroundTraction(Protocol):
         Args:
             state: where the step begins.
             free: where it would lead without traction.
-            response: what a unit of traction at each contact adds, arrays with C columns.
+            response: what a unit of traction at each of those adds, arrays with C columns.
         """
         ...
 

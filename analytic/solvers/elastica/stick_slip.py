@@ -7,6 +7,7 @@ nothing any more and only decide which contact slides: section 2.2 of [Majidi13]
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,28 @@ Array = NDArray[np.float64]
 _FREE_UPDATES = 6  # before the change of bounds is extrapolated
 _MOST_CHANGES = 8  # of which contacts there are, in one increment
 _ALIKE = 1e-7  # part of the greatest bound by which bounds may change and count as the same
+
+
+class Signature(NamedTuple):
+    """Contacts of a state, from left to right.
+
+    Attributes:
+        kinds: "tip", "side", or "between" where the bound would jump, see _FixedPoint.
+        weakest: whether none has a smaller bound.
+        sliding: whether it slides.
+    """
+
+    kinds: tuple[str, ...]
+    weakest: tuple[bool, ...]
+    sliding: tuple[bool, ...]
+
+    def differs(self, before: "Signature") -> bool:
+        """Whether other contacts slide than before, or might have on the way.
+
+        A contact that begins or ceases to slide alone, or turns back, does so within an increment.
+        """
+        slid = any(self.sliding) and any(before.sliding) and self.sliding != before.sliding
+        return slid or (self.kinds, self.weakest) != (before.kinds, before.weakest)
 
 
 class StickSlip:
@@ -56,7 +79,6 @@ class StickSlip:
         self.slips = np.zeros(0, dtype=int)
         self._before = self._nodes / chain.robot.length
         self._speed, self._slid = 0.0, np.zeros(0)
-        self._tensions = self._reach = np.zeros((chain.links + 1, 0))
         self._take([], np.zeros(0), np.zeros(0))
         self._search: _FixedPoint | None = None
         self._changes = 0
@@ -78,10 +100,12 @@ class StickSlip:
         across = -self._chain.length * np.sin(state.theta)
         along = self._chain.length * np.cos(state.theta)
         along += across * (free.theta - state.theta)
-        # a contact is its part of each link beyond the left end
+        # a contact is moved by its part of each link beyond the left end
+        compliance = np.zeros((len(self.bounds), len(self.bounds)))
+        compliance[:, self._felt] = self._reach.T @ (across[:, None] * response.theta)
         increment = tractions(
             along @ self._reach - self._share @ self._before,
-            self._reach.T @ (across[:, None] * response.theta),
+            compliance,
             self.bounds,
             self._drag,
             self._pull,
@@ -91,12 +115,15 @@ class StickSlip:
             return None
         traction, place, self.slips, slid = increment
         self._slid = np.abs(slid)
-        return state._replace(
-            y=free.y + response.y @ traction,
-            theta=free.theta + response.theta @ traction,
-            shear=free.shear + response.shear @ traction,
-            tension=self._tensions @ traction,
+        felt = traction[self._felt]
+        return ChainState(
+            y=free.y + response.y @ felt,
+            theta=free.theta + response.theta @ felt,
+            shear=free.shear + response.shear @ felt,
+            active=state.active,
+            tension=self._tensions @ felt,
             left=place,
+            near=state.near,
         )
 
     def update(self, state: ChainState) -> bool:
@@ -152,10 +179,18 @@ class StickSlip:
         rows = rows[(self.slips == 0) & (self.bounds > 0)]
         return rows[1:] - rows[:1]
 
-    def signature(self) -> tuple[tuple[bool, int], ...]:
-        """The contacts, tips or sides, and which of them stick or slide."""
-        sides = (contact.length > 0 for contact in self.contacts)
-        return tuple(zip(sides, self.slips.tolist(), strict=True))
+    def signature(self) -> Signature:
+        """Contacts of the state that was found last."""
+        held = self._search.between if self._search else [False] * len(self.contacts)
+        least = (1 + _ALIKE) * float(self.bounds.min(initial=np.inf))
+        return Signature(
+            kinds=tuple(
+                "between" if between else "side" if contact.length > 0 else "tip"
+                for contact, between in zip(self.contacts, held, strict=True)
+            ),
+            weakest=tuple(bound <= least for bound in self.bounds.tolist()),
+            sliding=tuple(slip != 0 for slip in self.slips.tolist()),
+        )
 
     def _take(self, contacts: list[StripContact], bounds: Array, drag: Array) -> None:
         if len(contacts) != len(self.contacts):
@@ -169,8 +204,10 @@ class StickSlip:
         self._share = np.zeros((len(contacts), len(self._nodes)))
         for row, contact in zip(self._share, contacts, strict=True):
             row[contact.nodes] = contact.share
-        self._tensions = -np.cumsum(self._share.T, axis=0)[:-1]
-        self._reach = 1.0 + self._tensions  # share of the nodes after each link
+        tensions = -np.cumsum(self._share.T, axis=0)[:-1]
+        self._reach = 1.0 + tensions  # share of the nodes after each link
+        self._felt = np.flatnonzero(tensions.any(axis=0))  # not of the right end's tip
+        self._tensions = tensions[:, self._felt]
 
     def _places(self, state: ChainState) -> Array:
         """x of the nodes over L."""
@@ -203,23 +240,30 @@ class _FixedPoint:
 
     A contact may be a side as long as it resists like a tip, and a tip as long as it resists like a
     side. Then it is both in turn: bisection ends where the bound would jump, at a bound between.
+
+    Attributes:
+        between: contacts that are so held.
     """
 
     def __init__(self, count: int) -> None:
         self._low, self._high = np.full(count, -np.inf), np.full(count, np.inf)
         self._before: tuple[Array, Array] | None = None
         self._tries = 0
+        self.between = [False] * count
 
     def next(self, bounds: Array, results: Array, near: float) -> tuple[bool, Array]:
         """Tell whether bounds nearly result in themselves, and which to try next."""
         gap = results - bounds
         if np.abs(gap).max(initial=0.0) <= near:
+            self.between = [False] * len(gap)
             return True, bounds
         self._low = np.where(gap > near, np.maximum(self._low, bounds), self._low)
         self._high = np.where(gap < -near, np.minimum(self._high, bounds), self._high)
         between = self._low < self._high
         wide = between & (self._high - self._low > 10 * near)
-        solved = bool(((np.abs(gap) <= near) | (between & ~wide)).all())
+        held = between & ~wide & (np.abs(gap) > near)
+        self.between = held.tolist()
+        solved = bool(((np.abs(gap) <= near) | held).all())
         after, self._tries = results, self._tries + 1
         if self._before is not None and self._tries > _FREE_UPDATES:
             step, change = bounds - self._before[0], gap - self._before[1]

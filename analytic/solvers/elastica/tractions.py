@@ -18,7 +18,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg.lapack import dgesv
 
 Array = NDArray[np.float64]
 
@@ -67,33 +66,67 @@ def tractions(
     """
     count = len(bounds)
     scale = float(bounds.max(initial=0.0)) or 1.0
-    drag, give = viscosity + _VANISHING * scale, _GIVE / scale
-    dry = bounds > 0
-    slips = np.zeros(count, dtype=int) if guess is None else guess.copy()
-    matrix, right = np.zeros((count + 1, count + 1)), np.zeros(count + 1)
-    matrix[-1, :-1], right[-1] = 1.0, pull
+    give, limit, gap, row = _GIVE / scale, bounds.tolist(), gaps.tolist(), compliance.tolist()
+    drag = [c + _VANISHING * scale for c in viscosity.tolist()]
+    slips = [0] * count if guess is None else guess.tolist()
     for attempt in range(_ATTEMPTS):
-        stick = dry & (slips == 0)
-        factor = np.where(stick, 1.0, drag)
-        matrix[:-1, :-1] = factor[:, None] * compliance
-        matrix[range(count), range(count)] += np.where(stick, give, 1.0)
-        matrix[:-1, -1] = factor
-        right[:-1] = np.where(stick, 0.0, -slips * bounds) - factor * gaps
-        _, _, solution, singular = dgesv(matrix, right)
-        if singular:
+        stick = [v > 0 and not slip for v, slip in zip(limit, slips, strict=True)]
+        system = []
+        for j in range(count):
+            factor = 1.0 if stick[j] else drag[j]
+            equation = [factor * k for k in row[j]]
+            equation[j] += give if stick[j] else 1.0
+            dry = 0.0 if stick[j] else -slips[j] * limit[j]
+            system.append([*equation, factor, dry - factor * gap[j]])
+        system.append([1.0] * count + [0.0, pull])
+        solution = _solved(system)
+        if solution is None:
             return None
-        traction, whole = solution[:-1], float(solution[-1])
-        slid = gaps + whole + compliance @ traction
-        over = np.where(stick, np.abs(traction) - bounds * (1 + 1e-12), 0.0)
-        back = np.where(dry & ~stick, -slips * slid - _ROUNDING, 0.0)
-        wrong = np.flatnonzero((over > 0) | (back > 0))
-        if not len(wrong):
-            balanced = stick.any() or viscosity.any() or abs(pull) <= _ROUNDING
-            # or some slide one way and some the other, against each other
-            balanced = balanced or bool((slips[dry] > 0).any() and (slips[dry] < 0).any())
-            slips = np.where(dry, slips, np.sign(slid).astype(int))
-            return Tractions(traction, whole, slips, slid) if balanced else None
+        traction, whole = solution[:-1], solution[-1]
+        slid = [
+            g + whole + sum(k * t for k, t in zip(ks, traction, strict=True))
+            for g, ks in zip(gap, row, strict=True)
+        ]
+        wrong = [
+            j for j in range(count)
+            if limit[j] > 0 and (abs(traction[j]) > limit[j] * (1 + 1e-12) if stick[j]
+                                 else -slips[j] * slid[j] > _ROUNDING)
+        ]  # fmt: skip
+        if not wrong:
+            dry_slips = [slip for slip, v in zip(slips, limit, strict=True) if v > 0]
+            # balanced too where some slide one way and some the other, against each other
+            if not (any(stick) or viscosity.any() or abs(pull) <= _ROUNDING
+                    or (max(dry_slips, default=0) > 0 > min(dry_slips, default=0))):  # fmt: skip
+                return None
+            slips = [slip if v > 0 else (s > 0) - (s < 0)
+                     for slip, v, s in zip(slips, limit, slid, strict=True)]  # fmt: skip
+            return Tractions(np.array(traction), whole, np.array(slips, dtype=int), np.array(slid))
         if attempt >= _ALL_AT_ONCE:
             wrong = wrong[:1]  # the least index, which cannot cycle
-        slips[wrong] = np.where(stick[wrong], -np.sign(traction[wrong]).astype(int), 0)
+        for j in wrong:
+            slips[j] = (1 if traction[j] < 0 else -1) if stick[j] else 0
     return None
+
+
+def _solved(system: list[list[float]]) -> list[float] | None:
+    """Solution of a few linear equations, rows of (A, b); None if A is singular.
+
+    Gaussian elimination with partial pivoting, in plain floats: numpy is slow on a few numbers.
+    """
+    size = len(system)
+    for k in range(size):
+        pivot = max(range(k, size), key=lambda i: abs(system[i][k]))
+        if system[pivot][k] == 0.0:
+            return None
+        system[k], system[pivot] = system[pivot], system[k]
+        head = system[k]
+        for equation in system[k + 1 :]:
+            factor = equation[k] / head[k]
+            if factor:
+                for j in range(k + 1, size + 1):
+                    equation[j] -= factor * head[j]
+    solution = [0.0] * size
+    for k in reversed(range(size)):
+        known = sum(system[k][j] * solution[j] for j in range(k + 1, size))
+        solution[k] = (system[k][size] - known) / system[k][k]
+    return solution
