@@ -169,26 +169,41 @@ class _Branch:
         for row in range(len(self._path) - 1):
             while points[-1].row < row:
                 after = self._after(points, float(row))
-                points += self._change(points, after) if _changes(points[-1], after) else [after]
+                points += self._change(points, after) if self._change_in(points, after) else [after]
         return points[1:]
+
+    def _change_in(self, points: list[_Point], after: _Point) -> float:
+        """Part of an error in the motion that half an increment has; 0 if it need not be halved.
+
+        A contact that begins to slide alone does so within an increment. One that comes to a stop
+        does so at the end of a ramp, or where what it took up is greatest: to second order.
+        """
+        before = points[-1]
+        if before.contacts is None or after.contacts is None:
+            return 0.0
+        if after.contacts.differs(before.contacts):
+            return 0.5
+        straight = len(points) > 2 and _ratio(points, after.pressure) > 0
+        return 0.25 * (straight and after.contacts.turned(before.contacts))
 
     def _change(self, points: list[_Point], after: _Point) -> list[_Point]:
         """States on either side of the first change of contacts before a point, by bisection.
 
         Which contact slides is told wrongly on the way from one to the other alone.
         """
-        before = points[-1]
-        moved = self._moved(before.state, after.state)
-        while moved > _LOCATED:
-            middle = self._after([*points, before], 0.5 * (before.row + after.row), after)
-            if _changes(before, middle):
+        known = [*points]
+        error = self._moved(points[-1].state, after.state)
+        while error > _LOCATED:
+            middle = self._after(known, 0.5 * (known[-1].row + after.row), after)
+            part = self._change_in(known, middle)
+            if part:
                 after = middle
             else:
-                before = middle
-            moved *= 0.5
-        if before is points[-1]:
+                known = [*points, middle]
+            error *= part or 0.5
+        if len(known) == len(points):
             return [after]
-        return [before, self._after([*points, before], after.row, after)]
+        return [known[-1], self._after(known, after.row, after)]
 
     def _after(self, points: list[_Point], row: float, beyond: _Point | None = None) -> _Point:
         """The state that follows on those before it, at a row and perhaps before a known state."""
@@ -263,11 +278,13 @@ class _Branch:
         return None
 
 
-def _changes(before: _Point, after: _Point) -> bool:
-    """Whether other contacts slide at the latter of two states than at the former."""
-    if before.contacts is None or after.contacts is None:
-        return False
-    return after.contacts.differs(before.contacts)
+def _ratio(points: list[_Point], pressure: Array) -> float:
+    """Length of a step to a pressure over that of the one before it; 0 if not straight on."""
+    step, previous = pressure - points[-1].pressure, points[-1].pressure - points[-2].pressure
+    size = float(previous @ previous)
+    ratio = float(step @ previous) / size if size else 0.0
+    bend = np.abs(step - ratio * previous).max()
+    return ratio if bend <= 1e-6 * np.abs(step).max() else 0.0
 
 
 def _guess(points: list[_Point], pressure: Array, row: float, beyond: _Point | None) -> ChainState:
@@ -276,17 +293,10 @@ def _guess(points: list[_Point], pressure: Array, row: float, beyond: _Point | N
     if beyond is not None and math.isfinite(beyond.state.left):
         part = (row - middle.row) / (beyond.row - middle.row)
         return _along(middle.state, beyond.state, part)
-    if len(points) < 3:
+    ratio = _ratio(points, pressure) if len(points) > 2 else 0.0
+    if not 0 < ratio <= 2:
         return middle.state
-    start = points[-2]
-    step, previous = pressure - middle.pressure, middle.pressure - start.pressure
-    size = float(previous @ previous)
-    if size == 0:
-        return middle.state
-    ratio = float(step @ previous) / size
-    if np.abs(step - ratio * previous).max() > 1e-6 * np.abs(step).max() or not 0 < ratio <= 2:
-        return middle.state
-    return _along(middle.state, start.state, -ratio)
+    return _along(middle.state, points[-2].state, -ratio)
 
 
 def _along(state: ChainState, toward: ChainState, part: float) -> ChainState:

@@ -35,20 +35,23 @@ class Signature(NamedTuple):
     Attributes:
         kinds: "tip", "side", or "between" where the bound would jump, see _FixedPoint.
         weakest: whether none has a smaller bound.
-        sliding: whether it slides.
+        slips: -1, 0 or 1 as it slides towards -x, sticks or slides towards +x.
     """
 
     kinds: tuple[str, ...]
     weakest: tuple[bool, ...]
-    sliding: tuple[bool, ...]
+    slips: tuple[int, ...]
 
     def differs(self, before: "Signature") -> bool:
-        """Whether other contacts slide than before, or might have on the way.
-
-        A contact that begins or ceases to slide alone, or turns back, does so within an increment.
-        """
-        slid = any(self.sliding) and any(before.sliding) and self.sliding != before.sliding
+        """Whether other contacts slide than before, or might have on the way."""
+        slid = any(self.slips) and any(before.slips) and (
+            [slip != 0 for slip in self.slips] != [slip != 0 for slip in before.slips]
+        )  # fmt: skip
         return slid or (self.kinds, self.weakest) != (before.kinds, before.weakest)
+
+    def turned(self, before: "Signature") -> bool:
+        """Whether a contact that slid before has come to a stop, from where it may slide back."""
+        return any(was and now != was for now, was in zip(self.slips, before.slips, strict=True))
 
 
 class StickSlip:
@@ -189,7 +192,7 @@ class StickSlip:
                 for contact, between in zip(self.contacts, held, strict=True)
             ),
             weakest=tuple(bound <= least for bound in self.bounds.tolist()),
-            sliding=tuple(slip != 0 for slip in self.slips.tolist()),
+            slips=tuple(self.slips.tolist()),
         )
 
     def _take(self, contacts: list[StripContact], bounds: Array, drag: Array) -> None:
