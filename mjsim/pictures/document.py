@@ -1,4 +1,4 @@
-"""The page put together: words, numbers, video, charts, scene and origin; nothing from outside."""
+"""Page of walks: words, numbers, video, charts, scene and origin; nothing from outside."""
 
 import base64
 import json
@@ -11,7 +11,7 @@ import plotly.io
 from plotly.offline import get_plotlyjs
 
 from mjsim.files.written import as_tables, as_toml
-from mjsim.pictures import limb_charts, page_charts
+from mjsim.pictures import limb_charts, strip_charts
 from mjsim.results.trajectory import Trajectory
 
 _HERE = Path(__file__).parent
@@ -58,11 +58,11 @@ def _table(entries: Sequence[Entry]) -> str:
         row = entry.record
         speed = row["speed_m_per_s"]
         cells = (
-            escape(entry.name), _signed(row["displacement_over_L"]),
-            _signed(None if speed is None else 1e3 * speed, 2),
-            _signed(row["predicted_displacement_over_L"]),
-            _plain(row["prediction_uncertainty_over_L"]), _signed(row["error_over_L"]),
-            _signed(row.get("turn_deg"), 2), _plain(row.get("amplitude_over_L"), 3),
+            escape(entry.name), _cell(row["displacement_over_L"]),
+            _cell(None if speed is None else 1e3 * speed, "+.2f"),
+            _cell(row["predicted_displacement_over_L"]),
+            _cell(row["prediction_uncertainty_over_L"], ".4f"), _cell(row["error_over_L"]),
+            _cell(row.get("turn_deg"), "+.2f"), _cell(row.get("amplitude_over_L"), ".3f"),
             escape(row["status"]),
         )  # fmt: skip
         rows.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
@@ -84,11 +84,12 @@ def _section(entry: Entry) -> str:
         data = base64.b64encode(entry.video).decode("ascii")
         video = (f"<video controls loop muted playsinline preload='auto' "
                  f"src='data:video/mp4;base64,{data}'></video>")  # fmt: skip
+    charts = limb_charts if entry.walk.scene.in_space else strip_charts
     origin = {key: entry.origin.get(key) for key in ("versions", "commit")}
     parts = [
         f"<section><h2>{escape(entry.name)}</h2><p>{escape(_sentence(row))}</p>",
         *(f"<p class='note'>{escape(text)}</p>" for text in remarks), video,
-        *map(_chart, _charts(entry.walk)),
+        _chart(charts.shapes(entry.walk)), _chart(charts.course(entry.walk)),
         f"<h3>Scene</h3><pre>{escape(_toml(entry.walk))}</pre>",
         f"<h3>Origin</h3><pre>{escape(json.dumps(origin, indent=2))}</pre></section>",
     ]  # fmt: skip
@@ -96,20 +97,13 @@ def _section(entry: Entry) -> str:
 
 
 def _sentence(row: dict[str, Any]) -> str:
-    """What became of the walk, in words."""
+    """Result of the walk, in words."""
     gait = f"Gait {row['gait']} on {row['surface']}"
     shift = row["displacement_over_L"]
     if shift is None:
         return f"{gait}: {row['status']}, so there is no distance."
     way = "no direction" if row["direction"] == "none" else f"walks {row['direction']}"
     return f"{gait}: {way}, {1e3 * row['displacement_m']:+.2f} mm = {shift:+.4f} L a cycle."
-
-
-def _charts(walk: Trajectory) -> tuple[Any, Any]:
-    """Its shapes by a slider, and its course over time."""
-    if walk.scene.in_space:
-        return limb_charts.shapes(walk), limb_charts.course(walk)
-    return page_charts.shapes(walk), page_charts.course(walk)
 
 
 def _chart(figure: Any) -> str:
@@ -126,9 +120,5 @@ def _toml(walk: Trajectory) -> str:
         return f"# {error}"
 
 
-def _signed(value: float | None, places: int = 4) -> str:
-    return _NONE if value is None else f"{value:+.{places}f}"
-
-
-def _plain(value: float | None, places: int = 4) -> str:
-    return _NONE if value is None else f"{value:.{places}f}"
+def _cell(value: float | None, form: str = "+.4f") -> str:
+    return _NONE if value is None else format(value, form)

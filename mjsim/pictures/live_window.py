@@ -16,6 +16,7 @@ import numpy as np
 from analytic.scene.ground import Patches
 from analytic.scene.surface import SURFACES, Ground
 from mjsim.model.parts import PREFIX
+from mjsim.pictures.camera import hide_aids
 from mjsim.pictures.live_session import Session
 from mjsim.pictures.look import Look
 from mjsim.pictures.looks import look
@@ -152,8 +153,7 @@ class _Window:
     def _aim(self, viewer: Any) -> None:
         length = self._session.scene.robot.length
         with viewer.lock():
-            viewer.opt.geomgroup[3] = 0  # contact pads
-            viewer.opt.flags[mujoco.mjtVisFlag.mjVIS_TENDON] = 0
+            hide_aids(viewer.opt)
             camera = viewer.cam
             middle = self._session.simulation.nodes()[..., :2].reshape(-1, 2).mean(axis=0)
             camera.lookat[:] = *middle, 0.1 * length

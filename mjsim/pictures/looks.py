@@ -1,4 +1,4 @@
-"""The looks of a scene, by what its robot is."""
+"""Looks of a scene, by the kind of its robot."""
 
 from collections.abc import Callable
 
@@ -14,7 +14,7 @@ def look(
     scene: Scene, numerics: Numerics, reach: float,
     more: Callable[[mujoco.MjSpec], None] | None = None,
 ) -> Look:  # fmt: skip
-    """The looks of a scene.
+    """Looks of a scene.
 
     Args:
         scene, numerics: what was simulated, and with how many links.
