@@ -88,12 +88,12 @@ def without_minus_zero(value: float, least: float) -> float:
 class StripOverlay(Overlay):
     """Overlay of a strip: pressures of its segments, track and the anchored end."""
 
-    def _gone(self) -> np.ndarray:
-        """Displacement of the left end since the first cycle began, (T,) [m]."""
-        return self.walk.line[:, 0, 0] - self.walk.line[self.walk.start, 0, 0]
+    def __init__(self, walk: Trajectory, scale: float = 1.0, faster: float = 1.0) -> None:
+        super().__init__(walk, scale, faster)
+        self._gone = walk.line[:, 0, 0] - walk.line[walk.start, 0, 0]  # of the left end [m]
 
     def _displacement(self, step: int) -> Sequence[tuple[str, Colour]]:
-        gone = float(self._gone()[step])
+        gone = float(self._gone[step])
         millimetres = without_minus_zero(1e3 * gone, 5e-2)
         part = without_minus_zero(gone / self.walk.scene.robot.length, 5e-4)
         return (f"{millimetres:+.1f} mm", INK), (f"{part:+.3f} L", INK), ("left end", BLUE)
@@ -113,7 +113,7 @@ class StripOverlay(Overlay):
 
     def _track(self, pen: Pen, left: float, top: float, step: int) -> None:
         """Displacement of the left end over time, up to this step."""
-        u, walk, gone = self.scale, self.walk, self._gone()
+        u, walk, gone = self.scale, self.walk, self._gone
         width, height = 330 * u, 72 * u
         duration = max(float(walk.time[-1]), 1e-9)
         low, high = min(0.0, float(gone.min())), max(0.0, float(gone.max()))

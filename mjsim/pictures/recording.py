@@ -13,18 +13,17 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import imageio_ffmpeg
 import numpy as np
 
 from mjsim.files.files import whole
 from mjsim.pictures.frames import FPS, HEIGHT, WIDTH, Frame, Times, frame_times, how_much_faster
+from mjsim.pictures.limb_film import LimbCamera
+from mjsim.pictures.limb_overlay import LimbOverlay
+from mjsim.pictures.overlay import Overlay, StripOverlay
+from mjsim.pictures.render import Camera
 from mjsim.results.trajectory import Trajectory
-
-if TYPE_CHECKING:
-    from mjsim.pictures.camera import WalkCamera
-    from mjsim.pictures.overlay import Overlay
 
 BAND = (148, 568)  # lines of a frame that a band shows, of 720, between the sky and the slab
 _QUALITY, _IN_SPACE = 27, 31  # x264's constant rate factor: 12 s stay under 500 KB
@@ -70,7 +69,8 @@ def write_video(walk: Trajectory, path: Path) -> int:
 def pictures(walk: Trajectory, times: Times) -> Iterator[tuple[Frame, int]]:
     """Pictures of a walk without anything written on them, and the step that each shows."""
     shown, frame = -1, np.empty(0, np.uint8)
-    with _camera(walk) as camera:
+    in_space = walk.scene.in_space
+    with LimbCamera(walk) if in_space else Camera(walk, WIDTH, HEIGHT) as camera:
         for time in times:
             step = int(np.clip(np.searchsorted(walk.time, time), 0, len(walk.time) - 1))
             step = max(step, walk.start)  # still until the first cycle
@@ -85,25 +85,10 @@ def written(walk: Trajectory, times: Times) -> list[Frame]:
     return [overlay.draw(frame, step) for frame, step in pictures(walk, times)]
 
 
-def _camera(walk: Trajectory) -> "WalkCamera":
-    if walk.scene.in_space:
-        from mjsim.pictures.limb_film import LimbCamera
-
-        return LimbCamera(walk)
-    from mjsim.pictures.render import Camera
-
-    return Camera(walk, WIDTH, HEIGHT)
-
-
-def overlay_of(walk: Trajectory, scale: float = 1.0, faster: float = 1.0) -> "Overlay":
+def overlay_of(walk: Trajectory, scale: float = 1.0, faster: float = 1.0) -> Overlay:
     """The overlay of a walk, by the kind of its robot; see mjsim.pictures.overlay.Overlay."""
-    if walk.scene.in_space:
-        from mjsim.pictures.limb_overlay import LimbOverlay
-
-        return LimbOverlay(walk, scale, faster)
-    from mjsim.pictures.overlay import StripOverlay
-
-    return StripOverlay(walk, scale, faster)
+    kind = LimbOverlay if walk.scene.in_space else StripOverlay
+    return kind(walk, scale, faster)
 
 
 def band_of(frame: Frame) -> Frame:
@@ -132,7 +117,11 @@ def _draw(walk: Trajectory, path: Path, band: Path | None, until: float) -> int:
 
         part = stack.enter_context(whole(path))
         video = writer(part, HEIGHT, _IN_SPACE if in_space else _QUALITY)
-        narrow = writer(band, len(band_of(np.empty((HEIGHT, WIDTH, 3), np.uint8))), _BAND_QUALITY) if band else None
+        narrow = (
+            writer(band, len(band_of(np.empty((HEIGHT, WIDTH, 3), np.uint8))), _BAND_QUALITY)
+            if band
+            else None
+        )
         for frame, step in pictures(walk, times):
             video.add_image(overlay.draw(frame, step))
             if narrow:
