@@ -206,6 +206,19 @@ def load(path: Path | str) -> Trajectory:
         )
 
 
+def read(path: Path) -> tuple[Trajectory, dict[str, Any]]:
+    """Read a walk that was saved and its origin: versions, commit, scene and numerics.
+
+    Raises:
+        ValueError: the file is no such file, or cannot be read.
+    """
+    try:
+        with h5netcdf.File(path, "r") as file:
+            return load(path), json.loads(file.attrs["provenance"])
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise ValueError(f"cannot read a trajectory from {str(path)!r}: {error}") from error
+
+
 def of_angles(scene: Scene, numerics: Resolved, file: Any) -> tuple[Array, Array]:
     """Coordinates of MuJoCo and places of vertices from the angles of limbs, one after another."""
     robot, links = scene.robot, numerics.links
