@@ -158,10 +158,10 @@ def _write(folder: Path, fit: "Estimate", base: Tables, notes: list[str]) -> lis
 
     tables = as_tables(*build(with_values(base, fit.values)))
     comments = ["Fitted; 95 % intervals:", *_table(fit).splitlines(), *notes]
-    elsewhere = sorted(name for name in fit.values if not name.startswith(_OF_THE_SCENE))
-    if elsewhere:
+    others = sorted(name for name in fit.values if not name.startswith(_OF_THE_SCENE))
+    if others:
         comments.append("of surfaces beside the scene's ground: " + ", ".join(
-            f"{name} = {fit.values[name]:.6g}" for name in elsewhere))  # fmt: skip
+            f"{name} = {fit.values[name]:.6g}" for name in others))  # fmt: skip
     with whole(folder / "fit.toml") as part:
         part.write_text(as_toml(tables, comments), "utf-8")
     draw(fit, folder / "fit.png")

@@ -105,8 +105,8 @@ def _objective(options: Options, scenes: Sequence[Scene]) -> "Objective":
 def _model(options: Options, in_space: bool) -> str:
     walked = options.aim == "speed" or in_space
     if walked and options.model not in (None, "mujoco"):
-        what = "a robot of limbs" if in_space else "aim speed"
-        raise ValueError(f"model of {what} must be mujoco, got {options.model}")
+        case = "a robot of limbs" if in_space else "aim speed"
+        raise ValueError(f"model of {case} must be mujoco, got {options.model}")
     return options.model or ("mujoco" if walked else "elastica")
 
 

@@ -35,7 +35,7 @@ def field_text(name: str) -> str:
 
 
 def _first(name: str, known: Callable[[type], Mapping[str, str]], default: str) -> str:
-    """What is known of a field of any of the classes that a table is made of."""
+    """Value for a field, of the first of the classes of its table that has one."""
     table, _, key = name.partition(".")
     return next((known(kind)[key] for kind in KINDS.get(table, ()) if key in known(kind)), default)
 

@@ -19,7 +19,7 @@ _NONE = "–"
 
 
 class Entry(NamedTuple):
-    """One walk of the page.
+    """A walk of the page.
 
     Attributes:
         name: of its file.

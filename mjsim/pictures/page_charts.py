@@ -21,7 +21,7 @@ CLEAR = "rgba(0,0,0,0)"
 
 
 def frames_of(walk: Trajectory) -> Rows:
-    """States that a slider shows."""
+    """States that the slider shows, (F,)."""
     return np.linspace(walk.start, len(walk.time) - 1, _FRAMES).astype(int)
 
 

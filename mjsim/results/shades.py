@@ -13,5 +13,5 @@ def shade(fraction: float) -> NDArray[np.float64]:
 
 
 def shade_of_pixels(fraction: float) -> tuple[int, ...]:
-    """The same in the whole numbers of a picture, (3,) [0..255]."""
+    """Colour at a part of the peak pressure in the numbers of a picture, (3,) [0..255]."""
     return tuple(np.rint(255 * shade(fraction)).astype(int).tolist())
