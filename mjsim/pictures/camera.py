@@ -2,7 +2,8 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from typing import Any, Self
+from contextlib import AbstractContextManager
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -66,7 +67,7 @@ class View:
         return 0.5 * columns + float(x), 0.5 * lines - float(y)
 
 
-class WalkCamera(ABC):
+class WalkCamera(AbstractContextManager["WalkCamera"], ABC):
     """Draws one walk; close it, or use it in a `with`, as it holds OpenGL contexts.
 
     Args:
@@ -79,9 +80,6 @@ class WalkCamera(ABC):
         reach = float(np.abs(walk.line[..., :2]).max()) + 3 * walk.scene.robot.length
         self.look = look(walk.scene, walk.numerics, reach)
         self.views = [View(self.look, name, *size) for name, size in sizes.items()]
-
-    def __enter__(self) -> Self:
-        return self
 
     def __exit__(self, *_: object) -> None:
         self.close()

@@ -10,12 +10,19 @@ from typing import Any, NamedTuple
 import plotly.io
 from plotly.offline import get_plotlyjs
 
+from mjsim.files.text_table import Column
 from mjsim.files.written import as_tables, as_toml
 from mjsim.pictures import limb_charts, strip_charts
 from mjsim.results.trajectory import Trajectory
 
 _HERE = Path(__file__).parent
-_NONE = "–"
+COLUMNS = (
+    Column("run", "run"), Column("Δ/L a cycle", "displacement_over_L", "+.4f"),
+    Column("mm/s", "mm_per_s", "+.2f"), Column("theory", "predicted_displacement_over_L", "+.4f"),
+    Column("±", "prediction_uncertainty_over_L", ".4f"), Column("error", "error_over_L", "+.4f"),
+    Column("turn [°]", "turn_deg", "+.2f"), Column("height/L", "amplitude_over_L", ".3f"),
+    Column("status", "status"),
+)  # fmt: skip
 
 
 class Entry(NamedTuple):
@@ -52,21 +59,13 @@ def page(entries: Sequence[Entry]) -> str:
 
 
 def _table(entries: Sequence[Entry]) -> str:
-    head = ("run", "Δ/L a cycle", "mm/s", "theory", "±", "error", "turn [°]", "height/L", "status")
     rows = []
     for entry in entries:
-        row = entry.record
-        speed = row["speed_m_per_s"]
-        cells = (
-            escape(entry.name), _cell(row["displacement_over_L"]),
-            _cell(None if speed is None else 1e3 * speed, "+.2f"),
-            _cell(row["predicted_displacement_over_L"]),
-            _cell(row["prediction_uncertainty_over_L"], ".4f"), _cell(row["error_over_L"]),
-            _cell(row.get("turn_deg"), "+.2f"), _cell(row.get("amplitude_over_L"), ".3f"),
-            escape(row["status"]),
-        )  # fmt: skip
-        rows.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
-    heads = "".join(f"<th>{cell}</th>" for cell in head)
+        speed = entry.record["speed_m_per_s"]
+        values = {**entry.record, "run": entry.name, "mm_per_s": speed and 1e3 * speed}
+        cells = "".join(f"<td>{escape(column.cell(values))}</td>" for column in COLUMNS)
+        rows.append(f"<tr>{cells}</tr>")
+    heads = "".join(f"<th>{column.head}</th>" for column in COLUMNS)
     return (
         f"<div class='scroll'><table><thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}"
         "</tbody></table></div><p class='note'>Displacement per cycle over the length L: of a "
@@ -118,7 +117,3 @@ def _toml(walk: Trajectory) -> str:
         return as_toml(as_tables(walk.scene, walk.numerics))
     except ValueError as error:  # a ground of somebody's own
         return f"# {error}"
-
-
-def _cell(value: float | None, form: str = "+.4f") -> str:
-    return _NONE if value is None else format(value, form)

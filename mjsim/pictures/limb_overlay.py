@@ -17,10 +17,11 @@ _CENTRE, _LENGTH = (520, 62), 190.0  # of the robot from above: its middle, and 
 class LimbOverlay(Overlay):
     """Overlay of a robot of limbs: pressures in its limbs and which way it turned."""
 
-    def _background(self, frame: Frame) -> Frame:
-        band, lines = frame.copy(), round(_BAND * self.scale)
-        band[:lines] = (_WHITE * 255 + (1 - _WHITE) * band[:lines]).astype(np.uint8)
-        return band
+    def draw(self, frame: Frame, step: int) -> Frame:
+        """A copy of the frame with the state written on a white band."""
+        picture, lines = frame.copy(), round(_BAND * self.scale)
+        picture[:lines] = (_WHITE * 255 + (1 - _WHITE) * picture[:lines]).astype(np.uint8)
+        return super().draw(picture, step)
 
     def _displacement(self, step: int) -> Sequence[tuple[str, Colour]]:
         walk = self.walk

@@ -45,16 +45,13 @@ class Overlay(ABC):
 
     def draw(self, frame: Frame, step: int) -> Frame:
         """A copy of the frame with the state after a step written on it."""
-        picture = Image.fromarray(self._background(frame))
+        picture = Image.fromarray(frame)
         pen, walk, edge = ImageDraw.Draw(picture), self.walk, _EDGE * self.scale
-        speed = f", {self._faster:g} times as fast" if self._faster > 1 else ""
-        time = max(0.0, float(walk.time[step]))
-        texts = (
-            walk.scene.ground.name,
-            f"gait {walk.scene.gait.name}",
-            f"t = {time:4.1f} s{speed}",
-        )
-        self._write(pen, edge, [(text, INK) for text in texts], "la")
+        time = f"t = {max(0.0, float(walk.time[step])):4.1f} s"
+        if self._faster > 1:
+            time += f", {self._faster:g} times as fast"
+        words = (walk.scene.ground.name, f"gait {walk.scene.gait.name}", time)
+        self._write(pen, edge, [(text, INK) for text in words], "la")
         self._write(pen, picture.width - edge, self._displacement(step), "ra")
         self._draw_state(pen, picture.width, step)
         return np.array(picture)
@@ -66,10 +63,6 @@ class Overlay(ABC):
         for line, (text, colour) in zip(_LINES, texts, strict=True):
             pen.text((at, (_TOP + line) * self.scale), text, fill=colour, anchor=anchor,
                      font=self.small if line else self.big)  # fmt: skip
-
-    def _background(self, frame: Frame) -> Frame:
-        """The frame, made ready to write on."""
-        return frame
 
     @abstractmethod
     def _displacement(self, step: int) -> Sequence[tuple[str, Colour]]:

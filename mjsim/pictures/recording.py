@@ -25,7 +25,7 @@ from mjsim.pictures.overlay import Overlay, StripOverlay
 from mjsim.pictures.render import Camera
 from mjsim.results.trajectory import Trajectory
 
-BAND = (148, 568)  # lines of a frame that a band shows, of 720, between the sky and the slab
+_BAND = slice(148, 568)  # lines of a frame that a band shows, between the sky and the slab
 _QUALITY, _IN_SPACE = 27, 31  # x264's constant rate factor: 12 s stay under 500 KB
 _BAND_QUALITY = 12  # of bands, which are encoded once more
 _BAND_SCALE = 1.1  # of letters in a band
@@ -91,22 +91,14 @@ def overlay_of(walk: Trajectory, scale: float = 1.0, faster: float = 1.0) -> Ove
     return kind(walk, scale, faster)
 
 
-def band_of(frame: Frame) -> Frame:
-    """The lines of a frame that a band shows, with room for letters above the strip."""
-    low, high = (line * len(frame) // HEIGHT // 2 * 2 for line in BAND)
-    return frame[low:high]
-
-
 def _draw(walk: Trajectory, path: Path, band: Path | None, until: float) -> int:
     """Write the video of a walk, shown until a time [s], and its band; the number of frames."""
     import mediapy
 
     mediapy.set_ffmpeg(imageio_ffmpeg.get_ffmpeg_exe())
-    in_space, faster = walk.scene.in_space, 1.0
-    if in_space:
-        until = float(walk.time[-1])
-        faster = how_much_faster(until)
-    times = frame_times(until, faster)
+    in_space, duration = walk.scene.in_space, float(walk.time[-1])
+    faster = how_much_faster(duration) if in_space else 1.0
+    times = frame_times(duration if in_space else until, faster)
     overlay, small = overlay_of(walk, faster=faster), overlay_of(walk, _BAND_SCALE)
     with ExitStack() as stack, warnings.catch_warnings():
         warnings.simplefilter("ignore", ResourceWarning)  # mediapy leaves ffmpeg's pipes
@@ -117,15 +109,11 @@ def _draw(walk: Trajectory, path: Path, band: Path | None, until: float) -> int:
 
         part = stack.enter_context(whole(path))
         video = writer(part, HEIGHT, _IN_SPACE if in_space else _QUALITY)
-        narrow = (
-            writer(band, len(band_of(np.empty((HEIGHT, WIDTH, 3), np.uint8))), _BAND_QUALITY)
-            if band
-            else None
-        )
+        narrow = band and writer(band, _BAND.stop - _BAND.start, _BAND_QUALITY)
         for frame, step in pictures(walk, times):
             video.add_image(overlay.draw(frame, step))
             if narrow:
-                narrow.add_image(small.draw(band_of(frame), step))
+                narrow.add_image(small.draw(frame[_BAND], step))
     return len(times)
 
 
