@@ -13,6 +13,7 @@ from mjsim.files import plugins
 from mjsim.files.cli import ALL, Plugins
 from mjsim.files.dataclass_options import given, optional, parts
 from mjsim.files.keys import (
+    KEYS,
     SCENE_FIELDS,
     SIDES,
     SURFACE_FIELDS,
@@ -38,9 +39,7 @@ _NumericsOptions = optional(
     {Numerics: [item.name for item in fields(Numerics)], Scene: SCENE_FIELDS},
     {name: f"--{name.replace('_', '-')}" for name in ("links", "timestep", *SCENE_FIELDS)},
 )
-_ValveOptions = optional(
-    "ValveOptions", {Valves: [item.name for item in fields(Valves)]}, {"fill_time": "--lag"}
-)
+_ValveOptions = optional("ValveOptions", {Valves: KEYS["valves"]}, {"fill_time": "--lag"})
 _LimbOptions = optional("LimbOptions", {GaitKeys: SIDES})
 ROBOTS = ("strip", "quadruped")
 _bare = tyro.conf.arg(help_behavior_hint="")

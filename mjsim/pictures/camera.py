@@ -1,7 +1,7 @@
-"""Cameras: a view of a look as it is rendered, and a camera that draws a walk."""
+"""Looks of any scene, their views as they are rendered, and cameras that draw a walk."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
 from typing import Any
 
@@ -10,11 +10,28 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mjsim.pictures.frames import Frame
+from mjsim.pictures.limb_look import LimbLook
 from mjsim.pictures.look import Look
-from mjsim.pictures.looks import look
+from mjsim.pictures.strip_look import StripLook
 from mjsim.results.trajectory import Trajectory
+from mjsim.scene import Numerics, Scene, resolved
 
 Colour = tuple[float, float, float, float]
+
+
+def look(
+    scene: Scene, numerics: Numerics, reach: float,
+    more: Callable[[mujoco.MjSpec], None] | None = None,
+) -> Look:  # fmt: skip
+    """Looks of a scene, by the kind of its robot.
+
+    Args:
+        scene, numerics: what was simulated, and with how many links.
+        reach: how far from x = 0 it goes [m].
+        more: adds to the model before it is compiled.
+    """
+    kind = LimbLook if scene.in_space else StripLook
+    return kind(scene, resolved(scene, numerics), reach, more)
 
 
 def hide_aids(options: Any) -> None:

@@ -22,7 +22,7 @@ _HIGH, _WIDE = 3.0, 16.0  # of the camera straight above: height and field [L, d
 
 
 class LimbLook(Look):
-    """Looks of a robot of limbs; see mjsim.pictures.looks.look."""
+    """Looks of a robot of limbs; see mjsim.pictures.camera.look."""
 
     def __init__(
         self, scene: Scene, numerics: Resolved, reach: float,

@@ -16,10 +16,9 @@ import numpy as np
 from analytic.scene.ground import Patches
 from analytic.scene.surface import SURFACES, Ground
 from mjsim.model.parts import PREFIX
-from mjsim.pictures.camera import hide_aids
+from mjsim.pictures.camera import hide_aids, look
 from mjsim.pictures.live_session import Session
 from mjsim.pictures.look import Look
-from mjsim.pictures.looks import look
 
 SPACE, BACKSPACE = 32, 259  # codes of GLFW
 _FRAME = 1 / 60  # s

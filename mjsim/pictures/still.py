@@ -4,9 +4,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mjsim.model.limb_skins import CAMERA
-from mjsim.pictures.camera import View
+from mjsim.pictures.camera import View, look
 from mjsim.pictures.frames import Frame
-from mjsim.pictures.looks import look
 from mjsim.scene import Numerics, Scene
 
 _REACH = 10.0  # lengths of ground that are shown; chosen

@@ -21,7 +21,7 @@ _RULED = (0.08, 0.20)  # lengths of robots that the ruler suits [m]
 
 
 class StripLook(Look):
-    """Looks of a strip; see mjsim.pictures.looks.look."""
+    """Looks of a strip; see mjsim.pictures.camera.look."""
 
     def __init__(
         self, scene: Scene, numerics: Resolved, reach: float,
