@@ -9,7 +9,7 @@ import numpy as np
 import mjsim.simulation.simulation as simulation
 from analytic import Surface
 from mjsim.model.builder import compile_model
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Scene, resolved
 from mjsim.simulation.batch import rollout
 
 REPEATS = 7
@@ -36,7 +36,7 @@ def inside(scene: Scene, numerics: Numerics) -> float:
 
 def main() -> None:
     scene = Scene()
-    for numerics in (Numerics(), Numerics(12, 0.02)):
+    for numerics in (resolved(scene), resolved(scene, Numerics(12, 0.02))):
         whole, steps = (
             min(times)
             for times in zip(
@@ -52,7 +52,7 @@ def main() -> None:
     times = []
     for _ in range(REPEATS):
         started = clock.perf_counter()
-        compile_model(scene, Numerics().resolved(scene.body, scene.friction))
+        compile_model(scene, resolved(scene))
         times.append(clock.perf_counter() - started)
     print(f"assembly and compilation {1e3 * min(times):.0f} ms")
     rolled = replace(scene, friction="coulomb", actuation="actuators")

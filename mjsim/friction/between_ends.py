@@ -10,10 +10,10 @@ import math
 
 import mujoco
 
-from analytic.friction.contacts import Finder, StripContact
+from analytic.friction.contacts import ContactFinder, StripContact
 from analytic.friction.dissipation import minimisers
 from analytic.scene.chain import node_positions
-from mjsim.friction.traction import Bounded, ContactFriction
+from mjsim.friction.traction import BoundedFriction, ContactFriction
 from mjsim.model.pads import pads_by_node
 from mjsim.model.parts import PREFIX
 from mjsim.scene import Resolved, Scene
@@ -26,7 +26,7 @@ def node_tendons(model: mujoco.MjModel, left: int, right: int, nodes: int) -> li
     return [left, *(model.tendon(f"{PREFIX}grip_{node}").id for node in range(1, nodes - 1)), right]
 
 
-class Anchors:
+class AnchoredContacts:
     """Where friction holds the strip, and how far a step moved that by its order alone.
 
     Attributes:
@@ -71,7 +71,7 @@ class ContactFrictionEverywhere(ContactFriction):
     ) -> None:
         super().__init__(scene, numerics, model, data)
         self._tendons = node_tendons(model, self._left, self._right, numerics.links + 2)
-        self._anchors = Anchors(data)
+        self._anchors = AnchoredContacts(data)
         self._geoms = pads_by_node(model)[:, 0].tolist()
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
@@ -95,7 +95,7 @@ class ContactFrictionEverywhere(ContactFriction):
         return float(self._friction[self._geoms[node], 0])
 
 
-class BoundedContacts(Bounded):
+class BoundedContacts(BoundedFriction):
     """See Traction; `left_slip` is NaN, as more than the two ends share the motion."""
 
     def __init__(
@@ -104,7 +104,7 @@ class BoundedContacts(Bounded):
         super().__init__(scene, numerics, model, data)
         nodes = node_positions(scene.strip, numerics.links)
         press = scene.ground.at(0.0).press(scene.strip.width)
-        self._finder = Finder(scene.strip, nodes, press)
+        self._finder = ContactFinder(scene.strip, nodes, press)
         self._half = 0.5 * scene.strip.length
         self._tendons = node_tendons(model, self._left, self._right, len(nodes))
         self._bounds[self._tendons] = 0.0
@@ -112,7 +112,7 @@ class BoundedContacts(Bounded):
         self._meant: list[int] = []
         begin = model.tendon_adr[self._both]
         self._divisors = model.wrap_prm[begin : begin + model.tendon_num[self._both] : 3]
-        self._anchors = Anchors(data)
+        self._anchors = AnchoredContacts(data)
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
         """See Traction.before_step."""

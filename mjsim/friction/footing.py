@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.contact_length import may_lie_flat
-from mjsim.friction.in_plane import Grips
+from mjsim.friction.in_plane import LimbFooting
 from mjsim.friction.laws import traction
 from mjsim.model.body import Joints
 from mjsim.model.pads import pads_by_node
@@ -112,5 +112,5 @@ def footing(
 ) -> Footing:
     """The law of a scene at work."""
     if scene.in_space:
-        return Grips(scene, numerics, model, data)
+        return LimbFooting(scene, numerics, model, data)
     return StripFooting(scene, numerics, model, data, joints)

@@ -37,7 +37,7 @@ _STEEP, _LEANS = math.tan(_TIPPED), math.sin(_TIPPED)
 _POINT = 1e-8  # m^2; places that are closer do not tell a turn
 
 
-class Grips:
+class LimbFooting:
     """The rows of friction, set before each step; see mjsim.friction.footing.Footing.
 
     Args:

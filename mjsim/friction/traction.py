@@ -59,7 +59,7 @@ class Traction(Protocol):
         ...
 
 
-class Ends:
+class StripFriction:
     """What both ways share: the ends' contact lengths, and who moves."""
 
     def __init__(
@@ -98,7 +98,7 @@ class Ends:
         self.left_slip = 1.0 if left > right else 0.0
 
 
-class Bounded(Ends):
+class BoundedFriction(StripFriction):
     """What bounds at the ends and everywhere share: the law, and softer ground under steep ends."""
 
     def __init__(
@@ -142,7 +142,7 @@ class Bounded(Ends):
         return float(bound)
 
 
-class BoundedEnds(Bounded):
+class BoundedEnds(BoundedFriction):
     """Bounds of the friction along x at the two ends, whatever law gives them.
 
     On a slope the weight decides a tie, and who takes up a change is seen as it moves.
@@ -176,7 +176,7 @@ class BoundedEnds(Bounded):
         self._bounds[self._left : self._both + 1] = left, right, self._tie if tied else 0.0
 
 
-class ContactFriction(Ends):
+class ContactFriction(StripFriction):
     """Coulomb friction of the pads.
 
     The outermost ones have the coefficient of a tip, or of a side while the end lies on it; the

@@ -8,8 +8,8 @@ from mjsim.scene.valves import Valves
 Array = NDArray[np.float64]
 
 
-class Chambers:
-    """Chambers at rest, without pressure, and what their valves were commanded of late.
+class ChamberPressures:
+    """Pressures in chambers that follow their valves, none at first.
 
     Args:
         valves: how they follow.

@@ -16,7 +16,7 @@ TABLE = Path(__file__).with_name("auto.csv")
 _TIGHTEST = 0.005  # tolerance that was measured
 
 
-class Rung(NamedTuple):
+class Level(NamedTuple):
     """Links and time step, and how they did.
 
     Attributes:
@@ -43,7 +43,7 @@ def check_tolerance(tolerance: float) -> None:
         raise ValueError(f"tolerance must lie between {_TIGHTEST} and 1, got {tolerance!r}")
 
 
-def rungs(contacts: str, path: Path = TABLE) -> list[Rung]:
+def levels(contacts: str, path: Path = TABLE) -> list[Level]:
     """Those to walk, coarsest first.
 
     Args:
@@ -52,7 +52,7 @@ def rungs(contacts: str, path: Path = TABLE) -> list[Rung]:
     """
     with path.open(newline="", encoding="utf-8") as file:
         return [
-            Rung(row["contacts"], int(row["links_per_segment"]), float(row["timestep"]),
-                 int(row["scenes"]), *(float(row[name]) for name in Rung._fields[4:]))
+            Level(row["contacts"], int(row["links_per_segment"]), float(row["timestep"]),
+                 int(row["scenes"]), *(float(row[name]) for name in Level._fields[4:]))
             for row in csv.DictReader(file) if row["contacts"] == contacts
         ]  # fmt: skip

@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields
 
 from analytic.checks import not_negative
 
-Each = float | tuple[float, ...]
+PerSegment = float | tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -20,13 +20,13 @@ class Valves:
         ValueError: a number is negative, or a flow limit is not positive.
     """
 
-    fill_time: Each = 0.0
+    fill_time: PerSegment = 0.0
     """time constant with which chambers fill [s]"""
-    vent_time: Each | None = None
+    vent_time: PerSegment | None = None
     """time constant with which they vent [s]; as they fill if not given"""
-    dead_time: Each = 0.0
+    dead_time: PerSegment = 0.0
     """from a command to its first effect [s]"""
-    flow_limit: Each | None = None
+    flow_limit: PerSegment | None = None
     """fastest change of pressure that the supply and the tubes let through [Pa/s]; none if not
     given"""
 

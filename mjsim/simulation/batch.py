@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from mjsim.files.plugins import processes
 from mjsim.model.builder import compile_model
-from mjsim.model.chambers import Chambers
+from mjsim.model.chambers import ChamberPressures
 from mjsim.model.pneumatics import controls
 from mjsim.results.judge import judge
 from mjsim.results.status import Status
@@ -119,7 +119,7 @@ def rollout(
     states = np.array([_first_state(model) for model in models])
     rest = np.zeros(commands[0].shape[1])
     pressures = [
-        Chambers(scene.valves, len(rest), own.timestep).follow(command)
+        ChamberPressures(scene.valves, len(rest), own.timestep).follow(command)
         for scene, command in zip(scenes, commands, strict=True)
     ]
     sequence = np.array(

@@ -19,10 +19,10 @@ from mjsim.model.parts import PREFIX, TENDONS, contact_softness, tie_force
 from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
-Rows = NDArray[np.int_]
+Indices = NDArray[np.int_]
 
 
-class Grounds(NamedTuple):
+class StripParameters(NamedTuple):
     """What the bounds of each scene follow from, a row a scene.
 
     Attributes:
@@ -43,10 +43,10 @@ class Grounds(NamedTuple):
     level: NDArray[np.bool_]
 
 
-def grounds(scenes: Sequence[Scene], numerics: Resolved) -> Grounds:
+def grounds(scenes: Sequence[Scene], numerics: Resolved) -> StripParameters:
     """Of scenes on uniform ground."""
     robots, surfaces = [s.strip for s in scenes], [s.ground.at(0.0) for s in scenes]
-    return Grounds(
+    return StripParameters(
         width=np.array([r.width for r in robots]),
         half=np.array([0.5 * r.length for r in robots]),
         weight=np.array([r.weight_per_length for r in robots]),
@@ -58,7 +58,7 @@ def grounds(scenes: Sequence[Scene], numerics: Resolved) -> Grounds:
     )
 
 
-class Ends:
+class BoundedEndsBatch:
     """The ends of the scenes of a batch.
 
     Args:
@@ -91,18 +91,18 @@ class Ends:
         self.left_slip, self._slip = np.full(count, 0.5), np.zeros(count)
         self._before: Array = np.zeros(count)
 
-    def replace(self, rows: Rows, scenes: Sequence[Scene]) -> None:
+    def replace(self, rows: Indices, scenes: Sequence[Scene]) -> None:
         """Other scenes in some rows."""
         for old, new in zip(self.grounds, grounds(scenes, self._numerics), strict=True):
             old[rows] = new
 
-    def start(self, rows: Rows) -> None:
+    def start(self, rows: Indices) -> None:
         """Forget what was, once the strips lie on the ground."""
         self.contact[rows], self.left_slip[rows], self._slip[rows] = 0.0, 0.5, 0.0
         self._before[rows] = self._at[rows, self._tendons[1]]
         self._softness[rows[:, None], [self._first, self._last], 0] = self._firm
 
-    def before_step(self, rows: Rows, slopes: Array, may_be_flat: NDArray[np.bool_]) -> None:
+    def before_step(self, rows: Indices, slopes: Array, may_be_flat: NDArray[np.bool_]) -> None:
         """Read the contacts and set what resists in the next step.
 
         Args:
@@ -131,7 +131,7 @@ class Ends:
         self._bounds[rows, tendons[2]] = np.where((left == right) & level, ground.tie[rows], 0.0)
         self.contact[rows], self.left_slip[rows] = contact, slip
 
-    def after_step(self, rows: Rows, dt: float) -> Array:
+    def after_step(self, rows: Indices, dt: float) -> Array:
         """How far towards +x a step moved what friction holds, by its order alone, (R,) [m].
 
         See mjsim.friction.traction.Traction.
@@ -142,7 +142,7 @@ class Ends:
         self._before[rows], self._slip[rows] = at - excess, self.left_slip[rows]
         return np.asarray(excess)
 
-    def _lengths(self, rows: Rows) -> Array:
+    def _lengths(self, rows: Indices) -> Array:
         """Lengths of side contact of both ends if they are on their side, (R, 2) [m]."""
         heights = self._place[rows, self._first : self._last + 1, 2]
         force, place = self._force[rows, ::3], self.grounds.arclength[rows]

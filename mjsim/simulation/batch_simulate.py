@@ -18,13 +18,13 @@ from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Resolved, Scene, resolved
 from mjsim.simulation.batch import Refused
 from mjsim.simulation.batch_layout import layout, refusal
-from mjsim.simulation.batch_strips import Block, Strips
+from mjsim.simulation.batch_strips import Block, StripBatch
 from mjsim.simulation.schedule import check_steps, walking
 from mjsim.simulation.simulation import simulate
 
 Array = NDArray[np.float64]
 
-ABREAST = 64  # scenes at a time; chosen: more gain little, and need memory
+BATCH_SIZE = 64  # scenes at a time; chosen: more gain little, and need memory
 _BLOCK = 256  # steps that are prepared at once
 
 
@@ -54,22 +54,22 @@ def simulate_batch(
         except ValueError as error:
             found[i] = Refused(scene, str(error))
     for group in alike.values():
-        for begin in range(0, len(group), ABREAST):
-            some = group[begin : begin + ABREAST]
-            walks = _abreast([scenes[i] for i in some], numerics, threads)
+        for begin in range(0, len(group), BATCH_SIZE):
+            some = group[begin : begin + BATCH_SIZE]
+            walks = _batch([scenes[i] for i in some], numerics, threads)
             found |= dict(zip(some, walks, strict=True))
     return [found[i] for i in range(len(scenes))]
 
 
-def _abreast(
+def _batch(
     scenes: Sequence[Scene], numerics: Numerics | None, threads: int
 ) -> list[Trajectory | Refused]:
     own = resolved(scenes[0], numerics)
     try:
-        strips = Strips(scenes, own, threads)
+        strips = StripBatch(scenes, own, threads)
     except ValueError as error:
         if len(scenes) > 1:  # one that MuJoCo refuses must not spoil the others
-            return [walk for s in scenes for walk in _abreast([s], numerics, threads)]
+            return [walk for s in scenes for walk in _batch([s], numerics, threads)]
         return [Refused(scenes[0], str(error))]
     started, worked = clock.perf_counter(), clock.process_time()
     every = np.arange(len(scenes))
@@ -94,7 +94,7 @@ def _abreast(
 
 
 def _trajectory(
-    strips: Strips, row: int, blocks: Sequence[Block], wall: float, cpu: float
+    strips: StripBatch, row: int, blocks: Sequence[Block], wall: float, cpu: float
 ) -> Trajectory:
     parts = []
     for block in blocks:

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from analytic.friction.contact_length import may_lie_flat
 from analytic.scene.chain import joint_springs
 from mjsim.friction.footing import feet_may_be
-from mjsim.model.chambers import Chambers
+from mjsim.model.chambers import ChamberPressures
 from mjsim.model.pads import pads_by_node
 from mjsim.results.status import AT_REST
 from mjsim.scene import Resolved, Scene
-from mjsim.simulation.batch_ends import Ends, Rows
+from mjsim.simulation.batch_ends import BoundedEndsBatch, Indices
 from mjsim.simulation.batch_layout import layout, models, refusal, write
 from mjsim.simulation.schedule import before_start, check_steps
 
@@ -23,7 +23,7 @@ _FIRST_HINGE = 3  # the joints are x, z, pitch, then the hinges
 
 
 class Block:
-    """What `Strips.play` did, a row a scene and a column a step.
+    """What `StripBatch.play` did, a row a scene and a column a step.
 
     Attributes:
         rows: the scenes.
@@ -34,7 +34,7 @@ class Block:
         steps: that were done before a scene stopped, (R,).
     """
 
-    def __init__(self, rows: Rows, pressure: Array, nq: int) -> None:
+    def __init__(self, rows: Indices, pressure: Array, nq: int) -> None:
         shape = pressure.shape[:2]
         self.rows, self.pressure = rows, pressure
         self.coordinates = np.empty((*shape, nq))
@@ -42,7 +42,7 @@ class Block:
         self.steps = np.full(shape[0], shape[1])
 
 
-class Strips:
+class StripBatch:
     """Scenes of one layout, stepped together.
 
     Args:
@@ -78,20 +78,20 @@ class Strips:
         self._length = batch.bind("ten_length")
         pads = pads_by_node(self.model)[:, 0]
         self._feet = pads[[0, -1]]
-        self._ends = Ends(scenes, numerics, batch, self.model)
+        self._ends = BoundedEndsBatch(scenes, numerics, batch, self.model)
         self._limits = np.array([feet_may_be(scene, numerics) for scene in scenes])
         self.pressure = np.zeros((len(scenes), len(scenes[0].strip.segments)))
         self.stopped = np.zeros(len(scenes), dtype=bool)
-        self._chambers: list[Chambers] = [self._at_rest(scene) for scene in scenes]
+        self._chambers: list[ChamberPressures] = [self._at_rest(scene) for scene in scenes]
         self._lay(every)
 
     def __getstate__(self) -> None:
         raise TypeError("strips that are stepped side by side cannot be copied, single ones can")
 
-    def _at_rest(self, scene: Scene) -> Chambers:
-        return Chambers(scene.valves, len(scene.strip.segments), self.numerics.timestep)
+    def _at_rest(self, scene: Scene) -> ChamberPressures:
+        return ChamberPressures(scene.valves, len(scene.strip.segments), self.numerics.timestep)
 
-    def _lay(self, rows: Rows) -> None:
+    def _lay(self, rows: Indices) -> None:
         """Lay strips on the ground, without pressure."""
         for row in rows.tolist():
             self._chambers[row] = self._at_rest(self.scenes[row])
@@ -102,7 +102,7 @@ class Strips:
         self._batch.reset(rows)
         self._ends.start(rows)
 
-    def reset(self, rows: Rows, scenes: Sequence[Scene] | None = None) -> list[Block]:
+    def reset(self, rows: Indices, scenes: Sequence[Scene] | None = None) -> list[Block]:
         """Lay strips on the ground, let them settle and inflate them to the gait's first stage.
 
         Args:
@@ -129,7 +129,7 @@ class Strips:
         self.settled = speed < AT_REST * lengths
         return [first, last]
 
-    def play(self, valves: Array, rows: Rows | None = None) -> Block:
+    def play(self, valves: Array, rows: Indices | None = None) -> Block:
         """Do as many steps as there are commands, (R, T, S) [Pa], or up to a failure of each."""
         rows = np.arange(len(self.scenes)) if rows is None else rows
         pressure = np.array(
@@ -168,11 +168,11 @@ class Strips:
         self.pressure[rows] = pressure[np.arange(len(rows)), np.maximum(done.steps, 1) - 1]
         return done
 
-    def coordinates(self, rows: Rows) -> Array:
+    def coordinates(self, rows: Indices) -> Array:
         """Of MuJoCo now, (R, nq)."""
         return np.array(self._qpos[rows])
 
-    def _springs(self, rows: Rows, pressure: Array) -> list[tuple[Array, Array]]:
+    def _springs(self, rows: Indices, pressure: Array) -> list[tuple[Array, Array]]:
         """Stiffness and rest angle of the hinges at each step, (R, N) each."""
         each = [
             joint_springs(self.scenes[row].strip, self.numerics.links, p, self.scenes[row].chamber)

@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from analytic.scene.gait import Gait
 from mjsim.friction.footing import footing
-from mjsim.friction.in_plane import Grips
+from mjsim.friction.in_plane import LimbFooting
 from mjsim.friction.recorder import ContactRecorder
 from mjsim.model.builder import compile_model
-from mjsim.model.chambers import Chambers
+from mjsim.model.chambers import ChamberPressures
 from mjsim.model.compiled import Compiled
 from mjsim.model.limbs import Hinges
 from mjsim.model.pads import pads_of
@@ -82,7 +82,9 @@ class Simulation(Copied):
         )  # fmt: skip
         self._footing = footing(scene, numerics, model, self.data, self._joints)
         self._pads = pads_of(model, scene)
-        self._chambers = Chambers(scene.valves, len(scene.robot.chambers), numerics.timestep)
+        self._chambers = ChamberPressures(
+            scene.valves, len(scene.robot.chambers), numerics.timestep
+        )
         self._pressure = self._chambers.pressure
         recorded = self._with_forces and not scene.in_space
         self._recorder = ContactRecorder(scene, model, self.data) if recorded else None
@@ -258,7 +260,7 @@ class Simulation(Copied):
 
     def side_contacts(self) -> Array:
         """Length over which each limb of a robot in space lies on its side, (L,) [m]."""
-        assert isinstance(self._footing, Grips)
+        assert isinstance(self._footing, LimbFooting)
         return self._footing.side_contacts()
 
     def _now(self) -> Status:
