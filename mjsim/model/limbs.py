@@ -94,13 +94,13 @@ def tree_spec(
         first, last, length = _chain(scene, numerics, i, carrier, along, limb.angle - heading)
         ends[limb.name] = {"begin": (first, 0.0), "end": (last, length)}
     for number in range(len(robot.limbs) if held else 0):
-        for place in range(places_of(robot, number)):
+        for place in range(points_of(robot, number)):
             for direction in (0, 1):
                 _add_row(spec, robot, numerics, number, f"{place}_{direction}")
     return spec
 
 
-def places_of(robot: LimbedRobot, limb: int) -> int:
+def points_of(robot: LimbedRobot, limb: int) -> int:
     """How many places of a limb may be held at once.
 
     Two of a side, for each end that something may touch the ground by, and one between such ends;
@@ -188,7 +188,7 @@ def _add_pads(
 def _add_row(
     spec: mujoco.MjSpec, robot: LimbedRobot, numerics: Resolved, limb: int, which: str
 ) -> None:
-    name = f"{PREFIX}{robot.names[limb]}_hold_{which}"
+    name = f"{PREFIX}{robot.names[limb]}_friction_{which}"
     tendon = spec.add_tendon(name=name, frictionloss=_NO_BOUND)
     tendon.group = 4
     tendon.solref_friction[:], tendon.solimp_friction[:3] = _FIRM

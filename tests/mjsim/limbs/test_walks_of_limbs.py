@@ -93,8 +93,8 @@ def test_every_place_resists_by_its_bound_at_most(monkeypatch):
     def watch(self, pressures):
         data = self._data
         for tendon, force in zip(data.efc_id[: data.nf], data.efc_force[: data.nf], strict=True):
-            rows, _ = self._by_tendon[int(tendon)]
-            excess.append(abs(force) - rows.bound)
+            point, _ = self._by_tendon[int(tendon)]
+            excess.append(abs(force) - point.bound)
         before(self, pressures)
 
     monkeypatch.setattr(LimbFooting, "before_step", watch)
