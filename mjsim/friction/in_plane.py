@@ -239,22 +239,25 @@ def rigid_motion(
 ) -> tuple[complex, float]:
     """Motion of a rigid body in the plane nearest to those of points, by weighted least squares.
 
-    With x + i y for (x, y) it minimises sum w |m - s - i r (p - o)|^2: about the weighted means of
-    p and m, r = sum w Im(p* m) / sum w |p|^2, and s makes the means agree.
+    With x + i y for (x, y) it minimises sum w |m - s - i r p|^2 over s and r:
+    r (sum w |p|^2 - |sum w p|^2 / W) = Im(sum w p* m - (sum w p)* (sum w m) / W), and
+    s = (sum w m - i r sum w p) / W, with W = sum w.
 
     Args:
-        points: weight w, place p and displacement m of each [1, m, m].
+        points: weight w, place and displacement m of each [1, m, m]; p is its place from o.
         origin: o, about which the body turns [m].
 
     Returns:
         s and r [m, rad]; r is 0 where the points are too close to tell it.
     """
-    total = sum(weight for weight, _, _ in points)
-    place = sum(weight * p for weight, p, _ in points) / total
-    move = sum(weight * m for weight, _, m in points) / total
-    spread = sum(weight * abs(p - place) ** 2 for weight, p, _ in points)
-    turn = 0.0
-    if spread > _POINT * total:
-        turned = sum(w * ((p - place).conjugate() * (m - move)).imag for w, p, m in points)
-        turn = turned / spread
-    return move - 1j * turn * (place - origin), turn
+    total = square = 0.0
+    place = move = product = 0j
+    for weight, p, m in points:
+        p -= origin
+        total, place, move = total + weight, place + weight * p, move + weight * m
+        square += weight * (p.conjugate() * p).real
+        product += weight * (p.conjugate() * m)
+    spread = square - (place.conjugate() * place).real / total
+    turned = (product - place.conjugate() * move / total).imag
+    turn = turned / spread if spread > _POINT * total else 0.0
+    return (move - 1j * turn * place) / total, turn
