@@ -21,7 +21,7 @@ from analytic.solvers.limbs.contacts import Contact, Contacts
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.statics import Rest
 from mjsim.friction.point_friction import STANDS, PointFriction
-from mjsim.model.limbs import joints_to, limb_body, limbed, points_of
+from mjsim.model.limbs import joints_to, limbed, link_prefix, points_of
 from mjsim.model.pads import edges, pads_of
 from mjsim.model.parts import PREFIX
 from mjsim.results.status import THROWN
@@ -73,7 +73,7 @@ class LimbFooting:
             for limb in self._points for point in limb for row, tendon in enumerate(point.ids)
         }  # fmt: skip
         self._links = [
-            [model.body(limb_body(name, i)).id for i in range(numerics.links + 1)]
+            [model.body(f"{link_prefix(name)}{i}").id for i in range(numerics.links + 1)]
             for name in robot.names
         ]
         length = float(link_lengths(robot.limbs[0].strip, numerics.links)[-1])

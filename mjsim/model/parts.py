@@ -20,13 +20,15 @@ from mjsim.scene import Resolved, Scene
 PALE, DARK = (0.86, 0.82, 0.72), (0.16, 0.17, 0.20)  # passive and inflated, as in Figure 4
 FAR = 100.0  # m; a line to a point this far is horizontal to 1 part in 1e6
 _FARTHER = 1e4  # m; a walk of 0.1 m changes the distance to there by 1e-6 m
-_NO_BOUND = 1e-12  # N; without any bound a tendon would get no row to be given one
+NO_BOUND = 1e-12  # N; without any bound a tendon would get no row to be given one
 TENDONS = ("left", "right", "both")
 TOUCH = 1e-6  # how deep the robot starts in the ground, over L: a contact at 0 is not seen; chosen
 PREFIX = "robot_"  # of the strip's names once it is on its ground
 TEMPLATE = Path(__file__).with_name("strip.xml")
 
 Place = tuple[float, float, float]
+Node = tuple[mujoco.MjsBody, Place]  # body, and place in its frame [m]
+ORIGIN: Place = (0.0, 0.0, 0.0)
 
 
 def template() -> mujoco.MjSpec:
@@ -64,8 +66,13 @@ def contact_softness(scene: Scene, numerics: Resolved) -> tuple[Sequence[float],
     """
     time = numerics.contact_time * numerics.timestep
     if scene.friction == "coulomb":
-        return (-0.125 / time**2, -0.5 / time), (0.9, 0.999, numerics.contact_depth)
+        return rubbing_softness(time, numerics.contact_depth)
     return (time, 1.0), (0.999, 0.999, 0.001)
+
+
+def rubbing_softness(time: float, depth: float) -> tuple[Sequence[float], Sequence[float]]:
+    """solref and solimp of contacts with friction, by their time [s] and depth [m]."""
+    return (-0.125 / time**2, -0.5 / time), (0.9, 0.999, depth)
 
 
 def add_pads(
@@ -76,16 +83,22 @@ def add_pads(
     surface = scene.ground.at(0.0)
     press, reach = surface.press(scene.strip.width), surface.adhesion_reach
     for i, place in enumerate(places):
-        pad = body.add_geom(name=f"pad_{node}" + (f"_{i}" if i else ""))
-        pad.type, pad.pos = mujoco.mjtGeom.mjGEOM_SPHERE, place
-        pad.size[0], pad.mass, pad.group = numerics.pad_radius, 0.0, 3
-        pad.contype, pad.conaffinity, pad.priority = 1, 0, 1
+        pad = add_pad(body, f"pad_{node}" + (f"_{i}" if i else ""), place, numerics)
         pad.condim = 3 if coulomb else 1
         pad.solref[:], pad.solimp[:3] = contact_softness(scene, numerics)
         if press:
             pad.adhesion, pad.gap = press * _share(scene, numerics, node) / len(places), reach
         if coulomb:
             pad.friction[:] = pad_friction(scene, node in (0, numerics.links + 1)), 0.0, 0.0
+
+
+def add_pad(body: mujoco.MjsBody, name: str, place: Place, numerics: Resolved) -> mujoco.MjsGeom:
+    """Add a massless sphere that touches the ground, without friction."""
+    pad = body.add_geom(name=name)
+    pad.type, pad.pos = mujoco.mjtGeom.mjGEOM_SPHERE, place
+    pad.size[0], pad.mass, pad.group = numerics.pad_radius, 0.0, 3
+    pad.contype, pad.conaffinity, pad.priority, pad.condim = 1, 0, 1, 1
+    return pad
 
 
 def _share(scene: Scene, numerics: Resolved, node: int) -> float:
@@ -100,15 +113,13 @@ def pad_friction(scene: Scene, at_end: bool) -> float:
     return float(surface.tip_friction if at_end else surface.friction)  # type: ignore[arg-type]
 
 
-def add_ends(
-    spec: mujoco.MjSpec, scene: Scene, nodes: Sequence[tuple[mujoco.MjsBody, Place]]
-) -> None:
+def add_ends(spec: mujoco.MjSpec, scene: Scene, nodes: Sequence[Node]) -> None:
     """Sites at the two ends and the tendons to a far one; at every node if friction acts there.
 
     Args:
         spec: the strip.
         scene: tells the law.
-        nodes: the body of each node, left first, and where it is in that body's frame [m].
+        nodes: of the strip, left first.
     """
     ends = {0: "end_left", len(nodes) - 1: "end_right"}
     constant = scene.friction != "coulomb"
@@ -118,7 +129,7 @@ def add_ends(
         if everywhere or node in ends:
             body.add_site(name=name, pos=place, size=[6e-4] * 3, group=4)
     spec.worldbody.add_site(name="far", pos=(-FAR, 0.0, 0.0), group=4)
-    bound = _NO_BOUND if constant else 0.0
+    bound = NO_BOUND if constant else 0.0
     left, right, both = TENDONS
     _tie(spec, left, "far", names[:1], bound)
     _tie(spec, right, "far", names[-1:], bound)
@@ -148,11 +159,17 @@ def tie_force(scene: Scene, numerics: Resolved) -> float:
 
 
 def _tie(spec: mujoco.MjSpec, name: str, to: str, sites: Sequence[str], bound: float) -> None:
-    tendon = spec.add_tendon(name=name, frictionloss=bound, group=4)
+    tendon = friction_tendon(spec, name, bound)
     tendon.width = 2e-4
-    tendon.solref_friction[:] = 0.001, 1.0  # nearly without creep
-    tendon.solimp_friction[:3] = 0.9999, 0.9999, 0.001
     for site in sites:
         tendon.wrap_pulley(1.0)
         tendon.wrap_site(to)
         tendon.wrap_site(site)
+
+
+def friction_tendon(spec: mujoco.MjSpec, name: str, bound: float) -> mujoco.MjsTendon:
+    """Add a tendon, of nothing yet, whose dry friction nearly does not creep; bound in N."""
+    tendon = spec.add_tendon(name=name, frictionloss=bound, group=4)
+    tendon.solref_friction[:] = 0.001, 1.0
+    tendon.solimp_friction[:3] = 0.9999, 0.9999, 0.001
+    return tendon

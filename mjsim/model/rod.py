@@ -48,12 +48,12 @@ class Rod:
             body = spec.worldbody.add_body(name=f"rod_{i}", pos=(x, 0, 0))
             for axis in np.eye(3):
                 body.add_joint(type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
-            body.explicitinertial, body.mass, body.ipos = True, mass[i], (0.0, 0.0, 0.0)
+            body.explicitinertial, body.mass, body.ipos = True, mass[i], parts.ORIGIN
             body.inertia = [mass[i] * _RADIUS**2] * 3  # a point does not turn
-            parts.add_pads(body, scene, numerics, i, [(0.0, 0.0, 0.0)])
+            parts.add_pads(body, scene, numerics, i, [parts.ORIGIN])
             bodies.append(body)
         _join(spec, bodies, numerics)
-        parts.add_ends(spec, scene, [(body, (0.0, 0.0, 0.0)) for body in bodies])
+        parts.add_ends(spec, scene, [(body, parts.ORIGIN) for body in bodies])
         for i, body in enumerate(bodies):
             # a rod has no width: every vertex is kept in the plane, not its ends alone
             if not body.sites and scene.friction != "coulomb":

@@ -21,7 +21,7 @@ from mjsim.files.assets import MODELS
 from mjsim.files.files import whole
 from mjsim.model.builder import scene_spec
 from mjsim.model.parts import PALE, PREFIX
-from mjsim.model.standalone_limbs import ROUNDED_INERTIA, spec_in_space
+from mjsim.model.standalone_limbs import allow_rounding, spec_in_space
 from mjsim.scene import Numerics, Resolved, Scene, resolved
 
 TEXTURES = "textures"
@@ -126,9 +126,7 @@ def _actuate_balls(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> Non
     """A motor a ball joint, whose control is the pressure of its chamber."""
     robot = scene.strip
     bend = pneunet.curvature_per_pressure(robot) * pneunet.base_rigidity(robot)
-    for body in spec.bodies:
-        if body.explicitinertial:
-            body.inertia[2] *= ROUNDED_INERTIA
+    allow_rounding(spec)
     joints = [joint for joint in spec.joints if joint.name.startswith(f"{PREFIX}ball_")]
     for number, joint in enumerate(joints, start=1):
         motor = spec.add_actuator(name=f"{PREFIX}chamber_{number}", target=joint.name)
