@@ -22,7 +22,7 @@ def scene_spec(scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
 
 
 def on_ground(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
-    """The robot put on a ground that is given as MJCF.
+    """The robot on a ground that is given as MJCF.
 
     Raises:
         ValueError: the body cannot do what the scene asks for.
@@ -52,14 +52,14 @@ def compile_model(scene: Scene, numerics: Resolved) -> mujoco.MjModel:
     Raises:
         ValueError: the body cannot do what the scene asks for, or mujoco refuses the model.
     """
-    if scene.in_space:  # which is not looked at as it is stepped
+    if scene.in_space:  # nothing to look at is needed to step it
         return compiled(on_ground(mujoco.MjSpec.from_file(str(BARE)), scene, numerics), scene,
                         numerics)  # fmt: skip
     return compiled(scene_spec(scene, numerics), scene, numerics)
 
 
 def compiled(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> mujoco.MjModel:
-    """A spec compiled, or why it cannot be.
+    """Compile a spec.
 
     Raises:
         ValueError: mujoco refuses it.

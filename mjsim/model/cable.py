@@ -21,8 +21,8 @@ from mjsim.scene import Resolved, Scene
 Array = NDArray[np.float64]
 
 _FIRST_JOINT = 4  # the joints are x, y, z, the ball of the whole, then those between links
-_WHOLE_BALL = 3  # coordinate where the quaternion of the whole is, after 3 slides
-_FIRST_BALL = 7  # and that of the first joint between links
+_WHOLE_BALL = 3  # coordinate where the quaternion of the whole begins, after 3 slides
+_FIRST_BALL = 7  # coordinate where that of the first joint between links begins
 
 
 class Cable:
@@ -31,11 +31,11 @@ class Cable:
     name = "cable"
 
     def check(self, scene: Scene, numerics: Resolved) -> None:
-        """Neither actuators nor sealed chambers."""
+        """Refuse actuators and sealed chambers."""
         parts.refuse_chain_only(self.name, scene)
 
     def spec(self, scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
-        """Links that hang from each other, the first one free in space."""
+        """Links that are carried by each other, the first one free in space."""
         strip, spec = scene.strip, parts.template()
         nodes = add_links(spec.worldbody, strip, scene, numerics, ("link_", "ball_"),
                           mujoco.mjtJoint.mjJNT_BALL, strip.width)  # fmt: skip

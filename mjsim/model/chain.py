@@ -47,7 +47,7 @@ class Chain:
             )
 
     def spec(self, scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
-        """Links that hang from each other, the first one free in the plane."""
+        """Links that are carried by each other, the first one free in the plane."""
         spec = parts.template()
         nodes = add_links(spec.worldbody, scene.strip, scene, numerics, ("link_", "hinge_"))
         first, _ = nodes[0]
@@ -64,7 +64,7 @@ class Chain:
     def bind(
         self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Resolved
     ) -> Joints:
-        """By the way that pressure acts."""
+        """The hinges, by the way that pressure acts on them."""
         if scene.actuation == "actuators":
             return _Actuated(model, data, scene, numerics)
         if scene.chamber == "sealed":

@@ -1,9 +1,9 @@
-"""A robot of limbs as MJCF: chains of rigid links in space, pads at both edges, friction's rows.
+"""Robots of limbs as MJCF: chains of rigid links in space, pads at both edges, friction's rows.
 
-The links are those of analytic.solvers.limbs: so many hinges a limb between one link more, the
-first link of a limb fast to the one that carries it. The trunk's beginning may move along x, y and
-z, and yaw, pitch and roll. Friction is carried by fixed tendons over all coordinates: their
-coefficients, set at each step, are the Jacobian of the place that is held.
+The links are those of analytic.solvers.limbs: N hinges between N + 1 links in each limb, whose
+first link is rigidly attached to the one that carries it. The trunk's beginning may move along x, y
+and z, and yaw, pitch and roll. Friction is carried by fixed tendons over all coordinates: their
+coefficients, set at each step, are the Jacobian of the point where it acts.
 """
 
 import math
@@ -36,7 +36,7 @@ _SINKS, _DEEPEST = 0.12, 0.27
 def softness(scene: Scene, numerics: Resolved) -> float:
     """Part of an acceleration that contacts yield to: 1 - d of MuJoCo's impedance d.
 
-    MuJoCo holds J a at a contact, where the ground stops J a + J' v: a limb that turns about it at
+    MuJoCo stops J a at a contact, where the ground stops J a + J' v: a limb that turns about it at
     a rate v / r would leave it by v^2 / r, unless the contact yields by more than that to gravity.
     """
     robot, gait = scene.robot, scene.gait
@@ -117,7 +117,7 @@ def tree_spec(
 
 
 def points_of(robot: LimbedRobot, number: int) -> int:
-    """How many points of a limb may resist at once.
+    """Number of points of a limb that may resist at once.
 
     Two of a side, for each end that something may touch the ground by, and one between such ends;
     a limb of several segments may touch there too.

@@ -1,4 +1,4 @@
-"""What every body's MJCF shares: options, contact pads, sites of the ends, friction tendons.
+"""Parts of every body's MJCF: options, contact pads, sites of the ends, friction tendons.
 
 Under bounds of their own, the friction of the two ends is carried by spatial tendons to a far fixed
 site: `left` and `right` along each end, and `both` along their mean; see mjsim.friction. Where it
@@ -59,18 +59,18 @@ def set_options(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
 def contact_softness(scene: Scene, numerics: Resolved) -> tuple[Sequence[float], Sequence[float]]:
     """solref and solimp of the pads' contacts.
 
-    Frictionless ones are as stiff as the discrete integrator bears. With friction MuJoCo's convex
+    Frictionless ones are as stiff as the discrete integrator allows. With friction MuJoCo's convex
     contact lifts a pad that slides by v off the ground by about mu v times its damping over its
     stiffness; a pad that is lifted off loses its load for a step and falls. So those are given
-    little damping, and grow firm over a depth greater than that.
+    little damping, and stiffen over a depth greater than that.
     """
     time = numerics.contact_time * numerics.timestep
     if scene.friction == "coulomb":
-        return rubbing_softness(time, numerics.contact_depth)
+        return softness_with_friction(time, numerics.contact_depth)
     return (time, 1.0), (0.999, 0.999, 0.001)
 
 
-def rubbing_softness(time: float, depth: float) -> tuple[Sequence[float], Sequence[float]]:
+def softness_with_friction(time: float, depth: float) -> tuple[Sequence[float], Sequence[float]]:
     """solref and solimp of contacts with friction, by their time [s] and depth [m]."""
     return (-0.125 / time**2, -0.5 / time), (0.9, 0.999, depth)
 
@@ -121,27 +121,31 @@ def add_ends(spec: mujoco.MjSpec, scene: Scene, nodes: Sequence[Node]) -> None:
         scene: tells the law.
         nodes: of the strip, left first.
     """
-    ends = {0: "end_left", len(nodes) - 1: "end_right"}
+    names = ["end_left", *(f"node_{node}" for node in range(1, len(nodes) - 1)), "end_right"]
+    tendons, everywhere = tendon_names(len(nodes)), scene.between
     constant = scene.friction != "coulomb"
-    everywhere = scene.between
-    names = [ends.get(node, f"node_{node}") for node in range(len(nodes))]
-    for node, (name, (body, place)) in enumerate(zip(names, nodes, strict=True)):
-        if everywhere or node in ends:
+    bound = NO_BOUND if constant else 0.0
+    for name, (body, place) in zip(names, nodes, strict=True):
+        if everywhere or name.startswith("end"):
             body.add_site(name=name, pos=place, size=[6e-4] * 3, group=4)
     spec.worldbody.add_site(name="far", pos=(-FAR, 0.0, 0.0), group=4)
-    bound = NO_BOUND if constant else 0.0
-    left, right, both = TENDONS
-    _tie(spec, left, "far", names[:1], bound)
-    _tie(spec, right, "far", names[-1:], bound)
+    for end in (0, -1):
+        _tie(spec, tendons[end], "far", [names[end]], bound)
     mean = names if everywhere and constant else [names[0], names[-1]]
-    _tie(spec, both, "far", mean, bound)
+    _tie(spec, TENDONS[2], "far", mean, bound)
     if everywhere:
-        for node in range(1, len(nodes) - 1):
-            _tie(spec, f"grip_{node}", "far", [names[node]], bound)
+        for name, tendon in zip(names[1:-1], tendons[1:-1], strict=True):
+            _tie(spec, tendon, "far", [name], bound)
+
+
+def tendon_names(nodes: int) -> list[str]:
+    """Names of the tendons that carry the friction of each node, left first."""
+    left, right, _ = TENDONS
+    return [left, *(f"friction_{node}" for node in range(1, nodes - 1)), right]
 
 
 def hold_sideways(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
-    """Bounds across the walk for a body in space, where friction's bounds are of the plane only.
+    """Add bounds across the walk of a body in space, where friction's are of the plane only.
 
     They keep each end on the heading that nothing turns it from.
     """
@@ -154,7 +158,7 @@ def hold_sideways(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None
 
 
 def tie_force(scene: Scene, numerics: Resolved) -> float:
-    """Bound of the friction that holds what no law decides [N]."""
+    """Bound of the friction that resists motion which no law decides [N]."""
     return numerics.tie_bound * pneunet.base_rigidity(scene.strip) / scene.strip.length**2
 
 

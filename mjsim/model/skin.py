@@ -35,7 +35,7 @@ class Skin(NamedTuple):
 
 
 def add_skins(spec: mujoco.MjSpec, robot: Robot, numerics: Resolved) -> None:
-    """Give a planar strip on its ground what it looks like, a skin a segment."""
+    """Give a planar strip on its ground one skin per segment."""
     names = [f"segment_{number + 1}" for number in range(len(robot.segments))]
     add_strip_skins(spec, robot, numerics, names, f"{PREFIX}link_")
 

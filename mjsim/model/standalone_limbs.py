@@ -1,4 +1,4 @@
-"""A robot of limbs as MJCF that walks by itself: a control a limb, MuJoCo's own friction.
+"""Robots of limbs as MJCF that walk by themselves: one control per limb, MuJoCo's friction.
 
 Friction is by load, at every pad; pressures are the controls, in Pa, of chambers at constant
 pressure. An end has pads of its side a little before it and of its tip a little above: the tip
@@ -15,7 +15,7 @@ from analytic.scene.ground import uniform
 from analytic.scene.limbs import LimbedRobot, chambers_by_limb
 from mjsim.model.limb_skins import add_camera, add_skins
 from mjsim.model.limbs import hinge_prefix, limbed, link_prefix, tree_spec
-from mjsim.model.parts import PREFIX, rubbing_softness
+from mjsim.model.parts import PREFIX, softness_with_friction
 from mjsim.model.pneumatics import turn_hinges
 from mjsim.model.stage import stage
 from mjsim.scene import Numerics, Resolved, Scene, resolved
@@ -39,7 +39,7 @@ def spec_in_space(scene: Scene, numerics: Numerics | None = None) -> mujoco.MjSp
         if "_pad_" in geom.name:
             geom.condim = 3
             geom.friction[:] = surface.friction, 0.0, 0.0
-            geom.solref[:], geom.solimp[:3] = rubbing_softness(_TIMESTEP / 2, _DEPTH)
+            geom.solref[:], geom.solimp[:3] = softness_with_friction(_TIMESTEP / 2, _DEPTH)
     _add_tips(spec, scene, numerics, float(surface.tip_friction or 0.0))
     allow_rounding(spec)
     _actuate(spec, limbed(scene), numerics)

@@ -17,12 +17,12 @@ _TIGHTEST = 0.005  # tolerance that was measured
 
 
 class Level(NamedTuple):
-    """Links and time step, and how they did.
+    """Links and time step, with their measured accuracy and speed.
 
     Attributes:
         contacts: where friction acts, "ends" or "all".
         links_per_segment, timestep: [1, s].
-        scenes: on how many it was measured.
+        scenes: number of scenes on which it was measured.
         within_10, within_2, within_half: part of them within 10 %, 2 % and 0.5 %.
         realtime: median of simulated time over CPU time.
     """
@@ -44,7 +44,7 @@ def check_tolerance(tolerance: float) -> None:
 
 
 def levels(contacts: str, path: Path = TABLE) -> list[Level]:
-    """Those to walk, coarsest first.
+    """Levels to walk, coarsest first.
 
     Args:
         contacts: "ends" or "all".

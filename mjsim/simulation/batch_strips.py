@@ -23,7 +23,7 @@ _FIRST_HINGE = 3  # the joints are x, z, pitch, then the hinges
 
 
 class Block:
-    """What `StripBatch.play` did, a row a scene and a column a step.
+    """Steps that `StripBatch.play` did, one row per scene and one column per step.
 
     Attributes:
         rows: the scenes.
@@ -62,9 +62,9 @@ class StripBatch:
     def __init__(self, scenes: Sequence[Scene], numerics: Resolved, threads: int = 1) -> None:
         self.scenes, self.numerics = list(scenes), numerics
         for scene in scenes:
-            why = refusal(scene)
-            if why:
-                raise ValueError(f"to be stepped side by side, {why}")
+            reason = refusal(scene)
+            if reason:
+                raise ValueError(f"to be stepped side by side, {reason}")
             check_steps(scene, numerics)
         if len({layout(scene, numerics) for scene in scenes}) > 1:
             raise ValueError("scenes that are stepped side by side must be of one layout")
@@ -110,7 +110,7 @@ class StripBatch:
             scenes: in place of theirs, of the same layout.
 
         Returns:
-            What was done, and whether each is at rest in `settled`.
+            The steps that were done; `settled` tells which are at rest.
         """
         if scenes is not None:
             for row, scene in zip(rows.tolist(), scenes, strict=True):
@@ -121,13 +121,13 @@ class StripBatch:
         self._lay(rows)
         valves = np.array([before_start(self.scenes[row], self.numerics) for row in rows])
         late = max(1, round(0.1 * self.scenes[0].settle_time / self.numerics.timestep))
-        first = self.play(valves[:, :-late], rows)
+        begin = self.play(valves[:, :-late], rows)
         ends = self._length[rows].copy()
-        last = self.play(valves[:, -late:], rows)
+        end = self.play(valves[:, -late:], rows)
         speed = np.abs(self._length[rows] - ends).max(axis=1) / (late * self.numerics.timestep)
         lengths = np.array([self.scenes[row].strip.length for row in rows])
         self.settled = speed < AT_REST * lengths
-        return [first, last]
+        return [begin, end]
 
     def play(self, valves: Array, rows: Indices | None = None) -> Block:
         """Do as many steps as there are commands, (R, T, S) [Pa], or up to a failure of each."""
@@ -135,41 +135,44 @@ class StripBatch:
         pressure = np.array(
             [self._chambers[row].follow(v) for row, v in zip(rows.tolist(), valves, strict=True)]
         )
-        done = Block(rows, pressure, self.model.nq)
+        block = Block(rows, pressure, self.model.nq)
         if not valves.shape[1]:
-            return done
+            return block
         springs = self._springs(rows, pressure)
         peak = np.array([self.scenes[row].strip.peak_pressure for row in rows])
         flat = may_lie_flat(pressure[:, :, [0, -1]], peak[:, None, None])
         dt, ends, hinges = self.numerics.timestep, self._ends, slice(_FIRST_HINGE, None)
         active = np.flatnonzero(~self.stopped[rows])
-        done.steps[self.stopped[rows]] = 0
+        block.steps[self.stopped[rows]] = 0
         for step, (stiffness, rest) in enumerate(springs):
-            now = rows[active]
-            if not len(now):
+            moving = rows[active]
+            if not len(moving):
                 break
-            self._stiffness[now, hinges], self._rest[now, hinges] = stiffness[active], rest[active]
-            angles = self._qpos[now, _FIRST_HINGE - 1 :]
+            self._stiffness[moving, hinges], self._rest[moving, hinges] = (
+                stiffness[active],
+                rest[active],
+            )
+            angles = self._qpos[moving, _FIRST_HINGE - 1 :]
             slopes = np.stack([angles[:, 0], -angles.sum(axis=1)], axis=1)
-            ends.before_step(now, slopes, flat[active, step])
-            self._batch.step(now)
-            self._qpos[now, 0] -= ends.after_step(now, dt)
-            done.coordinates[active, step] = self._qpos[now]
-            done.contact[active, step] = ends.contact[now]
-            done.left_slip[active, step] = ends.left_slip[now]
-            low, high = self._limits[now].T
-            height = self._place[now[:, None], self._feet, 2]
+            ends.before_step(moving, slopes, flat[active, step])
+            self._batch.step(moving)
+            self._qpos[moving, 0] -= ends.after_step(moving, dt)
+            block.coordinates[active, step] = self._qpos[moving]
+            block.contact[active, step] = ends.contact[moving]
+            block.left_slip[active, step] = ends.left_slip[moving]
+            low, high = self._limits[moving].T
+            height = self._place[moving[:, None], self._feet, 2]
             stands = (low[:, None] < height) & (height < high[:, None])
             fallen = ~stands.all(axis=1)
             if fallen.any():
-                done.steps[active[fallen]] = step + 1
-                self.stopped[now[fallen]] = True
+                block.steps[active[fallen]] = step + 1
+                self.stopped[moving[fallen]] = True
                 active = active[~fallen]
-        self.pressure[rows] = pressure[np.arange(len(rows)), np.maximum(done.steps, 1) - 1]
-        return done
+        self.pressure[rows] = pressure[np.arange(len(rows)), np.maximum(block.steps, 1) - 1]
+        return block
 
     def coordinates(self, rows: Indices) -> Array:
-        """Of MuJoCo now, (R, nq)."""
+        """Coordinates of MuJoCo, (R, nq)."""
         return np.array(self._qpos[rows])
 
     def _springs(self, rows: Indices, pressure: Array) -> list[tuple[Array, Array]]:

@@ -1,4 +1,4 @@
-"""A scene stepped in MuJoCo: the one loop, for gaits, controllers, environments and sweeps."""
+"""Scenes stepped in MuJoCo: the loop of gaits, controllers, environments and sweeps."""
 
 import math
 import time as clock
@@ -39,11 +39,11 @@ class Simulation(Copied):
     Args:
         scene: the walk.
         numerics: how it is discretised; chosen for the scene where not given.
-        forces: whether to record what the ground does to each node, at 10 us a step.
+        forces: whether to record the forces of the ground on each node, at 10 us a step.
         history: whether to keep all states, or the last one only, without forces.
 
     Attributes:
-        scene, numerics: what is simulated and how, with a number for everything.
+        scene, numerics: as simulated, with a number for everything.
         model, data: MuJoCo's; the model is as compiled after each reset, whatever was set in it.
 
     Raises:
@@ -98,7 +98,7 @@ class Simulation(Copied):
         return self.observe()
 
     def _settle(self) -> bool:
-        """Do the steps before the first cycle, more if need be; whether the robot is at rest."""
+        """Do the steps before the first cycle, more if needed; tell whether it is at rest."""
         before = before_start(self.scene, self.numerics)
         late = max(1, round(0.1 * self.scene.settle_time / self.numerics.timestep))
         self._play(before[:-late])
@@ -140,7 +140,7 @@ class Simulation(Copied):
 
         Args:
             policy: commands the valves; the scene's gait if None.
-            progress: called now and then with the number of steps done since the last call.
+            progress: called regularly with the number of steps done since the last call.
 
         Returns:
             The trajectory; look at its status before any number of it.
@@ -168,7 +168,7 @@ class Simulation(Copied):
         return self.trajectory()
 
     def observe(self) -> Observation:
-        """What there is to see now."""
+        """Observation of the state."""
         trunk = self.nodes()[0]
         seen = dict(zip(self._footing.columns, self._rows[-1], strict=True))
         nan, qpos = float("nan"), self.data.qpos
@@ -183,7 +183,7 @@ class Simulation(Copied):
             contact_left=seen.get("contact_left", nan),
             contact_right=seen.get("contact_right", nan),
             contacts=seen.get("contacts", nan),
-            status=self._now(),
+            status=self._status(),
         )
 
     def trajectory(self) -> Trajectory:
@@ -220,9 +220,9 @@ class Simulation(Copied):
         record = self._recorder and self._recorder.record
 
         started, worked = clock.perf_counter(), clock.process_time()
-        for step, (load, what) in enumerate(zip(loads, prepared, strict=True)):
+        for step, (load, contact) in enumerate(zip(loads, prepared, strict=True)):
             apply(load)
-            before_step(what)
+            before_step(contact)
             step_model(model, data)
             if record:
                 record()
@@ -245,9 +245,9 @@ class Simulation(Copied):
             self._pressures[0] = self._pressures[0][-1:]
 
     def nodes(self) -> Array:
-        """Vertices of the limbs' neutral lines now, z over flat rest, (L, N + 2, 3) [m]."""
+        """Vertices of the limbs' neutral lines, z over flat rest, (L, N + 2, 3) [m]."""
         data = self.data
-        if self.scene.in_space:  # whose law looks at where the last step began
+        if self.scene.in_space:  # whose friction needs the kinematics from before the step
             data = mujoco.MjData(self.model)
             data.qpos[:] = self.data.qpos
         mujoco.mj_kinematics(self.model, data)
@@ -263,7 +263,7 @@ class Simulation(Copied):
         assert isinstance(self._footing, LimbFooting)
         return self._footing.side_contacts()
 
-    def _now(self) -> Status:
+    def _status(self) -> Status:
         if self._stopped:
             return self.trajectory().status
         return Status.UNSETTLED if self._unsettled else Status.OK
@@ -279,7 +279,7 @@ def simulate(
 
     Args:
         scene, numerics, forces: see Simulation.
-        progress: called now and then with the number of steps done since the last call; True for a
+        progress: called regularly with the number of steps done since the last call; True for a
             bar, in a notebook or a terminal.
     """
     simulation = Simulation(scene, numerics, forces)
