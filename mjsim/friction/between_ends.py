@@ -82,7 +82,9 @@ class ContactFrictionEverywhere(ContactFriction):
         pushed = [node for node, push in enumerate(force) if push > 0.0]
         anchors = self._anchors
         anchors.contacts = [self._tendons[node] for node in pushed]
-        anchors.bounds = [force[node] * self._coefficient(node) for node in pushed]
+        anchors.bounds = [
+            force[node] * self._friction.item(self._geoms[node], 0) for node in pushed
+        ]
         rates = [abs(self._rate.item(tendon)) for tendon in anchors.contacts]
         anchors.anchored = [anchors.contacts[rates.index(min(rates))]] if pushed else []
 
@@ -90,9 +92,6 @@ class ContactFrictionEverywhere(ContactFriction):
         """See StripFriction.after_step."""
         self.drift = self._anchors.drift()
         return self._anchors.after_step(dt)
-
-    def _coefficient(self, node: int) -> float:
-        return float(self._friction[self._geoms[node], 0])
 
 
 class BoundedContacts(BoundedFriction):

@@ -6,6 +6,7 @@ and z, and yaw, pitch and roll. Friction is carried by fixed tendons over all co
 coefficients, set at each step, are the Jacobian of the point where it acts.
 """
 
+import itertools
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -18,8 +19,9 @@ from analytic.scene import pneunet
 from analytic.scene.chain import joint_springs
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb, limbs_of, rotation
 from analytic.solvers.limbs.contacts import ripple
+from mjsim.model import parts
 from mjsim.model.links import UP, add_links
-from mjsim.model.parts import NO_BOUND, PREFIX, TOUCH, Node, add_pad, friction_tendon
+from mjsim.model.parts import PREFIX, Node
 from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
@@ -91,8 +93,7 @@ def tree_spec(
         with_friction: whether to add the tendons by which mjsim.friction resists.
     """
     spec = ground
-    spec.option.timestep = numerics.timestep
-    spec.option.gravity = (0.0, 0.0, -scene.gravity)
+    parts.set_options(spec, scene, numerics)
     robot = limbed(scene)
     chains: dict[str, list[Node]] = {}
     for limb in robot.limbs:
@@ -102,17 +103,14 @@ def tree_spec(
             heading = robot.limbs[robot.place(limb.on)].angle
         nodes = _add_limb(carrier, scene, numerics, limb)
         angle, (first, _) = limb.angle - heading, nodes[0]
-        height = _height(scene, numerics) if limb.on is None else 0.0
+        height = parts.start_height(limb.strip.length, numerics) if limb.on is None else 0.0
         first.pos = (along, limb.offset, height)
         first.quat = (np.cos(angle / 2), 0.0, 0.0, np.sin(angle / 2))
         if limb.on is None:
             _add_root(first, angle)
         chains[limb.name] = nodes
     if with_friction:
-        for number in range(len(robot.limbs)):
-            for point in range(points_of(robot, number)):
-                for direction in (0, 1):
-                    _add_row(spec, robot, numerics, number, f"{point}_{direction}")
+        _add_friction(spec, robot, numerics.links)
     return spec
 
 
@@ -139,15 +137,10 @@ def _add_limb(carrier: mujoco.MjsBody, scene: Scene, numerics: Resolved, limb: L
     for number, (body, (x, _, _)) in enumerate(nodes):
         for side, y in (("right", -0.5 * width), ("left", 0.5 * width)):
             name = f"{PREFIX}{limb.name}_pad_{number}_{side}"
-            pad = add_pad(body, name, (x, y, 0.0), numerics)
+            pad = parts.add_pad(body, name, (x, y, 0.0), numerics)
             pad.solref[:] = numerics.contact_time * numerics.timestep, 1.0
             pad.solimp[:3] = impedance, impedance, 0.001
     return nodes
-
-
-def _height(scene: Scene, numerics: Resolved) -> float:
-    """A little in the ground: a contact at 0 is not seen."""
-    return numerics.pad_radius - TOUCH * limbs_of(scene.robot)[0].strip.length
 
 
 def _add_root(body: mujoco.MjsBody, angle: float) -> None:
@@ -161,12 +154,16 @@ def _add_root(body: mujoco.MjsBody, angle: float) -> None:
             joint.axis[:2] = np.array(axis[:2]) @ rotation(angle)
 
 
-def _add_row(
-    spec: mujoco.MjSpec, robot: LimbedRobot, numerics: Resolved, limb: int, which: str
-) -> None:
-    tendon = friction_tendon(spec, f"{PREFIX}{robot.names[limb]}_friction_{which}", NO_BOUND)
-    for joint in joints_to(robot, numerics.links, limb):
-        tendon.wrap_joint(joint, float(joint == PREFIX + ROOT[0]))
+def _add_friction(spec: mujoco.MjSpec, robot: LimbedRobot, links: int) -> None:
+    """Add a tendon for each point and row of mjsim.friction.point_friction."""
+    for number, limb in enumerate(robot.names):
+        joints = joints_to(robot, links, number)
+        for point, row in itertools.product(range(points_of(robot, number)), (0, 1)):
+            tendon = parts.friction_tendon(
+                spec, f"{PREFIX}{limb}_friction_{point}_{row}", parts.NO_BOUND
+            )
+            for joint in joints:
+                tendon.wrap_joint(joint, float(joint == PREFIX + ROOT[0]))
 
 
 class Hinges:
@@ -192,11 +189,11 @@ class Hinges:
     def loads(self, valves: Array, before: Array, pressures: Array) -> Sequence[Any]:
         """Stiffness and rest angle of all hinges at each step."""
         robot, chamber = self._scene.robot, self._scene.chamber
-        parts = [
+        springs = [
             joint_springs(limb.strip, self._links, pressures[:, chambers], chamber)
             for limb, chambers in zip(limbs_of(robot), chambers_by_limb(robot), strict=True)
         ]
-        stiffness, rest = (np.concatenate(part, axis=1) for part in zip(*parts, strict=True))
+        stiffness, rest = (np.concatenate(part, axis=1) for part in zip(*springs, strict=True))
         return list(zip(stiffness, rest, strict=True))
 
     def apply(self, load: Any) -> None:

@@ -36,6 +36,11 @@ def template() -> mujoco.MjSpec:
     return mujoco.MjSpec.from_file(str(TEMPLATE))
 
 
+def start_height(length: float, numerics: Resolved) -> float:
+    """Height of a neutral line that lies a little in the ground, by its length [m]."""
+    return numerics.pad_radius - TOUCH * length
+
+
 def refuse_chain_only(body: str, scene: Scene) -> None:
     """Raise ValueError where a scene asks for what only body chain does."""
     if scene.actuation == "actuators" or scene.chamber == "sealed":

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from analytic.scene.ground import depends_on_speed
 from analytic.scene.surface import Surface
-from mjsim.files.assets import BARE
-from mjsim.model.builder import compiled, on_ground
+from mjsim.model.builder import bare_spec, compiled
 from mjsim.model.parts import PREFIX
 from mjsim.scene import Resolved, Scene
 from mjsim.simulation.schedule import before_start
@@ -56,7 +55,7 @@ def bare_model(scene: Scene, numerics: Resolved) -> mujoco.MjModel:
     Raises:
         ValueError: MuJoCo refuses the model.
     """
-    spec = on_ground(mujoco.MjSpec.from_file(str(BARE)), scene, numerics)
+    spec = bare_spec(scene, numerics)
     force = 1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE)
     for node in range(numerics.links + 2):
         spec.add_sensor(

@@ -148,10 +148,8 @@ class StripBatch:
             moving = rows[active]
             if not len(moving):
                 break
-            self._stiffness[moving, hinges], self._rest[moving, hinges] = (
-                stiffness[active],
-                rest[active],
-            )
+            self._stiffness[moving, hinges] = stiffness[active]
+            self._rest[moving, hinges] = rest[active]
             angles = self._qpos[moving, _FIRST_HINGE - 1 :]
             slopes = np.stack([angles[:, 0], -angles.sum(axis=1)], axis=1)
             ends.before_step(moving, slopes, flat[active, step])
