@@ -170,7 +170,7 @@ class Simulation(Copied):
     def observe(self) -> Observation:
         """Observation of the state."""
         trunk = self.nodes()[0]
-        seen = dict(zip(self._footing.columns, self._rows[-1], strict=True))
+        measured = dict(zip(self._footing.columns, self._rows[-1], strict=True))
         nan, qpos = float("nan"), self.data.qpos
         along, aside, _ = trunk[-1] - trunk[0]
         heading = qpos.item(_YAW) if self.scene.in_space else math.atan2(aside, along)
@@ -180,9 +180,9 @@ class Simulation(Copied):
             place=trunk[0, :2].copy(),
             heading=heading,
             right=float(trunk[-1, 0]),
-            contact_left=seen.get("contact_left", nan),
-            contact_right=seen.get("contact_right", nan),
-            contacts=seen.get("contacts", nan),
+            contact_left=measured.get("contact_left", nan),
+            contact_right=measured.get("contact_right", nan),
+            contacts=measured.get("contacts", nan),
             status=self._status(),
         )
 
