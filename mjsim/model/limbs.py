@@ -159,9 +159,8 @@ def _add_friction(spec: mujoco.MjSpec, robot: LimbedRobot, links: int) -> None:
     for number, limb in enumerate(robot.names):
         joints = joints_to(robot, links, number)
         for point, row in itertools.product(range(points_of(robot, number)), (0, 1)):
-            tendon = parts.friction_tendon(
-                spec, f"{PREFIX}{limb}_friction_{point}_{row}", parts.NO_BOUND
-            )
+            name = f"{PREFIX}{limb}_friction_{point}_{row}"
+            tendon = parts.friction_tendon(spec, name, parts.NO_BOUND)
             for joint in joints:
                 tendon.wrap_joint(joint, float(joint == PREFIX + ROOT[0]))
 
