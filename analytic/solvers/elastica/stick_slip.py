@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.contact_length import end_loads, side_contact
-from analytic.friction.contacts import Finder, StripContact
+from analytic.friction.contacts import ContactFinder, StripContact
 from analytic.friction.laws import LAWS, Friction
 from analytic.scene.chain import node_positions
 from analytic.scene.ground import over
@@ -46,7 +46,7 @@ class StickSlip:
         self._chain, self._ground, self._friction = chain, ground, friction
         self._nodes = node_positions(chain.robot, chain.links)
         self._press = ground.at(0.0).press(chain.robot.width)
-        self._finder = Finder(chain.robot, self._nodes, self._press)
+        self._finder = ContactFinder(chain.robot, self._nodes, self._press)
         self._pull = friction.downhill(chain.robot) / chain.force_unit
         self._unit = friction.tension / chain.force_unit
         self.contacts: list[StripContact] = []
