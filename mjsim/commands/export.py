@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from analytic.scene.ground import uniform
 from analytic.scene.limbs import quadruped
 from analytic.scene.surface import SURFACES
 from mjsim.files.cli import fail, parse, warn
@@ -12,7 +13,7 @@ from mjsim.files.files import check_folder
 from mjsim.files.options import SceneOptions, tables_of
 from mjsim.files.tables import Tables, build
 from mjsim.pictures import gl
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Scene, Valves
 
 PROGRAM = "undulator export"
 
@@ -47,6 +48,8 @@ def main(argv: Sequence[str] | None = None) -> int:
             path = options.out / f"{name}.xml"
             with _announced(path):
                 write(scene, path, numerics)
+            for note in _left_out(scene):
+                warn(PROGRAM, f"{path}: {note}")
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
     return 0
@@ -55,6 +58,17 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _named(tables: Tables) -> tuple[str, Scene, Numerics]:
     scene, numerics = build(tables)
     return "limbs-" * scene.in_space + scene.ground.name, scene, numerics
+
+
+def _left_out(scene: Scene) -> Iterator[str]:
+    """What a scene has and its file has not."""
+    surface = uniform(scene.ground)
+    by_load = surface.friction or surface.tip_friction
+    if not by_load and (surface.tip_force or surface.shear_strength):
+        yield (f"no friction: MuJoCo's is by load, and ground {surface.name} has tip_force and "
+               "shear_strength alone")  # fmt: skip
+    if scene.valves != Valves():
+        yield "chambers follow their commands at once, without the scene's valves"
 
 
 @contextmanager

@@ -17,7 +17,7 @@ from mjsim.files.files import whole as whole_file
 from mjsim.files.options import SceneOptions, tables_of
 from mjsim.files.tables import build
 from mjsim.files.text_table import Column, text_table
-from mjsim.scene import Scene
+from mjsim.scene import Numerics, Scene
 
 if TYPE_CHECKING:
     from mjsim.optimising.confirm import Confirmation
@@ -69,8 +69,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         whole("seed", options.seed, 0)
         workers = os.cpu_count() or 1 if options.workers is None else options.workers
         whole("workers", workers, 1)
-        scenes = [build(tables)[0] for tables in tables_of(options)]
-        objective = _objective(options, scenes)
+        built = [build(tables) for tables in tables_of(options)]
+        objective = _objective(options, [scene for scene, _ in built], built[0][1])
         check_folder(options.out)
         began = time.perf_counter()
         history, best, start = _search(options, objective, workers)
@@ -84,7 +84,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     return 0 if record["worth"] > -math.inf else FAILED
 
 
-def _objective(options: Options, scenes: Sequence[Scene]) -> "Objective":
+def _objective(options: Options, scenes: Sequence[Scene], numerics: Numerics) -> "Objective":
     from mjsim.optimising.objective import Objective
 
     grounds = []
@@ -99,7 +99,9 @@ def _objective(options: Options, scenes: Sequence[Scene]) -> "Objective":
     if scenes[0].friction != "constant":
         raise ValueError(f"friction must be constant, got {scenes[0].friction}")
     model = _model(options, scenes[0].in_space)
-    return Objective(scenes[0], tuple(grounds), options.aim, options.backward, model)
+    return Objective(
+        scenes[0], tuple(grounds), options.aim, options.backward, model, numerics=numerics
+    )
 
 
 def _model(options: Options, in_space: bool) -> str:

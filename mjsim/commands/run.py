@@ -140,8 +140,8 @@ def _simulate(
     total = round(scene.duration / resolved(scene, numerics).timestep)
     with bar(f"simulating {scene.ground.name}", total) as advance:
         if tolerance is None:
-            return simulate(scene, numerics, advance, forces=True), []
-        checked = walk_checked(scene, tolerance, advance, forces=True)
+            return simulate(scene, numerics, advance, forces=not scene.in_space), []
+        checked = walk_checked(scene, tolerance, advance, forces=not scene.in_space)
     finest = checked.tried[-1]
     note = f"auto: {finest.links} links at {finest.timestep:g} s"
     if math.isfinite(checked.error):

@@ -126,7 +126,7 @@ class WalkVectorEnv(VectorEnv):  # type: ignore[misc]
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self.metadata = {**self.metadata, "render_modes": []}
-        base = self.settings.scene({"ground.surface": self.settings.surfaces[0]})
+        base = self.settings.scene(self.settings.grounds[0])
         numerics = self.settings.resolved
         self._strips = StripBatch([base] * num_envs, numerics, threads)
         self._numerics, self.render_mode = numerics, None

@@ -93,6 +93,9 @@ def _limb(table: Mapping[str, Any], shared: Table, where: str) -> Limb:
         if key in of_strip:
             shared = {name: value for name, value in shared.items() if name != replaced}
     strip = make(Robot, {"segments": (1.0,), **shared, **of_strip}, where)
+    for key in ("at", "offset"):
+        if key in table and "on" not in table:
+            raise ValueError(f"{where}{key} needs `on`, a limb that carries it; got {table[key]!r}")
     angle = math.radians(as_number(table.get("angle_deg", 0.0), f"{where}angle_deg", "deg"))
     offset = as_number(table.get("offset", 0.0), f"{where}offset", "m")
     placed = {key: table[key] for key in ("name", "on", "at") if key in table}

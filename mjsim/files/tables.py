@@ -106,17 +106,18 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
     values = tables.get("numerics", {})
     check_keys("numerics", values, where)
     scene_values = {key: value for key, value in values.items() if key in SCENE_FIELDS}
-    scene = make(
-        Scene, scene_values, f"{where}[numerics] ", robot=robot, gait=gait,
-        valves=make(Valves, tables.get("valves", {}), f"{where}[valves] "),
-        ground=build_ground(ground, f"{where}[ground] "), slope=math.radians(slope),
-    )  # fmt: skip
+    checked_values = checked(Scene, scene_values, f"{where}[numerics] ")
+    valves = make(Valves, tables.get("valves", {}), f"{where}[valves] ")
+    under = build_ground(ground, f"{where}[ground] ")
     rest = {key: value for key, value in values.items() if key not in SCENE_FIELDS}
     numerics = make(Numerics, rest, f"{where}[numerics] ")
     try:
+        scene = Scene(robot=robot, gait=gait, ground=under, slope=math.radians(slope),
+                      valves=valves, **checked_values)  # fmt: skip
         resolved(scene, numerics)
     except ValueError as error:
-        raise ValueError(f"{where}[numerics] {error}") from error
+        place = "[numerics] " if str(error).split(maxsplit=1)[0] in values else ""
+        raise ValueError(f"{where}{place}{error}") from error
     return scene, numerics
 
 
@@ -223,7 +224,7 @@ def _gait_of(table: Table, where: str, robot: AnyRobot) -> tuple[Gait, float | N
         return build_gait(table, where, robot), None
     for key in table:
         one_of(f"{where}key beside a .csv file", key, ("file", "reverse", "name"))
-    gait, highest = read_gait(Path(str(table["file"])))
+    gait, highest = read_gait(Path(str(table["file"])), robot.chambers)
     gait = replace(gait, name=table.get("name", gait.name))
     return (gait.reversed() if table.get("reverse") else gait), highest
 

@@ -28,9 +28,11 @@ _RADIUS, _DEPTH = 1e-5, 4e-5  # m; of pads, since friction acts at their lowest 
 
 def spec_in_space(scene: Scene, numerics: Numerics | None = None) -> mujoco.MjSpec:
     """The scene, whose friction is by load, to open in MuJoCo's viewer: one slider per chamber."""
-    given = replace(numerics or Numerics(), timestep=_TIMESTEP, pad_radius=_RADIUS)
-    numerics = resolved(scene, given)
-    spec = tree_spec(scene, numerics, stage(scene.ground), with_friction=False)
+    numerics = numerics or Numerics()
+    timestep = numerics.timestep or _TIMESTEP
+    given = replace(numerics, timestep=timestep, pad_radius=_RADIUS)
+    resolution = resolved(scene, given)
+    spec = tree_spec(scene, resolution, stage(scene.ground), with_friction=False)
     spec.modelname = scene.ground.name
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.option.impratio = _IMPRATIO
@@ -39,13 +41,13 @@ def spec_in_space(scene: Scene, numerics: Numerics | None = None) -> mujoco.MjSp
         if "_pad_" in geom.name:
             geom.condim = 3
             geom.friction[:] = surface.friction, 0.0, 0.0
-            geom.solref[:], geom.solimp[:3] = softness_with_friction(_TIMESTEP / 2, _DEPTH)
-    _add_tips(spec, scene, numerics, float(surface.tip_friction or 0.0))
+            geom.solref[:], geom.solimp[:3] = softness_with_friction(timestep / 2, _DEPTH)
+    _add_tips(spec, scene, resolution, float(surface.tip_friction or 0.0))
     allow_rounding(spec)
-    _actuate(spec, limbed(scene), numerics)
+    _actuate(spec, limbed(scene), resolution)
     for name in ("ruler", "start"):
         spec.delete(spec.geom(name))
-    add_skins(spec, scene, numerics)
+    add_skins(spec, scene, resolution)
     add_camera(spec, scene)
     return spec
 

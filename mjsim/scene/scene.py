@@ -149,7 +149,10 @@ class Scene:
             ValueError: it has several limbs.
         """
         if isinstance(self.robot, LimbedRobot):
-            raise ValueError(f"only a strip can do this, not {len(self.robot.limbs)} limbs")
+            raise ValueError(
+                "this is seen from the side, in the plane of a strip; a robot of "
+                f"{len(self.robot.limbs)} limbs has no such plane"
+            )
         return self.robot
 
     @property

@@ -57,6 +57,8 @@ class Simulation(Copied):
         forces: bool = False,
         history: bool = True,
     ) -> None:
+        if forces and scene.in_space:
+            raise ValueError("forces on nodes are recorded of strips alone, got a robot of limbs")
         self.scene, self._with_forces, self._history = scene, forces and history, history
         self.numerics = resolved(scene, numerics)
         check_steps(scene, self.numerics)
@@ -86,8 +88,7 @@ class Simulation(Copied):
             scene.valves, len(scene.robot.chambers), numerics.timestep
         )
         self._pressure = self._chambers.pressure
-        recorded = self._with_forces and not scene.in_space
-        self._recorder = ContactRecorder(scene, model, self.data) if recorded else None
+        self._recorder = ContactRecorder(scene, model, self.data) if self._with_forces else None
         self._coordinates: list[Array] = []
         self._rows: list[tuple[float, ...]] = []
         self._pressures: list[Array] = []
