@@ -81,7 +81,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     record = _record(options, objective, history[-1], best, start) | {
         "wall_time_s": seconds, "files": files}  # fmt: skip
     say(strict_json(record) if options.json else _text(record))
-    return 0 if record["worth"] > -math.inf else FAILED
+    return 0 if record["objective"] > -math.inf else FAILED
 
 
 def _objective(options: Options, scenes: Sequence[Scene], numerics: Numerics) -> "Objective":
@@ -163,7 +163,7 @@ def _record(
     air = air_per_cycle(objective.scene.robot, gait)
     return {
         "aim": options.aim, "backward": options.backward, "model": objective.model,
-        "evaluations": generation.evaluations, "worth": generation.worth,
+        "evaluations": generation.evaluations, "objective": generation.value,
         "searched_on": [surface.name for surface in objective.surfaces],
         "stages": gait.stages, "ramp_times_s": gait.ramp_times, "period_s": gait.period,
         "air_litres_per_cycle": 1e3 * air.volume, "work_J_per_cycle": air.work,
@@ -180,7 +180,7 @@ def _text(record: dict[str, Any]) -> str:
     model = record["model"] + f", {WEAK}," * (record["model"] != "mujoco")
     head = (
         f"{record['evaluations']} gaits by {model} in {record['wall_time_s']:.0f} s; "
-        f"best on {where}: {record['worth']:+.4g} {unit[record['aim']]}, "
+        f"best on {where}: {record['objective']:+.4g} {unit[record['aim']]}, "
         f"{record['period_s']:g} s and {record['air_litres_per_cycle']:.3g} l of air per cycle"
     )
     rows = [
