@@ -30,7 +30,8 @@ class Limb:
     name: str
     """how gaits and files call it"""
     strip: Robot
-    """its geometry, material, weight and segments, the first where the limb begins"""
+    """its geometry, material, weight and segments, the first where the limb begins; its peak
+    pressure is that of the robot"""
     on: str | None = None
     """limb that carries it; None for the trunk"""
     at: End = "end"
@@ -54,7 +55,7 @@ class LimbedRobot:
 
     Raises:
         ValueError: it is no tree of such limbs, two limbs or chambers have one name, the trunk has
-            an offset, a limb has a peak pressure of its own, or the peak is not positive.
+            an offset, or the peak pressure is not positive.
     """
 
     limbs: tuple[Limb, ...]
@@ -76,11 +77,6 @@ class LimbedRobot:
                 raise ValueError(
                     f"limb {limb.name!r}: the trunk has no carrier to be offset from, got "
                     f"{limb.offset!r}"
-                )
-            if limb.strip.peak_pressure not in (Robot.peak_pressure, self.peak_pressure):
-                raise ValueError(
-                    f"limb {limb.name!r}: peak_pressure is the whole robot's, got "
-                    f"{limb.strip.peak_pressure!r}"
                 )
             carriers.append(limb.name)
         if not carriers:

@@ -51,7 +51,6 @@ def limbs(**last):
         (lambda: LimbedRobot((Limb("a", STRIP, offset=0.01),)), "no carrier to be offset from"),
         (lambda: LimbedRobot(limbs(), peak_pressure=-1.0), "peak_pressure"),
         (lambda: LimbedRobot(limbs(), peak_pressure=float("nan")), "peak_pressure"),
-        (lambda: LimbedRobot(limbs(strip=replace(STRIP, peak_pressure=1.0))), "whole robot's"),
         (lambda: LimbedRobot((*limbs(strip=replace(STRIP, segments=(1.0, 1.0))),
                               Limb("c-1", STRIP, "a"))), "chamber 'c-1' is there twice"),
         (lambda: Limb("", STRIP), "name of a limb"),
