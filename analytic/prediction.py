@@ -202,6 +202,11 @@ def predict(
             the gait is divided into no states, or the ground resists by speed and friction bends
             nothing or the path has no times.
     """
+    if not isinstance(robot, Robot):
+        raise ValueError(
+            f"predict is for strips, a Robot; of limbs take analytic.solvers.limbs.walk; got "
+            f"{type(robot).__name__}"
+        )
     if isinstance(solver, str):
         one_of("solver", solver, SOLVERS)
         solver = SOLVERS[solver]()

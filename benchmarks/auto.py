@@ -25,7 +25,7 @@ from mjsim.files.files import whole
 from mjsim.results.measures import measure
 from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Scene
-from mjsim.scene.auto import TABLE, Rung
+from mjsim.scene.auto import TABLE, Level
 from mjsim.simulation import checked
 from mjsim.simulation.simulation import simulate
 
@@ -72,7 +72,7 @@ def distance(walk) -> float:
 
 
 def design_rows(seed: int) -> list[list]:
-    """A row a rung: seed, contacts, links a segment, step, distances and how they ended."""
+    """A row a level: seed, contacts, links a segment, step, distances and how they ended."""
     scene = scene_of(seed, 0)
     contacts, shortest = "all" if scene.between else "ends", min(scene.gait.ramp_times)
     exact, status = kept_truth(0, seed)
@@ -139,7 +139,7 @@ def design(count: int) -> None:
         for part, timestep in FAST[contacts] + LADDER[contacts]:
             here = [row for row in rows if row[1:4] == [contacts, part, timestep]]
             parts = [np.mean([right(row[6], row[4], t) for row in here]) for t in TOLERANCES]
-            line = Rung(contacts, part, timestep, len(here), *(round(float(p), 3) for p in parts),
+            line = Level(contacts, part, timestep, len(here), *(round(float(p), 3) for p in parts),
                         float(f"{np.median([row[8] for row in here]):.2g}"))  # fmt: skip
             print(*line, "failed", sum(row[7] != "ok" for row in here))
             if (part, timestep) in LADDER[contacts]:
@@ -152,7 +152,7 @@ def design(count: int) -> None:
                   f"{np.mean(ok):.0%}, {np.median(realtime):.0f} times real time")  # fmt: skip
     with TABLE.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerows([Rung._fields, *table])
+        writer.writerows([Level._fields, *table])
 
 
 def by_scene(rows: list[list], contacts: str) -> list[list[list]]:

@@ -21,7 +21,7 @@ _WORTHLESS = 1.0
 
 
 def by_cma(objective: Objective, evaluations: int, seed: int) -> float:
-    return list(search(objective, SPACE, evaluations, seed))[-1].worth
+    return list(search(objective, SPACE, evaluations, seed))[-1].value
 
 
 def by_evolution(objective: Objective, evaluations: int, seed: int) -> float:

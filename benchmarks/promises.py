@@ -52,7 +52,7 @@ def row(seed: int) -> list[list]:
     moved, predicted, bar, unexplained, notes = (found[name] for name in names)
     finer = math.nan
     if predicted is not None:
-        finer = reference(walk, 2).locomotion.per_cycle / scene.robot.length
+        finer = float(reference(walk, 2).displacement[0])
     return [[seed, ramp, "all" if scene.between else "ends", found["status"], moved, predicted, bar,
              finer, unexplained, notes]]  # fmt: skip
 

@@ -44,8 +44,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         return FAILED
     os.environ.pop("PYOPENGL_PLATFORM", None)
     # MuJoCo takes the backend when it is first imported
-    from mjsim.pictures import limb_film, recording
-    from mjsim.pictures.poster import poster
+    from mjsim.pictures import recording
+    from mjsim.pictures.poster import poster, stages
     from mjsim.simulation import simulation
 
     out, scenes, numerics = options.out, _quadrupeds(), Numerics(timestep=_STEP)
@@ -56,7 +56,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     walks = [simulation.simulate(scene, numerics) for scene in scenes.values()]
     limb_videos = [out / f"quadruped_{name}.mp4" for name in scenes]
     recording.film(walks, limb_videos)
-    limb_film.stages(walks[-2]).save(out / "quadruped.jpg", quality=85)
+    stages(walks[-2]).save(out / "quadruped.jpg", quality=85)
     print(*videos, out / "surfaces.jpg", *limb_videos, out / "quadruped.jpg", sep="\n")
     return 0
 

@@ -44,7 +44,7 @@ class StripContact(NamedTuple):
         return place - 0.5 * self.length, place + 0.5 * self.length
 
 
-class Finder:
+class ContactFinder:
     """Finds the contacts of one strip.
 
     Args:
@@ -125,5 +125,5 @@ class Finder:
 def contacts_of(shapes: ContactShapes, height: Array, state: int) -> list[StripContact]:
     """The contacts of one of several states, its nodes at heights of shape (B, N) [m]."""
     lengths = float(shapes.contact_left[state]), float(shapes.contact_right[state])
-    finder = Finder(shapes.robot, shapes.nodes)
+    finder = ContactFinder(shapes.robot, shapes.nodes)
     return finder.find(shapes.force[state].tolist(), height[state].tolist(), lengths)

@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.checks import is_number, one_of
+from analytic.checks import file_word, is_number, one_of, positive
 from analytic.scene.robot import GRAVITY, Robot
 
 Array = NDArray[np.float64]
@@ -30,7 +30,8 @@ class Limb:
     name: str
     """how gaits and files call it"""
     strip: Robot
-    """its geometry, material, weight and segments, the first where the limb begins"""
+    """its geometry, material, weight and segments, the first where the limb begins; its peak
+    pressure is that of the robot"""
     on: str | None = None
     """limb that carries it; None for the trunk"""
     at: End = "end"
@@ -41,6 +42,7 @@ class Limb:
     """of its beginning to the left of the carrier's middle line [m]"""
 
     def __post_init__(self) -> None:
+        file_word("name of a limb", self.name)
         one_of("at", self.at, ("begin", "end"))
         for name in ("angle", "offset"):
             if not is_number(getattr(self, name)):
@@ -52,7 +54,8 @@ class LimbedRobot:
     """A robot of several limbs, the trunk first; each is carried by one before it.
 
     Raises:
-        ValueError: it is no tree of such limbs, or two have one name.
+        ValueError: it is no tree of such limbs, two limbs or chambers have one name, the trunk has
+            an offset, or the peak pressure is not positive.
     """
 
     limbs: tuple[Limb, ...]
@@ -60,6 +63,8 @@ class LimbedRobot:
     """that fractions of a gait are of [Pa]"""
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "limbs", tuple(self.limbs))
+        positive("peak_pressure", self.peak_pressure, "Pa")
         carriers: list[str] = []
         for limb in self.limbs:
             if limb.name in carriers:
@@ -68,9 +73,17 @@ class LimbedRobot:
                 raise ValueError(f"limb {limb.name!r}: the first limb, and no other, is the trunk")
             if limb.on is not None:
                 one_of(f"limb {limb.name!r}: on", limb.on, carriers)
+            elif limb.offset:
+                raise ValueError(
+                    f"limb {limb.name!r}: the trunk has no carrier to be offset from, got "
+                    f"{limb.offset!r}"
+                )
             carriers.append(limb.name)
         if not carriers:
             raise ValueError("a robot must have one limb at least, got none")
+        twice = next((name for name in self.chambers if self.chambers.count(name) > 1), None)
+        if twice:
+            raise ValueError(f"chamber {twice!r} is there twice: name a limb otherwise")
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -1,1 +1,1 @@
-"""What is typed: one module a command, and `undulator`, which calls them by name."""
+"""Commands of the command line: one module each, and `undulator`, which calls them by name."""

@@ -1,26 +1,26 @@
-"""What came of a sweep, as a table and pictures: `undulator analyse`."""
+"""Effects of the fields of a sweep, as a table and pictures: `undulator analyse`."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import tyro
 
 from mjsim.files.cli import fail, parse, say, strict_json
 from mjsim.files.files import check_folder
+from mjsim.files.text_table import Column, counts, text_table
 
 PROGRAM = "undulator analyse"
+_LEAST = 0.01  # part of the variance that a pair must explain to be printed; chosen
 
 
 @dataclass(frozen=True)
 class Options:
-    """Say and draw what the fields of a sweep do to the distance.
+    """Rank the fields of a sweep by how much of the distance they explain, and draw their effects.
 
-    Prints, for each field, which part of the variance of the quantity it explains alone, and the
-    means over its lowest and highest level. Draws main-effects.png, a panel a field, and
-    pairs.png, maps of each two of the four strongest fields with the neutral curve, where the
-    quantity is 0 and the robot turns round. Exit code 0: done; 2: bad input.
+    Prints each field's part of the variance and the means at its lowest and highest level; writes
+    main-effects.png and pairs.png, which docs/sweeps.md explains. Exit code 0: done; 2: bad input.
     """
 
     results: Annotated[Path, tyro.conf.Positional] = Path("sweep.sqlite")
@@ -53,12 +53,12 @@ def main(argv: Sequence[str] | None = None) -> int:
         fail(PROGRAM, str(error))
     rows = []
     for field, part in zip(results.fields, results.parts, strict=True):
-        of, centre = levels(field.values)
-        means = [float(results.values[of == level].mean()) for level in range(len(centre))]
+        level_of, centre = levels(field.values)
         low, high = (field.words[i] if field.words else float(centre[i]) for i in (0, -1))
+        means = [float(results.values[level_of == i].mean()) for i in (0, len(centre) - 1)]
         rows.append({"field": field.name, "unit": field.unit, "explains": part, "lowest": low,
                      "highest": high, "mean_at_lowest": means[0],
-                     "mean_at_highest": means[-1]})  # fmt: skip
+                     "mean_at_highest": means[1]})  # fmt: skip
     record = {
         "quantity": results.quantity, "unit": results.unit, "scenes": len(results.values),
         "status": results.status, "fields": rows,
@@ -69,22 +69,19 @@ def main(argv: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _text(record: dict) -> str:  # type: ignore[type-arg]
-    lines = [
+COLUMNS = (
+    Column("field", "field"), Column("explains", "explains", ".0%"),
+    Column("lowest", "lowest", ".4g"), Column("mean", "mean_at_lowest", "+.4f"),
+    Column("highest", "highest", ".4g"), Column("mean", "mean_at_highest", "+.4f"),
+)  # fmt: skip
+
+
+def _text(record: dict[str, Any]) -> str:
+    return "\n".join([
         f"{record['scenes']:,} scenes with a {record['quantity']}; status "
-        + ", ".join(f"{name} {n:,}" for name, n in record["status"].items()),
-        f"{'field':<28}{'explains':>9}{'lowest':>14}{'mean':>9}{'highest':>14}{'mean':>9}",
-    ]
-    for row in record["fields"]:
-        low, high = (
-            f"{row[key]:.4g}" if isinstance(row[key], float) else str(row[key])
-            for key in ("lowest", "highest")
-        )
-        lines.append(
-            f"{row['field']:<28}{100 * row['explains']:>7.0f} %{low:>14}"
-            f"{row['mean_at_lowest']:>+9.4f}{high:>14}{row['mean_at_highest']:>+9.4f}"
-        )
-    for pair in record["pairs"]:
-        if pair["explain"] >= 0.01:
-            lines.append(f"{' and '.join(pair['fields'])} together {100 * pair['explain']:.0f} %")
-    return "\n".join([*lines, *record["files"]])
+        + counts(record["status"]),
+        text_table(COLUMNS, record["fields"]),
+        *(f"{' and '.join(pair['fields'])} together {100 * pair['explain']:.0f} %"
+          for pair in record["pairs"] if pair["explain"] >= _LEAST),
+        *record["files"],
+    ])  # fmt: skip

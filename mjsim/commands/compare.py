@@ -49,8 +49,8 @@ EXAMPLES = (
 class Options:
     """Compare the quasi-static models and MuJoCo on one cycle of each gait on each surface.
 
-    One row per model, beside the reference; docs/output.md explains models and columns. Exit code
-    0: done, also where a model has no answer (its status says why); 2: bad input.
+    Prints one row per model; docs/output.md explains models and columns. Exit code 0: done, also
+    where a model has no answer (its status says why); 2: bad input.
     """
 
     surface: str = "all"
@@ -59,8 +59,8 @@ class Options:
     """wave, full-wave, pulse, of the quadruped spin and crawl too, several with commas between;
     all: those, or the scene's"""
     model: str = "all"
-    """modes, lifted, obstacle, elastica, chain, cable, rod, or a body of your own, several with
-    commas between, or all; of a robot of limbs quasi-static and chain"""
+    """modes, lifted, obstacle, elastica, chain, cable, rod, a body of a plugin, several with commas
+    between, or all; of a robot of limbs quasi-static and chain"""
     scene: Annotated[Path | None, tyro.conf.arg(help_behavior_hint="")] = None
     """a TOML file, whose robot walks; its gait and its ground where none is named"""
     robot: Annotated[str | None, tyro.conf.arg(help_behavior_hint="")] = None
@@ -85,7 +85,7 @@ COLUMNS = (
 
 
 def models(robot: AnyRobot) -> tuple[str, ...]:
-    """Names of all that know a robot, cheapest theory first, then MuJoCo."""
+    """Names of all models of a robot, cheapest theory first, then MuJoCo."""
     if isinstance(robot, LimbedRobot):
         return (QUASI_STATIC, Scene.body)
     return (*SOLVERS, *registry.names())
@@ -99,26 +99,29 @@ def compare(scene: Scene, models: Sequence[str], numerics: Numerics | None = Non
         models: names, see `models`.
         numerics: of MuJoCo; chosen for the robot where not given.
     """
-    by = QUASI_STATIC if scene.in_space else REFERENCE
     exact = _reference(scene, numerics)
     rows = []
     for model in models:
-        if model == by:
+        if model == _reference_of(scene):
             row = exact
         elif model in SOLVERS:
             row = _weak(scene, model)
         else:
             row = _simulated(replace(scene, body=model), numerics)
         shift, zero = row["displacement_over_L"], exact["displacement_over_L"]
-        known = shift is not None and zero is not None
+        comparable = shift is not None and zero is not None
         row = {
             "surface": scene.ground.name, "gait": scene.gait.name, "model": model, **row,
-            "difference_over_L": shift - zero if known else None,
+            "difference_over_L": shift - zero if comparable else None,
             "direction": None if shift is None
             else direction(shift, 1.0, row["uncertainty_over_L"] or 0.0),
         }  # fmt: skip
         rows.append(row)
     return rows
+
+
+def _reference_of(scene: Scene) -> str:
+    return QUASI_STATIC if scene.in_space else REFERENCE
 
 
 def _reference(scene: Scene, numerics: Numerics | None) -> Row:
@@ -132,15 +135,15 @@ def _reference(scene: Scene, numerics: Numerics | None) -> Row:
 
 
 def _weak(scene: Scene, model: str) -> Row:
-    """A solver of strips that knows weak friction alone."""
+    """Row of a solver of strips for weak friction."""
     walk = prediction(scene, model)
     shift, length = displacement(scene, walk), scene.robot.length
-    known, assumed = bool(np.isfinite(shift)), modes_error(walk) / length
+    finite, bar = bool(np.isfinite(shift)), modes_error(walk) / length
     flags = "+".join(flag.name.lower() for flag in walk.flags if flag.name) or "ok"
     return _row(
-        shift if known else None,
-        assumed if math.isfinite(assumed) and assumed > 0 else None,
-        float(walk.shapes.amplitude.max()) / length if known else None,
+        shift if finite else None,
+        bar if math.isfinite(bar) and bar > 0 else None,
+        float(walk.shapes.amplitude.max()) / length if finite else None,
         f"{flags}, {WEAK}",
     )
 
@@ -153,8 +156,8 @@ def _simulated(scene: Scene, numerics: Numerics | None) -> Row:
     numbers = measure(walk)
     if numbers is None:
         return _row(None, None, None, str(walk.status))
-    known = abs(numbers.unexplained)
-    return _row(numbers.displacement, None if math.isnan(known) else known, numbers.amplitude,
+    bar = abs(numbers.unexplained)
+    return _row(numbers.displacement, None if math.isnan(bar) else bar, numbers.amplitude,
                 str(walk.status),
                 math.degrees(numbers.turn) if scene.in_space else None)  # fmt: skip
 
@@ -194,8 +197,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             rows += compare(scene, chosen, numerics)
             advance(1)
     if options.json:
-        by = QUASI_STATIC if cases[0][0].in_space else REFERENCE
-        say(strict_json({"reference": by, "rows": rows}))
+        say(strict_json({"reference": _reference_of(cases[0][0]), "rows": rows}))
     else:
         say(table(rows))
     return 0
@@ -206,17 +208,16 @@ def _tables(options: Options) -> list[Tables]:
     base = merged(read_tables(options.scene)) if options.scene else merged()
     if options.robot is not None:
         one_of("robot", options.robot, ROBOTS)
-        named = {"name": options.robot} if options.robot != ROBOTS[0] else {}
-        base = {**base, "robot": named}
+        base = {**base, "robot": {"name": options.robot} if options.robot != ROBOTS[0] else {}}
     if options.pressure is not None:
         base = merged(base, {"robot": {"peak_pressure": options.pressure}})
     table = base["robot"]
     chambers = (build_robot(table) if of_limbs(table) else make(Robot, table)).chambers
     gaits = {**GAITS, **QUADRUPED_GAITS} if chambers == ORDER else GAITS
-    known = gaits if chambers in (ORDER, Robot().chambers) else {}
+    named = gaits if chambers in (ORDER, Robot().chambers) else {}
     layers = [
         merged({"gait": gait}, {"ground": ground}, {"gait": {"reverse": True} if backward else {}})
-        for gait in _choice("gait", options.gait, known, base["gait"], "name")
+        for gait in _choice("gait", options.gait, named, base["gait"], "name")
         for backward in (False, *([True] if options.reverse else []))
         for ground in _choice("surface", options.surface, SURFACES, base["ground"], "surface")
     ]

@@ -1,19 +1,19 @@
 """Write scenes as MJCF that walks by itself: `undulator export`."""
 
-import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from analytic.scene.ground import uniform
 from analytic.scene.limbs import quadruped
 from analytic.scene.surface import SURFACES
-from mjsim.files.cli import fail, parse
+from mjsim.files.cli import fail, parse, warn
 from mjsim.files.files import check_folder
 from mjsim.files.options import SceneOptions, tables_of
 from mjsim.files.tables import Tables, build
 from mjsim.pictures import gl
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Scene, Valves
 
 PROGRAM = "undulator export"
 
@@ -23,8 +23,8 @@ class Options(SceneOptions):
     """Write a scene as MJCF with its textures, to open in MuJoCo's viewer and to drive.
 
     Actuators take the pressures of the chambers in Pa; friction is MuJoCo's own, by load; chambers
-    are at constant pressure. The files load from any folder on any machine with mujoco 3.17 or
-    later, 4 included, and in dm_control by mjcf.from_path. Exit code 0: done; 2: bad input.
+    are at constant pressure. The files load in mujoco from 3.17 on, 4 included, and in dm_control.
+    Exit code 0: done; 2: bad input.
     """
 
     out: Path = Path("exported")
@@ -43,11 +43,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         tables = tables_of(options)
         check_folder(options.out)
-        cases = list(documents()) if options.models else [_named(own) for own in tables]
+        cases = list(documents()) if options.models else [_named(scene) for scene in tables]
         for name, scene, numerics in cases:
             path = options.out / f"{name}.xml"
-            with _told(path):
+            with _announced(path):
                 write(scene, path, numerics)
+            for note in _left_out(scene):
+                warn(PROGRAM, f"{path}: {note}")
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
     return 0
@@ -58,18 +60,29 @@ def _named(tables: Tables) -> tuple[str, Scene, Numerics]:
     return "limbs-" * scene.in_space + scene.ground.name, scene, numerics
 
 
+def _left_out(scene: Scene) -> Iterator[str]:
+    """What a scene has and its file has not."""
+    surface = uniform(scene.ground)
+    by_load = surface.friction or surface.tip_friction
+    if not by_load and (surface.tip_force or surface.shear_strength):
+        yield (f"no friction: MuJoCo's is by load, and ground {surface.name} has tip_force and "
+               "shear_strength alone")  # fmt: skip
+    if scene.valves != Valves():
+        yield "chambers follow their commands at once, without the scene's valves"
+
+
 @contextmanager
-def _told(path: Path) -> Iterator[None]:
-    """Print the path of what is written, and whether it replaced something else."""
+def _announced(path: Path) -> Iterator[None]:
+    """Print the path of a file that is written, and a line if it was another before."""
     before = path.read_bytes() if path.is_file() else None
     yield
     print(path)
     if before is not None and before != path.read_bytes():
-        print(f"{PROGRAM}: {path} is another than before", file=sys.stderr)
+        warn(PROGRAM, f"{path} is another than before")
 
 
 def documents() -> Iterator[tuple[str, Scene, Numerics]]:
-    """Names of the files in models/, and what they hold."""
+    """Names, scenes and numerics of the files in models/."""
     for name, surface in SURFACES.items():
         yield name, Scene(ground=surface), Numerics()
     for body in ("cable", "rod"):

@@ -17,7 +17,7 @@ from mjsim.files.files import whole as whole_file
 from mjsim.files.options import SceneOptions, tables_of
 from mjsim.files.tables import build
 from mjsim.files.text_table import Column, text_table
-from mjsim.scene import Scene
+from mjsim.scene import Numerics, Scene
 
 if TYPE_CHECKING:
     from mjsim.optimising.confirm import Confirmation
@@ -36,9 +36,9 @@ EXAMPLES = (
 class Options(SceneOptions):
     """Search for the gait that goes farthest, fastest, or for the least air, on given ground.
 
-    What is found by CMA-ES is then walked by finer models, and with pressure and friction 10 % off;
-    docs/gaits.md tells how, docs/output.md explains the columns. Writes best.toml, a gait for
-    --gait, and best.png. Exit code 0: done; 2: bad input; 3: nothing goes that way.
+    Prints how finer models walk it, and with pressure and friction 10 % off; docs/output.md
+    explains the columns. Writes best.toml, a gait for --gait, and best.png. Exit code 0: done; 2:
+    bad input; 3: nothing goes that way.
     """
 
     aim: Literal["displacement", "speed", "air", "work"] = "displacement"
@@ -46,7 +46,7 @@ class Options(SceneOptions):
     MuJoCo; the least air, in litres at atmospheric pressure, or the least work of compressing it,
     for each metre"""
     backward: bool = False
-    """look for the best way to -x"""
+    """search for the best gait towards -x"""
     model: Literal["elastica", "lifted", "obstacle", "modes", "mujoco"] | None = None
     """of the search; elastica if not given, for speed and for robots of limbs mujoco"""
     evaluations: int = 800
@@ -54,7 +54,7 @@ class Options(SceneOptions):
     seed: int = 0
     """of the random numbers"""
     workers: int | None = None
-    """processes; one a core if not given"""
+    """processes; one per core if not given"""
     out: Path = Path("optimised")
     """folder for best.toml and best.png, made if need be"""
     json: bool = False
@@ -69,23 +69,22 @@ def main(argv: Sequence[str] | None = None) -> int:
         whole("seed", options.seed, 0)
         workers = os.cpu_count() or 1 if options.workers is None else options.workers
         whole("workers", workers, 1)
-        scenes = [build(tables)[0] for tables in tables_of(options)]
-        objective = _objective(options, scenes)
+        built = [build(tables) for tables in tables_of(options)]
+        objective = _objective(options, [scene for scene, _ in built], built[0][1])
         check_folder(options.out)
         began = time.perf_counter()
-        history, rows, wave = _found(options, objective, workers)
+        history, best, start = _search(options, objective, workers)
         seconds = time.perf_counter() - began
         files = _write(options, objective, history)
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
-    last = history[-1]
-    record = _record(options, objective, last, rows, wave) | {
+    record = _record(options, objective, history[-1], best, start) | {
         "wall_time_s": seconds, "files": files}  # fmt: skip
     say(strict_json(record) if options.json else _text(record))
-    return 0 if last.worth > -math.inf else FAILED
+    return 0 if record["objective"] > -math.inf else FAILED
 
 
-def _objective(options: Options, scenes: Sequence[Scene]) -> "Objective":
+def _objective(options: Options, scenes: Sequence[Scene], numerics: Numerics) -> "Objective":
     from mjsim.optimising.objective import Objective
 
     grounds = []
@@ -100,18 +99,20 @@ def _objective(options: Options, scenes: Sequence[Scene]) -> "Objective":
     if scenes[0].friction != "constant":
         raise ValueError(f"friction must be constant, got {scenes[0].friction}")
     model = _model(options, scenes[0].in_space)
-    return Objective(scenes[0], tuple(grounds), options.aim, options.backward, model)
+    return Objective(
+        scenes[0], tuple(grounds), options.aim, options.backward, model, numerics=numerics
+    )
 
 
 def _model(options: Options, in_space: bool) -> str:
     walked = options.aim == "speed" or in_space
     if walked and options.model not in (None, "mujoco"):
-        what = "a robot of limbs" if in_space else "aim speed"
-        raise ValueError(f"model of {what} must be mujoco, got {options.model}")
+        case = "a robot of limbs" if in_space else "aim speed"
+        raise ValueError(f"model of {case} must be mujoco, got {options.model}")
     return options.model or ("mujoco" if walked else "elastica")
 
 
-def _found(
+def _search(
     options: Options, objective: "Objective", workers: int
 ) -> "tuple[list[Generation], list[Confirmation], list[Confirmation]]":
     from mjsim.files.plugins import processes
@@ -131,8 +132,8 @@ def _found(
                     *(s for s in SURFACES.values() if s not in objective.surfaces)]  # fmt: skip
         gaits = [history[-1].best] * len(surfaces) + [scene.gait] * len(surfaces)
         jobs = zip([objective] * len(gaits), gaits, surfaces * 2, strict=True)
-        both = list(pool.map(confirm, *zip(*jobs, strict=True)))
-    return history, both[: len(surfaces)], both[len(surfaces) :]
+        confirmed = list(pool.map(confirm, *zip(*jobs, strict=True)))
+    return history, confirmed[: len(surfaces)], confirmed[len(surfaces) :]
 
 
 def _write(options: Options, objective: "Objective", history: "list[Generation]") -> list[str]:
@@ -153,21 +154,21 @@ def _write(options: Options, objective: "Objective", history: "list[Generation]"
 
 
 def _record(
-    options: Options, objective: "Objective", last: "Generation", rows: "list[Confirmation]",
-    wave: "list[Confirmation]",
+    options: Options, objective: "Objective", generation: "Generation",
+    best: "list[Confirmation]", start: "list[Confirmation]",
 ) -> dict[str, Any]:  # fmt: skip
     from analytic.scene.air import air_per_cycle
 
-    gait: Gait = last.best
+    gait: Gait = generation.best
     air = air_per_cycle(objective.scene.robot, gait)
     return {
         "aim": options.aim, "backward": options.backward, "model": objective.model,
-        "evaluations": last.evaluations, "worth": last.worth,
+        "evaluations": generation.evaluations, "objective": generation.value,
         "searched_on": [surface.name for surface in objective.surfaces],
         "stages": gait.stages, "ramp_times_s": gait.ramp_times, "period_s": gait.period,
         "air_litres_per_cycle": 1e3 * air.volume, "work_J_per_cycle": air.work,
-        "surfaces": [row._asdict() for row in rows],
-        "start": [row._asdict() for row in wave],
+        "surfaces": [row._asdict() for row in best],
+        "start": [row._asdict() for row in start],
     }  # fmt: skip
 
 
@@ -179,7 +180,7 @@ def _text(record: dict[str, Any]) -> str:
     model = record["model"] + f", {WEAK}," * (record["model"] != "mujoco")
     head = (
         f"{record['evaluations']} gaits by {model} in {record['wall_time_s']:.0f} s; "
-        f"best on {where}: {record['worth']:+.4g} {unit[record['aim']]}, "
+        f"best on {where}: {record['objective']:+.4g} {unit[record['aim']]}, "
         f"{record['period_s']:g} s and {record['air_litres_per_cycle']:.3g} l of air per cycle"
     )
     rows = [

@@ -1,17 +1,15 @@
 """One self-contained page about saved walks: `undulator report`."""
 
-import json
-import sys
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import tyro
 
 from mjsim.files import plugins
-from mjsim.files.cli import FAILED, Plugins, bar, fail, parse
+from mjsim.files.cli import FAILED, Plugins, bar, fail, parse, warn
 from mjsim.files.files import check_folder, whole
 from mjsim.pictures import gl
 
@@ -24,13 +22,10 @@ _EXTRA = "it needs plotly: pip install 'undulator[report]'"
 
 @dataclass(frozen=True)
 class Options:
-    """Make one HTML file of trajectories that `undulator run` saved.
+    """Make one HTML file of trajectories that `undulator run` saved: videos, charts and numbers.
 
-    In it: a table of distances beside the theory with its error bar; of each walk the video, shapes
-    over time by a slider, tracks, contacts and the end that stays, pressures and friction, the
-    scene as TOML, versions and commit. It opens without a network, on a phone and on paper.
-
-    Exit code 0: done; 2: bad input; 3: plotly is not there.
+    It opens without a network, on a phone and on paper. Exit code 0: done; 2: bad input; 3: plotly
+    is not installed.
     """
 
     trajectories: Annotated[tuple[Path, ...], tyro.conf.Positional]
@@ -50,9 +45,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     if not options.trajectories:
         fail(PROGRAM, "trajectories must be one or more .nc files of runs, got none")
     gl.prepare()
+    from mjsim.results.trajectory import read
+
     try:
         plugins.load(options.plugin)
-        loaded = [_load(path) for path in options.trajectories]
+        loaded = [read(path) for path in options.trajectories]
         check_folder(options.out.parent)
     except ValueError as error:
         fail(PROGRAM, str(error))
@@ -60,7 +57,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         from mjsim.pictures.document import Entry, page
         from mjsim.results.record import record
     except ModuleNotFoundError:
-        print(f"{PROGRAM}: {_EXTRA}", file=sys.stderr)
+        warn(PROGRAM, _EXTRA)
         return FAILED
     videos = [None] * len(loaded) if options.no_video else _films([walk for walk, _ in loaded])
     entries = []
@@ -77,23 +74,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _load(path: Path) -> "tuple[Trajectory, dict[str, Any]]":
-    import h5netcdf
-
-    from mjsim.results.trajectory import load
-
-    try:
-        walk = load(path)
-        with h5netcdf.File(path, "r") as file:
-            return walk, json.loads(file.attrs["provenance"])
-    except (OSError, KeyError, TypeError, ValueError) as error:
-        raise ValueError(f"cannot read a trajectory from {str(path)!r}: {error}") from error
-
-
 def _films(walks: "Sequence[Trajectory]") -> list[bytes | None]:
-    """A video of each, or none where nothing here renders."""
+    """MP4 of each walk; None of each where nothing here renders."""
     if gl.use_backend() is None:
-        print(f"{PROGRAM}: {gl.HELP}", file=sys.stderr)
+        warn(PROGRAM, gl.HELP)
         return [None] * len(walks)
     from mjsim.pictures.recording import film
 

@@ -1,4 +1,4 @@
-"""Simulate a walk in MuJoCo and set it beside the theory: `undulator run`."""
+"""A walk in MuJoCo beside the theory: `undulator run`."""
 
 import hashlib
 import json
@@ -14,7 +14,7 @@ from analytic.scene.limbs import ORDER, quadruped
 from analytic.scene.quadruped_gaits import QUADRUPED_GAITS, for_robot
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
-from mjsim.files.cli import FAILED, bar, fail, parse, say, strict_json
+from mjsim.files.cli import FAILED, bar, fail, parse, say, strict_json, warn
 from mjsim.files.files import check_folder
 from mjsim.files.options import SceneOptions, tables_of
 from mjsim.files.tables import Tables, build
@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from mjsim.results.trajectory import Trajectory
 
 PROGRAM = "undulator run"
-AUTO = "auto"  # the body that is picked from what was measured
+AUTO = "auto"  # the body that is picked from measurements on many scenes
+WALKED = ("ok", "slid")  # statuses of a walk that did not fail
 EXAMPLES = (
     "--surface gelatin --cycles 2 --reverse",
     "--robot quadruped --surface all",
@@ -45,9 +46,8 @@ class Options(SceneOptions):
     """
 
     tolerance: float | None = None
-    """of body auto, which walks body chain ever finer, along numerics that were measured on
-    many scenes, until two walks agree within it: relative error of the displacement that the
-    numerics may make, or 0.001 L, beside what inertia does; from 0.005; 0.02 if not given"""
+    """of body auto, which walks body chain ever finer until two walks agree: relative error of the
+    displacement by links and time step, or 0.001 L; from 0.005; 0.02 if not given"""
     out: Path = Path("videos")
     """folder for the video and the trajectory, made if need be"""
     json: bool = False
@@ -82,8 +82,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             print(*(row[key] for key in ("trajectory", "video") if row[key]))
         if joint:
             print(joint)
-    fine = all(row["status"] in ("ok", "slid") for row in records)
-    return 0 if fine else FAILED
+    return 0 if all(row["status"] in WALKED for row in records) else FAILED
 
 
 def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables], float | None]:
@@ -97,12 +96,12 @@ def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables]
     check_tolerance(tolerance)
     for table in tables:
         numerics = table["numerics"]
-        both: list[str] = [key for key in ("links", "timestep") if key in numerics]
+        refused: list[str] = [key for key in ("links", "timestep") if key in numerics]
         if numerics.get("friction", "constant") != "constant":
-            both.append(f"friction {numerics['friction']}")
-        if both:
+            refused.append(f"friction {numerics['friction']}")
+        if refused:
             raise ValueError(
-                f"body {AUTO} picks links and timestep under constant friction, got {both[0]}"
+                f"body {AUTO} picks links and timestep under constant friction, got {refused[0]}"
             )
         table["numerics"] = {**numerics, "body": Scene.body}
     return tables, tolerance
@@ -111,7 +110,7 @@ def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables]
 def _walk(
     cases: list[tuple[Scene, Numerics]], options: Options, tolerance: float | None
 ) -> "tuple[list[dict[str, Any]], list[Trajectory]]":
-    """Simulate each scene and save what came of it."""
+    """Simulate each scene and save its walk."""
     from mjsim.results.provenance import provenance
     from mjsim.results.record import record
 
@@ -119,13 +118,13 @@ def _walk(
     for scene, numerics in cases:
         walk, note = _simulate(scene, numerics, tolerance)
         origin = provenance(walk.scene, walk.numerics)
-        failed = walk.status not in ("ok", "slid")
+        failed = walk.status not in WALKED
         path = options.out / f"{file_name(walk.scene, walk.numerics)}{'-failed' * failed}.nc"
         walk.save(path, origin)
         row = {**record(walk), "trajectory": str(path), "video": None, "provenance": origin}
         row["prediction_notes"] += note
         if failed:
-            print(f"{PROGRAM}: {_failure(walk, path)}", file=sys.stderr)
+            warn(PROGRAM, _failure(walk, path))
         records.append(row)
         walks.append(walk)
     return records, walks
@@ -134,40 +133,42 @@ def _walk(
 def _simulate(
     scene: Scene, numerics: Numerics, tolerance: float | None
 ) -> "tuple[Trajectory, list[str]]":
-    """The walk, and what is to be said of the numerics that auto picked."""
+    """The walk, and a note on the numerics that auto picked."""
     from mjsim.simulation.checked import walk_checked
     from mjsim.simulation.simulation import simulate
 
     total = round(scene.duration / resolved(scene, numerics).timestep)
     with bar(f"simulating {scene.ground.name}", total) as advance:
         if tolerance is None:
-            return simulate(scene, numerics, advance, forces=True), []
-        found = walk_checked(scene, tolerance, advance, forces=True)
-    last = found.tried[-1]
-    what = f"auto: {last.links} links at {last.timestep:g} s"
-    if not math.isfinite(found.error):
-        return found.walk, [f"{what}, alike at the two finest" if found.agreed else what]
-    return found.walk, [f"{what}, {'within' if found.agreed else 'off by'} {found.error:.4f} L"]
+            return simulate(scene, numerics, advance, forces=not scene.in_space), []
+        checked = walk_checked(scene, tolerance, advance, forces=not scene.in_space)
+    finest = checked.tried[-1]
+    note = f"auto: {finest.links} links at {finest.timestep:g} s"
+    if math.isfinite(checked.error):
+        note += f", {'within' if checked.agreed else 'off by'} {checked.error:.4f} L"
+    elif checked.agreed:
+        note += ", alike at the two finest"
+    return checked.walk, [note]
 
 
 def _film(walks: "list[Trajectory]", records: list[dict[str, Any]], out: Path) -> Path | None:
-    """Videos of the walks that came to an end, and the path of one of several in step."""
+    """Make videos of the walks that did not fail; the path of one of all of them in step."""
     if gl.use_backend() is None:
-        print(f"{PROGRAM}: {gl.HELP}", file=sys.stderr)
+        warn(PROGRAM, gl.HELP)
         return None
     from mjsim.pictures.recording import film
 
-    done = [i for i, walk in enumerate(walks) if walk.status in ("ok", "slid")]
-    paths = [Path(records[i]["trajectory"]).with_suffix(".mp4") for i in done]
+    shown = [i for i, walk in enumerate(walks) if walk.status in WALKED]
+    paths = [Path(records[i]["trajectory"]).with_suffix(".mp4") for i in shown]
     joint = None
-    if len(done) > 1 and not walks[0].scene.in_space:
-        own = [path.stem.partition("-")[2] for path in paths]
-        joint = out / ("-".join(["all", own[0]]).rstrip("-") + ".mp4")
+    if len(shown) > 1 and not walks[0].scene.in_space:
+        _, _, words = paths[0].stem.partition("-")  # after the surface
+        joint = out / (f"all-{words}".rstrip("-") + ".mp4")
     try:
-        film([walks[i] for i in done], paths, joint)
+        film([walks[i] for i in shown], paths, joint)
     except OSError as error:
         fail(PROGRAM, f"a video cannot be written: {error}")
-    for i, path in zip(done, paths, strict=True):
+    for i, path in zip(shown, paths, strict=True):
         records[i]["video"] = str(path)
     return joint
 
@@ -182,8 +183,9 @@ def file_name(scene: Scene, numerics: Numerics) -> str:
     words = ["limbs"] * scene.in_space + [scene.ground.name]
     words += [w for w, d in ((scene.gait.name, gait.name), (scene.body, Scene.body),
                              (scene.friction, Scene.friction)) if w != d]  # fmt: skip
-    known = {**GAITS, **QUADRUPED_GAITS}
-    named = [for_robot(own, scene.robot) for own in known.values()]
+    named = [
+        for_robot(known, scene.robot) for known in (*GAITS.values(), *QUADRUPED_GAITS.values())
+    ]
     usual = Scene(
         robot=quadruped() if scene.in_space else Robot(),
         gait=scene.gait if scene.gait in [*named, *(gait.reversed() for gait in named)] else gait,
@@ -198,7 +200,7 @@ def file_name(scene: Scene, numerics: Numerics) -> str:
 
 
 def _failure(walk: "Trajectory", path: Path) -> str:
-    """What is said of a walk that failed."""
+    """Failure message: when, at what pressures and heights."""
     _, z = walk.nodes()
     begin, end = 1e3 * z[-1, [0, -1]]
     kilopascals = "/".join(f"{1e-3 * p:.0f}" for p in walk.pressure[-1])

@@ -1,8 +1,7 @@
-"""Many scenes on all cores or a cluster, into a file that survives: `undulator sweep`."""
+"""Distances of many scenes on all cores or a cluster, into one file: `undulator sweep`."""
 
 import json
 import math
-import sys
 import time
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
@@ -13,8 +12,9 @@ import tyro
 
 from analytic.checks import whole
 from mjsim.files import plugins
-from mjsim.files.cli import BAD_INPUT, FAILED, Plugins, bar, fail, parse, say, strict_json
+from mjsim.files.cli import BAD_INPUT, FAILED, Plugins, bar, fail, parse, say, strict_json, warn
 from mjsim.files.files import check_folder
+from mjsim.files.text_table import counts
 from mjsim.scene import Numerics
 
 if TYPE_CHECKING:
@@ -32,13 +32,10 @@ INTERRUPTED = 130
 class Options:
     """Predict the distance of many scenes: a grid, a Latin hypercube or a list over any fields.
 
-    The plan says which; `undulator sweep --example` prints one. Results are one SQLite file,
-    a row a scene (table `scenes`, units in table `columns`). A sweep that was stopped or killed
-    goes on where it was by the same command; a scene that fails is a row with its status, a bad
-    one a row with its message. `undulator analyse` draws what came of it.
-
-    Exit code 0: every scene has a row, and one a result; 2: bad input, every scene is refused; 3:
-    the cluster is gone, or no scene has a result; 130: interrupted.
+    Writes one SQLite file with one row per scene, which docs/sweeps.md describes; the same command
+    goes on with a sweep that was stopped. Exit code 0: every scene has a row, and one a result; 2:
+    bad input, every scene is refused; 3: the cluster is gone, or no scene has a result; 130:
+    interrupted.
     """
 
     plan: Annotated[Path | None, tyro.conf.Positional] = None
@@ -46,7 +43,7 @@ class Options:
     out: Path = Path("sweep.sqlite")
     """file of results"""
     workers: int | None = None
-    """processes; one a core if not given"""
+    """processes; one per core if not given"""
     scheduler: str | None = None
     """a Dask scheduler in place of them, as tcp://host:8786, started by `dask scheduler`, with
     `dask worker tcp://host:8786` on each machine"""
@@ -95,12 +92,12 @@ def main(argv: Sequence[str] | None = None) -> int:
         fail(PROGRAM, str(error))
     except (LostError, KeyboardInterrupt) as error:
         why = str(error) or "interrupted"
-        print(f"{PROGRAM}: {why}; the same command goes on from there", file=sys.stderr)
+        warn(PROGRAM, f"{why}; the same command goes on from there")
         return FAILED if isinstance(error, LostError) else INTERRUPTED
     files = [str(path) for path in (options.out, options.export) if path]
     say(strict_json({**record, "files": files}) if options.json else _text(record, files))
     if why:
-        print(f"{PROGRAM}: error: {why}", file=sys.stderr)
+        warn(PROGRAM, f"error: {why}")
     return code
 
 
@@ -110,8 +107,8 @@ def _end(record: dict[str, Any], store: "Store") -> tuple[int, str]:
 
     if record["status"].keys() - {REFUSED, CRASHED}:
         return 0, ""
-    ((first,),) = store.select("select message from scenes order by id limit 1")
-    why = f"no scene has a result; give another out once this is mended: {first}"
+    ((message,),) = store.select("select message from scenes order by id limit 1")
+    why = f"no scene has a result; give another out once this is mended: {message}"
     return FAILED if CRASHED in record["status"] else BAD_INPUT, why
 
 
@@ -124,10 +121,10 @@ def _workers(options: Options) -> "Workers":
 
 
 def sweep(plan: "Plan", store: "Store", workers: "Workers") -> dict[str, Any]:
-    """Do what a plan has left to do.
+    """Predict the scenes of a plan that have no result yet.
 
     Returns:
-        How many scenes there are, were done now, and of each status; seconds; confirmations.
+        Numbers of scenes, of those done by this call and of each status; seconds; confirmations.
 
     Raises:
         ValueError: no numerics suffice for the base scene.
@@ -137,31 +134,30 @@ def sweep(plan: "Plan", store: "Store", workers: "Workers") -> dict[str, Any]:
     from mjsim.sweeps.numerics import picked
     from mjsim.sweeps.rows import Job
 
-    began, done = time.perf_counter(), 0
+    began, count = time.perf_counter(), 0
     finer: Numerics | None = None
     numerics: Numerics | None = None
     if plan.model == "mujoco" and plan.tolerance is not None:
-        said = store.note("numerics") or store.note("numerics", _written(*picked(plan)))
-        numerics, finer = (Numerics(**part) for part in json.loads(said or ""))
+        text = store.note("numerics")
+        if text is None:
+            text = json.dumps([asdict(choice) for choice in picked(plan)])
+            store.note("numerics", text)
+        numerics, finer = (Numerics(**part) for part in json.loads(text))
     template = Job(plan.base, plan.model, (), numerics, plan.tolerance or 0.02, plan.states,
                    plan.bent)  # fmt: skip
     (before,) = store.select("select count(*) from scenes")[0]
     with bar(f"sweep of {len(plan):,}", len(plan) - before) as advance:
 
         def keep(rows: "list[Row]", job: "Job") -> None:
-            nonlocal done
+            nonlocal count
             store.add(rows, dict(job.points))
-            done += len(rows)
+            count += len(rows)
             advance(len(rows))
 
         drive(jobs(plan, store, template), workers, keep)
     if finer is not None:
         _confirm(plan, store, workers, template, finer)
-    return _record(plan, store, done, time.perf_counter() - began)
-
-
-def _written(one: Numerics, two: Numerics) -> str:
-    return json.dumps([asdict(one), asdict(two)])
+    return _record(plan, store, count, time.perf_counter() - began)
 
 
 def _confirm(
@@ -174,23 +170,23 @@ def _confirm(
 
     count = min(plan.confirm, len(plan))
     numbers = {round((i + 0.5) * len(plan) / count - 0.5) for i in range(count)}
-    known = {n for (n,) in store.select("select id from confirmations")}
+    confirmed = {n for (n,) in store.select("select id from confirmations")}
     todo = [
         replace(template, points=[(n, plan.point(n))], numerics=finer)
-        for n in sorted(numbers - known)
+        for n in sorted(numbers - confirmed)
     ]
     drive(todo, workers, lambda rows, job: store.confirm(rows))
 
 
-def _record(plan: "Plan", store: "Store", done: int, seconds: float) -> dict[str, Any]:
+def _record(plan: "Plan", store: "Store", count: int, seconds: float) -> dict[str, Any]:
     from analytic.prediction import SOLVERS
     from mjsim.results.prediction import WEAK
 
-    counts = dict(
-        store.select("select status, count(*) from scenes group by status order by 2 desc")
-    )
-    ways = dict(store.select("select direction, count(*) from scenes where direction is not null "
-                             "group by direction order by 2 desc"))  # fmt: skip
+    statuses, directions = (
+        dict(store.select(f"select {column}, count(*) from scenes where {column} is not null "
+                          f"group by {column} order by 2 desc"))
+        for column in ("status", "direction")
+    )  # fmt: skip
     pairs = store.select(
         "select s.displacement_over_L, c.displacement_over_L, s.status = c.status from scenes s "
         "join confirmations c using (id)"
@@ -199,23 +195,23 @@ def _record(plan: "Plan", store: "Store", done: int, seconds: float) -> dict[str
     record = {
         "model": f"{plan.model}, {WEAK}" if weak else plan.model,
         "scenes": len(plan),
-        "done_now": done,
+        "done_now": count,
         "wall_time_s": seconds,
-        "status": counts,
-        "direction": ways,
+        "status": statuses,
+        "direction": directions,
     }
-    said = store.note("numerics")
-    if said is not None and plan.tolerance is not None:
+    text = store.note("numerics")
+    if text is not None and plan.tolerance is not None:
         from mjsim.simulation.checked import allowed
 
-        one = json.loads(said)[0]
+        numerics = json.loads(text)[0]
         apart = [abs(a - b) for a, b, _ in pairs if a is not None and b is not None]
         close = sum(
             abs(a - b) <= allowed(b, plan.tolerance)
             if a is not None and b is not None else bool(alike)
             for a, b, alike in pairs
         )  # fmt: skip
-        record |= {"links": one["links"], "timestep_s": one["timestep"],
+        record |= {"links": numerics["links"], "timestep_s": numerics["timestep"],
                    "confirmed": len(pairs), "within_tolerance": close,
                    "largest_change_over_L": max(apart, default=math.nan)}  # fmt: skip
     return record
@@ -226,11 +222,10 @@ def _text(record: dict[str, Any], files: list[str]) -> str:
     lines = [
         f"{record['scenes']:,} scenes by {record['model']}, {record['done_now']:,} of them now in "
         f"{record['wall_time_s']:.1f} s, {1e3 * rate:.3g} ms each",
-        "status     " + ", ".join(f"{name} {n:,}" for name, n in record["status"].items()),
+        f"status     {counts(record['status'])}",
     ]
     if record["direction"]:
-        ways = (f"{name} {n:,}" for name, n in record["direction"].items())
-        lines.append("direction  " + ", ".join(ways))
+        lines.append(f"direction  {counts(record['direction'])}")
     if "links" in record:
         lines.append(
             f"numerics   {record['links']} links, {record['timestep_s']:g} s, picked on the base "

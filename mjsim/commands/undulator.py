@@ -8,7 +8,7 @@ from importlib import import_module
 from mjsim.files.cli import fail, say
 
 PROGRAM = "undulator"
-COMMANDS = {  # module of mjsim.commands, and what it does
+COMMANDS = {  # module of mjsim.commands, and the line of the help
     "run": ("run", "walk in MuJoCo, beside the theory, with a video"),
     "compare": ("compare", "every model on the same scenes in one table"),
     "fit": ("fit", "fit unknown parameters of a scene to measurements"),
@@ -42,20 +42,17 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _help() -> str:
-    rows = [f"  {name:<10}{what}" for name, (_, what) in COMMANDS.items()]
-    return "\n".join(
-        [
-            "How far, and which way, a robot of pneumatic limbs goes on a ground.",
-            "",
-            f"usage: {PROGRAM} COMMAND [OPTIONS]",
-            "",
-            *rows,
-            "",
-            f"{PROGRAM} COMMAND --help explains each, {PROGRAM} --version prints versions.",
-            "",
-            "examples:",
-            f"  {PROGRAM} run --surface gelatin",
-            f"  {PROGRAM} run --robot quadruped --surface all",
-            f"  {PROGRAM} fit track.csv --scene my.toml --free robot.modulus,surface.tip_force",
-        ]
-    )
+    commands = "\n".join(f"  {name:<10}{text}" for name, (_, text) in COMMANDS.items())
+    return f"""\
+How far, and which way, a robot of pneumatic limbs goes on a ground.
+
+usage: {PROGRAM} COMMAND [OPTIONS]
+
+{commands}
+
+{PROGRAM} COMMAND --help explains each, {PROGRAM} --version prints versions.
+
+examples:
+  {PROGRAM} run --surface gelatin
+  {PROGRAM} run --robot quadruped --surface all
+  {PROGRAM} fit track.csv --scene my.toml --free robot.modulus,surface.tip_force"""

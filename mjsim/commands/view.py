@@ -2,11 +2,10 @@
 
 import math
 import os
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mjsim.files.cli import FAILED, fail, parse
+from mjsim.files.cli import FAILED, fail, parse, warn
 from mjsim.files.options import SceneOptions, tables_of
 from mjsim.files.tables import build
 
@@ -17,12 +16,8 @@ PROGRAM = "undulator view"
 class Options(SceneOptions):
     """Play a scene in a window: the gait over and over, or pressures by hand.
 
-    Space plays and pauses the gait, Backspace starts anew. Under Control, at the right, there is
-    one slider per chamber, in kPa, which takes it in hand, and one that chooses the ground: the
-    scene's own, or a named one. What moves is the simulation of undulator run, of any robot. Prints
-    on closing the frames per second, and times real time.
-
-    Exit code 0: closed; 2: bad input; 3: no screen here.
+    Space plays and pauses the gait, Backspace starts anew; under Control, at the right, are sliders
+    of the pressures and the ground. Exit code 0: closed; 2: bad input; 3: no screen here.
     """
 
     speed: float = 1.0
@@ -48,8 +43,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
         scene, numerics = build(tables[0])
         if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
-            print(f"{PROGRAM}: there is no screen (DISPLAY is not set); without one, "
-                  "xvfb-run -a sets one up", file=sys.stderr)  # fmt: skip
+            warn(PROGRAM, "there is no screen (DISPLAY is not set); without one, xvfb-run -a sets "
+                 "one up")  # fmt: skip
             return FAILED
         session = Session(scene, numerics)
     except (ValueError, OSError) as error:

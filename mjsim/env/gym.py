@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from analytic.scene.surface import SURFACES
 from mjsim.env.task import FALL, Settings, Walker, commands, middle, sense
 from mjsim.scene import Scene
-from mjsim.simulation.batch_strips import Strips
+from mjsim.simulation.batch_strips import StripBatch
 
 Array = NDArray[np.float64]
 Observation = NDArray[np.float32]
@@ -126,9 +126,9 @@ class WalkVectorEnv(VectorEnv):  # type: ignore[misc]
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self.metadata = {**self.metadata, "render_modes": []}
-        base = self.settings.scene({"ground.surface": self.settings.surfaces[0]})
+        base = self.settings.scene(self.settings.grounds[0])
         numerics = self.settings.resolved
-        self._strips = Strips([base] * num_envs, numerics, threads)
+        self._strips = StripBatch([base] * num_envs, numerics, threads)
         self._numerics, self.render_mode = numerics, None
         self._rngs: list[np.random.Generator] = []
         self._place, self._count = np.zeros(num_envs), np.zeros(num_envs, dtype=int)

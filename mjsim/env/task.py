@@ -45,8 +45,9 @@ class Settings:
         ValueError: a value is out of its range; the message names it.
     """
 
-    surfaces: tuple[str, ...] = ("gelatin",)
-    """names of the grounds, one of which is drawn at each reset"""
+    surfaces: tuple[str, ...] | None = None
+    """names of the grounds, one of which is drawn at each reset; if not given the base's own, or
+    gelatin"""
     control_period: float = 0.1
     """time between actions [s]"""
     duration: float = 20.0
@@ -57,16 +58,25 @@ class Settings:
     base: Tables = field(default_factory=dict)
     """tables of the scene that all start from"""
     numerics: Numerics | None = None
-    """links and time step; if not given 12 and 0.01 s of a strip, within 2 % of the distance for
-    the default robot and gait, and 4 of each limb and 0.02 s of a robot of limbs"""
+    """of all episodes; if not given those of the base, which has 12 links and 0.01 s unless it
+    says otherwise, within 2 % of the distance for the default robot and gait, and of a robot of
+    limbs 4 of each limb and 0.02 s"""
     contacts: Contacts = "ends"
     """places of a strip's friction: ends, or all for environments that are not vectorised"""
 
     def __post_init__(self) -> None:
         positive("control_period", self.control_period, "s")
         positive("duration", self.duration, "s")
-        if not self.surfaces:
+        ground = self.base.get("ground", {}).keys() - {"slope_deg"}
+        if self.surfaces is None and not ground:
+            object.__setattr__(self, "surfaces", ("gelatin",))
+        elif self.surfaces is not None and not self.surfaces:
             raise ValueError("surfaces must be one name at least, got none")
+        elif self.surfaces and ground:
+            raise ValueError(
+                f"surfaces {', '.join(self.surfaces)} would replace the base's ground: give one of "
+                f"them; the base has {', '.join(sorted(ground))}"
+            )
         steps = self.control_period / self.resolved.timestep
         if not (round(steps) >= 1 and abs(steps - round(steps)) < _WHOLE * steps):
             raise ValueError(
@@ -77,8 +87,8 @@ class Settings:
             check_field(name)
             if not choice or not (all(isinstance(v, str) for v in choice) or _is_range(choice)):
                 raise ValueError(f"range of {name} must be two numbers or words, got {choice!r}")
-        for surface in self.surfaces:
-            self.scene({"ground.surface": surface})
+        for ground_values in self.grounds:
+            self.scene(ground_values)
 
     @property
     def steps(self) -> int:
@@ -90,11 +100,20 @@ class Settings:
         """Number of actions of an episode."""
         return max(1, round(self.duration / self.control_period))
 
+    @property
+    def grounds(self) -> list[dict[str, str]]:
+        """Values of the fields of a scene, on each of the grounds."""
+        return [{"ground.surface": name} for name in self.surfaces] if self.surfaces else [{}]
+
     @cached_property
     def resolved(self) -> Resolved:
         """Numerics with a number for everything."""
-        scene = self.scene({})
-        usual = Numerics(links=4, timestep=0.02) if scene.in_space else Numerics(12, 0.01)
+        scene, given = build(self.base)
+        links, timestep = (4, 0.02) if scene.in_space else (12, 0.01)
+        usual = replace(
+            given, links=given.links or links,
+            timestep=timestep if given.timestep is None else given.timestep,
+        )  # fmt: skip
         return resolved(scene, self.numerics or usual)
 
     @cached_property
@@ -123,7 +142,7 @@ class Settings:
 
     def draw(self, rng: np.random.Generator) -> Scene:
         """Draw a scene for an episode."""
-        values: dict[str, Any] = {"ground.surface": str(rng.choice(list(self.surfaces)))}
+        values: dict[str, Any] = dict(self.grounds[int(rng.integers(len(self.grounds)))])
         for name, choice in self.randomise.items():
             if not _is_range(choice):
                 values[name] = str(rng.choice([str(word) for word in choice]))

@@ -35,6 +35,11 @@ def fail(program: str, message: str) -> NoReturn:
     sys.exit(BAD_INPUT)
 
 
+def warn(program: str, message: str) -> None:
+    """Print one line on stderr."""
+    print(f"{program}: {message}", file=sys.stderr)
+
+
 def say(text: str) -> None:
     """Print, in ASCII letters where the terminal's encoding lacks some."""
     encoding = sys.stdout.encoding or "ascii"

@@ -12,28 +12,25 @@ from mjsim.files.fields import field_docs
 
 def optional(
     name: str,
-    kind: type,
-    names: Iterable[str],
+    kinds: Mapping[type, Iterable[str]],
     aliases: Mapping[str, str] | None = None,
-    more: Iterable[tuple[str, Any, Any]] = (),
 ) -> type[Any]:
-    """Make a dataclass of the same fields, each None unless it is given.
+    """Make a dataclass of fields of others, each None unless it is given.
 
     Args:
         name: of the new class.
-        kind: dataclass of the fields, documented by the words below each.
-        names: of the fields.
+        kinds: names of the fields by their dataclass, documented by the words below each.
         aliases: other options that mean the same, by field.
-        more: fields that `kind` lacks, as for dataclasses.make_dataclass.
     """
-    hints, docs = get_type_hints(kind), field_docs(kind)
-    defaults = {item.name: item.default for item in fields(kind)}
-    items = [
-        (key, option(_plain(hints[key]), docs.get(key, ""), defaults[key],
-                     (aliases or {}).get(key)), field(default=None))
-        for key in names
-    ]  # fmt: skip
-    new = make_dataclass(name, [*items, *more], frozen=True)
+    items = []
+    for kind, names in kinds.items():
+        hints, docs = get_type_hints(kind), field_docs(kind)
+        defaults = {item.name: item.default for item in fields(kind)}
+        for key in names:
+            alias = (aliases or {}).get(key)
+            hint = option(_plain(hints[key]), docs.get(key, ""), defaults[key], alias)
+            items.append((key, hint, field(default=None)))
+    new = make_dataclass(name, items, frozen=True)
     new.__doc__ = " "
     return new
 

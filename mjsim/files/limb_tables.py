@@ -20,9 +20,9 @@ from analytic.scene.robot import Robot
 from mjsim.files.typed import Table, as_number, make
 
 ROBOTS = ("quadruped",)
-KEYS = ("name", "limbs")  # of [robot], that tell such a robot
-_PLACED = ("name", "on", "at", "angle_deg", "offset")  # of a limb, beside what its strip is
-_OWN = {  # that the quadruped knows, and what to give in its place
+KEYS = ("name", "limbs")  # of [robot], of such a robot alone
+_PLACED = ("name", "on", "at", "angle_deg", "offset")  # of a limb, beside its strip
+_FIXED = {  # fields that the quadruped gives, and what to give in their place
     **dict.fromkeys(("length", "width", "mass", "weight_per_length", "segments"),
                     "[[robot.limbs]] for another"),
     **dict.fromkeys(("rigidity", "rigidity_per_pressure"),
@@ -34,7 +34,7 @@ PEAK = "peak_pressure"
 
 
 def of_limbs(table: Table) -> bool:
-    """Whether a table is that of a robot of limbs, or of one with a name."""
+    """True if a table is of a robot of limbs, or of a named one."""
     return bool({*KEYS} & table.keys())
 
 
@@ -43,9 +43,9 @@ def build_robot(table: Table, where: str = "") -> AnyRobot:
     shared = {key: value for key, value in table.items() if key not in ("name", "limbs")}
     if "limbs" not in table:
         one_of(f"{where}name", table["name"], ROBOTS)
-        for key in _OWN:
+        for key in _FIXED:
             if key in shared:
-                raise ValueError(f"{where}{key} is the {table['name']}'s own; give {_OWN[key]}")
+                raise ValueError(f"{where}{key} is the {table['name']}'s own; give {_FIXED[key]}")
         base = make(Robot, shared, where)
         return replace(quadruped(base), peak_pressure=base.peak_pressure)
     if "segments" in shared:
@@ -62,12 +62,13 @@ def build_robot(table: Table, where: str = "") -> AnyRobot:
         robot = LimbedRobot(built, peak)
     except ValueError as error:
         raise ValueError(f"{where}{error}") from error
-    one = len(built) == 1 and built[0].angle == 0
-    return replace(built[0].strip, peak_pressure=peak) if one else robot
+    if len(built) == 1 and built[0].angle == 0:
+        return replace(built[0].strip, peak_pressure=peak)
+    return robot
 
 
 def _refuse_idle(shared: Table, limbs: list[Table], where: str) -> None:
-    """Raise ValueError for what all limbs have of their own, so that it would do nothing."""
+    """Raise ValueError for a shared field that every limb has itself, so that it does nothing."""
     for key in shared.keys() - {PEAK}:
         names = {key, _INSTEAD.get(key, key)}
         if all(names & limb.keys() for limb in limbs):
@@ -79,19 +80,22 @@ def _refuse_idle(shared: Table, limbs: list[Table], where: str) -> None:
 def _limb(table: Mapping[str, Any], shared: Table, where: str) -> Limb:
     if "name" not in table:
         raise ValueError(f"{where}name is missing")
-    own = {key: value for key, value in table.items() if key not in _PLACED}
-    if PEAK in own:
+    of_strip = {key: value for key, value in table.items() if key not in _PLACED}
+    if PEAK in of_strip:
         raise ValueError(
             f"{where}{PEAK} is the whole robot's, in [robot]; a gait's stages give each chamber "
-            f"its part; got {own[PEAK]!r}"
+            f"its part; got {of_strip[PEAK]!r}"
         )
     for key in ("length", "width"):
-        if key not in own and key not in shared:
+        if key not in of_strip and key not in shared:
             raise ValueError(f"{where}{key} is missing")
-    for one, other in _INSTEAD.items():
-        if one in own:
-            shared = {key: value for key, value in shared.items() if key != other}
-    strip = make(Robot, {"segments": (1.0,), **shared, **own}, where)
+    for key, replaced in _INSTEAD.items():
+        if key in of_strip:
+            shared = {name: value for name, value in shared.items() if name != replaced}
+    strip = make(Robot, {"segments": (1.0,), **shared, **of_strip}, where)
+    for key in ("at", "offset"):
+        if key in table and "on" not in table:
+            raise ValueError(f"{where}{key} needs `on`, a limb that carries it; got {table[key]!r}")
     angle = math.radians(as_number(table.get("angle_deg", 0.0), f"{where}angle_deg", "deg"))
     offset = as_number(table.get("offset", 0.0), f"{where}offset", "m")
     placed = {key: table[key] for key in ("name", "on", "at") if key in table}

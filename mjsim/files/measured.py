@@ -1,12 +1,14 @@
 """Gait from the pressures that a sensor recorded: `--gait pressures.csv`.
 
 The table has a column of time and one per segment, left first, whose heads name their units: `time
-[s], front [kPa]`, `t_ms, p1_psi`. Samples may come at any rate and need not be even, close a cycle
-or start at rest. They become straight ramps between few corners, as many as the noise leaves
-visible, so that the cost of a walk grows with the number of changes and not of samples.
+[s], p1 [kPa]`, `t_ms, p1_psi`. Heads that name a robot's chambers may be in any order. Samples may
+come at any rate and need not be even, close a cycle or start at rest. They become straight ramps
+between few corners, as many as the noise leaves visible, so that the cost of a walk grows with the
+number of changes and not of samples.
 """
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
 
 from analytic.scene.gait import Gait
-from mjsim.files.csv_table import read_csv
+from mjsim.files.csv_table import name_of, read_csv
 
 Array = NDArray[np.float64]
 
@@ -37,11 +39,16 @@ class Series(NamedTuple):
     pressure: Array
 
 
-def read_series(path: Path) -> Series:
+def read_series(path: Path, chambers: Sequence[str] = ()) -> Series:
     """Read the series of a file.
 
+    Args:
+        path: of the CSV.
+        chambers: names of a robot's chambers; columns with these names may be in any order.
+
     Raises:
-        ValueError: the file cannot be read or is no such table; the message names line and column.
+        ValueError: the file cannot be read or is no such table, or some of its heads name chambers
+            and others do not; the message names line and column.
     """
     table = read_csv(path, "pressures")
     where, heads, rows = table
@@ -54,17 +61,32 @@ def read_series(path: Path) -> Series:
     if len(late):
         line, row = rows[late[0] + 1]
         raise ValueError(f"{where}: line {line}: time must increase, got {row[0]!r}")
-    pressures = [table.numbers(i, "Pa", "Pa, kPa, psi, bar") for i in range(1, len(heads))]
+    pressures = [
+        table.numbers(i, "Pa", "Pa, kPa, psi, bar") for i in _columns(where, heads, chambers)
+    ]
     return Series(time - time[0], np.stack(pressures, axis=1))
 
 
-def read_gait(path: Path) -> tuple[Gait, float]:
+def _columns(where: str, heads: Sequence[str], chambers: Sequence[str]) -> list[int]:
+    """Columns of the pressures, in the order of the chambers that they name."""
+    names = [name_of(head) for head in heads[1:]]
+    if not set(names) & set(chambers):
+        return list(range(1, len(heads)))
+    if sorted(names) != sorted(chambers):
+        raise ValueError(f"{where}: columns must be {', '.join(chambers)}; got {', '.join(names)}")
+    return [1 + names.index(name) for name in chambers]
+
+
+def read_gait(path: Path, chambers: Sequence[str] = ()) -> tuple[Gait, float]:
     """The gait of a file, which does not repeat, and its highest pressure [Pa].
+
+    Args:
+        path, chambers: see read_series.
 
     Raises:
         ValueError: see read_series; or no pressure is above the noise.
     """
-    series = read_series(path)
+    series = read_series(path, chambers)
     try:
         return as_gait(path.stem, series)
     except ValueError as error:

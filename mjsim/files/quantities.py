@@ -1,29 +1,15 @@
 """Fields of a scene by dotted names, as `robot.modulus`: units, meaning, values."""
 
-import copy
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
-from analytic.scene.robot import Robot
-from analytic.scene.surface import SURFACES, Surface
+from analytic.scene.surface import SURFACES
 from mjsim.files.fields import field_docs, units
-from mjsim.files.tables import NAMES, SURFACE_FIELDS, Tables, check_keys, merged
+from mjsim.files.keys import KINDS, NAMES, SURFACE_FIELDS, check_keys
+from mjsim.files.tables import Tables, merged
+from mjsim.files.typed import Table
 from mjsim.files.units import in_unit
-from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene
-from mjsim.scene.valves import Valves
-
-_KINDS: Mapping[str, tuple[type, ...]] = {
-    "robot": (Robot,), "valves": (Valves,), "ground": (Surface,), "numerics": (Scene, Numerics),
-}  # fmt: skip
-_OTHERS = {
-    "gait.ramp_time": ("s", "duration of the ramp between two stages"),
-    "gait.period": ("s", "of the cycle"),
-    "gait.lag": ("1", "part of the cycle from one segment's inflation to the next one's"),
-    "gait.duty": ("1", "part of the cycle for which a segment holds more than half the pressure"),
-    "gait.ramp": ("1", "part of the cycle that a rise or a fall takes"),
-    "ground.slope_deg": ("deg", "the ground rises towards +x by this angle"),
-}
 
 
 def check_field(name: str) -> None:
@@ -38,20 +24,20 @@ def check_field(name: str) -> None:
 
 
 def field_unit(name: str) -> str:
-    """Its unit, "1" if it has none."""
-    if name in _OTHERS:
-        return _OTHERS[name][0]
-    table, _, key = name.partition(".")
-    return next((units(kind)[key] for kind in _KINDS.get(table, ()) if key in units(kind)), "1")
+    """Unit of a field, "1" if it has none."""
+    return _first(name, units, "1")
 
 
 def field_text(name: str) -> str:
-    """What it is, in a few words."""
-    if name in _OTHERS:
-        return _OTHERS[name][1]
+    """Meaning of a field, in a few words."""
     table, _, key = name.partition(".")
-    docs = (field_docs(kind).get(key) for kind in _KINDS.get(table, ()))
-    return next((text for text in docs if text), f"{key} of the {table}")
+    return _first(name, field_docs, f"{key} of the {table}")
+
+
+def _first(name: str, known: Callable[[type], Mapping[str, str]], default: str) -> str:
+    """Value for a field, of the first of the classes of its table that has one."""
+    table, _, key = name.partition(".")
+    return next((known(kind)[key] for kind in KINDS.get(table, ()) if key in known(kind)), default)
 
 
 def field_value(name: str, value: Any) -> Any:
@@ -65,17 +51,31 @@ def field_value(name: str, value: Any) -> Any:
     return value
 
 
-def with_fields(base: Tables, values: Mapping[str, Any]) -> Tables:
-    """Tables of a scene with other values of some fields, which may start from a named surface."""
+def with_fields(base: Tables, values: Mapping[str, Any], suffix: str = "changed") -> Tables:
+    """Tables of a scene with other values of some fields.
+
+    Args:
+        base: of the scene.
+        values: of fields, by dotted name; those of its ground go over its named surface.
+        suffix: of the name of a surface of which a value is another.
+    """
     layer: Tables = {}
     for name, value in values.items():
         table, _, key = name.partition(".")
         layer.setdefault(table, {})[key] = value
-    tables = copy.deepcopy(merged(base, layer))
-    ground = tables["ground"]
-    own = set(ground) & set(SURFACE_FIELDS)
-    if own and ground.get("surface", "felt") in SURFACES:
-        known = SURFACES[ground.get("surface", "felt")]
-        whole = {key: getattr(known, key) for key in SURFACE_FIELDS}
-        tables["ground"] = {**whole, **ground, "surface": f"{known.name}-changed"}
+    ground = base.get("ground", {})
+    if not {"surface", "patches", *SURFACE_FIELDS} & ground.keys():
+        ground = {**ground, "surface": Scene.ground.name}
+    tables = merged({**base, "ground": ground}, layer)
+    if {*SURFACE_FIELDS} & tables["ground"].keys():
+        tables["ground"] = spelled_out(tables["ground"], suffix)
     return tables
+
+
+def spelled_out(ground: Table, suffix: str) -> Table:
+    """Table of a ground with every value of its named surface, if it names one."""
+    surface = SURFACES.get(ground.get("surface", ""))
+    if surface is None:
+        return ground
+    values = {key: getattr(surface, key) for key in SURFACE_FIELDS}
+    return {**values, **ground, "surface": f"{surface.name}-{suffix}"}

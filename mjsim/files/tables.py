@@ -16,10 +16,8 @@ length = "90 mm"; in tables all are SI once they are built.
 """
 
 import math
-from collections.abc import Mapping
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from analytic.checks import one_of
 from analytic.scene.gait import GAITS, Gait
@@ -29,10 +27,19 @@ from analytic.scene.quadruped_gaits import QUADRUPED_GAITS, undulation
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES, Ground, Surface
 from analytic.scene.trapezoid import trapezoid
-from mjsim.files.limb_tables import KEYS as ROBOT_KEYS
+from mjsim.files.keys import (
+    NAMES,
+    SCENE_FIELDS,
+    SIDES,
+    SURFACE_FIELDS,
+    TRAPEZOID,
+    GaitKeys,
+    check_keys,
+)
+from mjsim.files.limb_tables import KEYS as LIMB_KEYS
 from mjsim.files.limb_tables import build_robot, of_limbs
 from mjsim.files.measured import read_gait
-from mjsim.files.typed import UNITS, Table, as_number, as_type, checked, make, read_toml
+from mjsim.files.typed import Table, as_number, as_type, checked, make, read_toml
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene, resolved
 from mjsim.scene.valves import Valves
@@ -40,22 +47,7 @@ from mjsim.scene.valves import Valves
 Tables = dict[str, Table]
 _STRIP = Robot()
 
-NAMES = ("robot", "gait", "valves", "ground", "numerics")
-SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation", "gravity",
-                "settle_time")  # fmt: skip
-SURFACE_FIELDS = tuple(field.name for field in fields(Surface) if field.name != "name")
 FILES = (".toml", ".csv")  # of gaits
-TRAPEZOID = ("lag", "duty", "ramp")
-SIDES = ("left", "right")  # of the quadruped
-_RENAMED = {("numerics", "elements"): "links"}  # keys of older files
-_KEYS: dict[str, tuple[str, ...]] = {
-    "robot": (*(field.name for field in fields(Robot)), *ROBOT_KEYS),
-    "gait": ("name", "stages", "ramp_time", *TRAPEZOID, "period", "reverse", "file", "repeats",
-             *SIDES),
-    "valves": tuple(field.name for field in fields(Valves)),
-    "ground": ("surface", *SURFACE_FIELDS, "slope_deg", "patches"),
-    "numerics": (*SCENE_FIELDS, *(field.name for field in fields(Numerics))),
-}  # fmt: skip
 
 
 def read_tables(path: Path) -> Tables:
@@ -73,17 +65,6 @@ def read_tables(path: Path) -> Tables:
     return tables
 
 
-def check_keys(name: str, table: Mapping[str, Any], where: str = "") -> None:
-    """Raise ValueError for a key that a table does not have."""
-    for key in table:
-        if (name, key) in _RENAMED:
-            raise ValueError(f"{where}key {key!r} of [{name}] is now {_RENAMED[name, key]!r}")
-        if key not in _KEYS[name]:
-            raise ValueError(
-                f"{where}key {key!r} of [{name}] is unknown; known are {', '.join(_KEYS[name])}"
-            )
-
-
 def merged(*layers: Tables) -> Tables:
     """Tables laid over each other, the later ones above.
 
@@ -93,15 +74,13 @@ def merged(*layers: Tables) -> Tables:
     for layer in layers:
         for name, table in layer.items():
             if name == "ground" and {"surface", "patches"} & table.keys():
-                kept = {k: v for k, v in result[name].items() if k == "slope_deg"}
-                result[name] = kept
+                result[name] = {k: v for k, v in result[name].items() if k == "slope_deg"}
             if name == "robot" and of_limbs(table):
-                result[name] = {k: v for k, v in result[name].items() if k not in ROBOT_KEYS}
+                result[name] = {k: v for k, v in result[name].items() if k not in LIMB_KEYS}
             if name == "gait" and {"name", "stages", "file", *TRAPEZOID} & table.keys():
-                own = (*TRAPEZOID, "period") if {*TRAPEZOID} & table.keys() else ("ramp_time",)
-                result[name] = {
-                    k: v for k, v in result[name].items() if k in (*own, "reverse", *SIDES)
-                }
+                kept = (*TRAPEZOID, "period") if {*TRAPEZOID} & table.keys() else ("ramp_time",)
+                kept = (*kept, "reverse", *SIDES)
+                result[name] = {k: v for k, v in result[name].items() if k in kept}
             result[name] = {**result[name], **table}
     return result
 
@@ -127,17 +106,18 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
     values = tables.get("numerics", {})
     check_keys("numerics", values, where)
     scene_values = {key: value for key, value in values.items() if key in SCENE_FIELDS}
-    scene = make(
-        Scene, scene_values, f"{where}[numerics] ", robot=robot, gait=gait,
-        valves=make(Valves, tables.get("valves", {}), f"{where}[valves] "),
-        ground=build_ground(ground, f"{where}[ground] "), slope=math.radians(slope),
-    )  # fmt: skip
+    checked_values = checked(Scene, scene_values, f"{where}[numerics] ")
+    valves = make(Valves, tables.get("valves", {}), f"{where}[valves] ")
+    under = build_ground(ground, f"{where}[ground] ")
     rest = {key: value for key, value in values.items() if key not in SCENE_FIELDS}
     numerics = make(Numerics, rest, f"{where}[numerics] ")
     try:
+        scene = Scene(robot=robot, gait=gait, ground=under, slope=math.radians(slope),
+                      valves=valves, **checked_values)  # fmt: skip
         resolved(scene, numerics)
     except ValueError as error:
-        raise ValueError(f"{where}[numerics] {error}") from error
+        place = "[numerics] " if str(error).split(maxsplit=1)[0] in values else ""
+        raise ValueError(f"{where}{place}{error}") from error
     return scene, numerics
 
 
@@ -149,21 +129,23 @@ def build_ground(table: Table, where: str = "") -> Ground:
     if "patches" not in table:
         return build_surface(table, where)
     patches = table["patches"]
-    other = [key for key in table if key not in ("patches", "slope_deg")]
-    if other:
-        raise ValueError(f"{where}patches or {other[0]} must be given, not both")
+    uniform = [key for key in table if key not in ("patches", "slope_deg")]
+    if uniform:
+        raise ValueError(f"{where}patches or {uniform[0]} must be given, not both")
     if not (isinstance(patches, list) and all(isinstance(patch, dict) for patch in patches)):
         raise ValueError(f"{where}patches must be tables, got {patches!r}")
     borders, surfaces = [], []
     for number, patch in enumerate(patches):
-        here = f"{where}patch {number + 1}: "
+        prefix = f"{where}patch {number + 1}: "
         for key in patch:
-            one_of(f"{here}key", key, ("from", "surface", *SURFACE_FIELDS))
+            one_of(f"{prefix}key", key, ("from", "surface", *SURFACE_FIELDS))
         if (number > 0) != ("from" in patch):
-            raise ValueError(f"{here}every patch but the first must say `from` where it begins [m]")
+            raise ValueError(
+                f"{prefix}every patch but the first must say `from` where it begins [m]"
+            )
         if number > 0:
-            borders.append(as_type(float, patch["from"], f"{here}from", "m"))
-        surfaces.append(build_surface(patch, here))
+            borders.append(as_type(float, patch["from"], f"{prefix}from", "m"))
+        surfaces.append(build_surface(patch, prefix))
     try:
         return Patches("-".join(surface.name for surface in surfaces), tuple(borders),
                        tuple(surfaces))  # fmt: skip
@@ -242,7 +224,7 @@ def _gait_of(table: Table, where: str, robot: AnyRobot) -> tuple[Gait, float | N
         return build_gait(table, where, robot), None
     for key in table:
         one_of(f"{where}key beside a .csv file", key, ("file", "reverse", "name"))
-    gait, highest = read_gait(Path(str(table["file"])))
+    gait, highest = read_gait(Path(str(table["file"])), robot.chambers)
     gait = replace(gait, name=table.get("name", gait.name))
     return (gait.reversed() if table.get("reverse") else gait), highest
 
@@ -266,8 +248,8 @@ def _trapezoid(table: Table, where: str, segments: int) -> Gait:
     missing = [key for key in TRAPEZOID if key not in table]
     if missing:
         raise ValueError(f"{where}{missing[0]} is missing; a gait has lag, duty and ramp")
+    numbers = checked(GaitKeys, table, where)
     try:
-        numbers = {k: as_type(float, v, f"{where}{k}", UNITS.get(k)) for k, v in table.items()}
         gait = trapezoid(**numbers, segments=segments)
         return gait if name is None else replace(gait, name=name)
     except ValueError as error:

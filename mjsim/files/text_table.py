@@ -1,6 +1,6 @@
 """Tables to read: columns as wide as their cells, words to the left, numbers to the right."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 NONE = "-"
@@ -12,7 +12,7 @@ class Column(NamedTuple):
     Attributes:
         head: its title.
         key: of the rows' values.
-        form: how a number is written, as "+.4f"; empty for words.
+        form: how a number is written, as "+.4f"; empty in a column of words.
     """
 
     head: str
@@ -22,7 +22,14 @@ class Column(NamedTuple):
     def cell(self, row: dict[str, Any]) -> str:
         """The value of a row as it is written; a dash where there is none."""
         value = row.get(self.key)
-        return NONE if value is None or value == "" else format(value, self.form)
+        if value is None or value == "":
+            return NONE
+        return value if isinstance(value, str) else format(value, self.form)
+
+
+def counts(numbers: Mapping[str, int]) -> str:
+    """Words for numbers by name: "ok 12, slid 3"."""
+    return ", ".join(f"{name} {number:,}" for name, number in numbers.items())
 
 
 def text_table(columns: Sequence[Column], rows: Sequence[dict[str, Any]]) -> str:

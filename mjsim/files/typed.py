@@ -15,7 +15,7 @@ from mjsim.files.units import in_unit
 Table = dict[str, Any]
 Kind = TypeVar("Kind")
 
-UNITS = {"ramp_time": "s", "period": "s"}  # of gaits; other fields have it in their documentation
+_UNITS = {"ramp_time": "s"}  # of a Gait; other fields have it in their documentation
 
 
 def make(kind: type[Kind], table: Mapping[str, Any], where: str = "", **more: Any) -> Kind:
@@ -47,7 +47,7 @@ def checked(kind: type[Any], table: Mapping[str, Any], where: str) -> Table:
     for key, value in table.items():
         if key not in hints:
             raise ValueError(f"{where}key {key!r} is unknown; known are {', '.join(hints)}")
-        unit = UNITS.get(key) or units(kind).get(key)
+        unit = _UNITS.get(key) or units(kind).get(key)
         values[key] = as_type(hints[key], value, f"{where}{key}", unit)
     return values
 

@@ -11,13 +11,14 @@ import tomli_w
 from analytic.scene.ground import Patches
 from analytic.scene.limbs import Limb, limbs_of
 from analytic.scene.surface import SURFACES, Ground, Surface
+from mjsim.files.keys import SCENE_FIELDS, SURFACE_FIELDS
 from mjsim.files.limb_tables import PEAK
-from mjsim.files.tables import SCENE_FIELDS, SURFACE_FIELDS, Tables
+from mjsim.files.tables import Tables
 from mjsim.files.typed import Table
 from mjsim.scene.numerics import OF_SPACE, OF_THE_PLANE, Numerics
 from mjsim.scene.scene import Scene
 
-_LIST = re.compile(r"\[\s+([^\[\]=]+?),\s+\]")  # of numbers, a line each
+_LIST = re.compile(r"\[\s+([^\[\]=]+?),\s+\]")  # of numbers, one per line
 
 
 def as_tables(scene: Scene, numerics: Numerics) -> Tables:
@@ -46,7 +47,7 @@ def as_tables(scene: Scene, numerics: Numerics) -> Tables:
 
 
 def _limb(limb: Limb) -> Table:
-    """A limb without what is the whole robot's."""
+    """The table of a limb, without what is the whole robot's."""
     strip = {key: value for key, value in asdict(limb.strip).items() if key != PEAK}
     placed = {"on": limb.on, "at": limb.at if limb.on else None, "offset": limb.offset or None}
     return _plain({"name": limb.name, **placed, "angle_deg": math.degrees(limb.angle), **strip})
@@ -56,7 +57,7 @@ def as_toml(tables: Tables, comments: Sequence[str] = ()) -> str:
     """A TOML file of tables, comments on top."""
     above = "".join(f"# {line}\n" for line in comments)
     text = tomli_w.dumps({name: table for name, table in tables.items() if table})
-    return above + _LIST.sub(lambda found: f"[{' '.join(found.group(1).split())}]", text)
+    return above + _LIST.sub(lambda numbers: f"[{' '.join(numbers[1].split())}]", text)
 
 
 def _ground(ground: Ground, slope: float) -> Table:
@@ -75,12 +76,12 @@ def _surface(surface: Surface) -> Table:
         if surface == SURFACES[surface.name]:
             return {"surface": surface.name}
         surface = replace(surface, name=f"{surface.name}-changed")
-    own = {name: getattr(surface, name) for name in SURFACE_FIELDS}
-    return {"surface": surface.name, **_plain(own)}
+    values = {name: getattr(surface, name) for name in SURFACE_FIELDS}
+    return {"surface": surface.name, **_plain(values)}
 
 
 def _plain(table: Table) -> Table:
-    """Without what is not given; tuples as lists, which TOML has."""
+    """The table without what is not given; tuples as lists, which TOML has."""
     return {key: _listed(value) for key, value in table.items() if value is not None}
 
 

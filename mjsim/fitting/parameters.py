@@ -1,6 +1,5 @@
 """Free parameters of a fit: fields of the scene, with a start, bounds and perhaps a prior."""
 
-import copy
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -9,11 +8,14 @@ from typing import Any
 from analytic.scene.limbs import limbs_of
 from analytic.scene.robot import GRAVITY
 from analytic.scene.surface import SURFACES
-from mjsim.files.quantities import field_unit
-from mjsim.files.tables import NAMES, SURFACE_FIELDS, Tables, build, check_keys
+from mjsim.files.keys import NAMES, SURFACE_FIELDS, check_keys
+from mjsim.files.quantities import field_unit, spelled_out, with_fields
+from mjsim.files.tables import Tables, build
+from mjsim.files.typed import Table
 from mjsim.files.units import in_unit
 
 _FACTOR = 100.0  # from the start to a bound that is not given
+_SUFFIX = "fitted"  # of the names of surfaces with fitted values
 OWN_GROUND = "surface"  # name of the scene's ground, as its options are called
 
 
@@ -121,35 +123,25 @@ def with_values(
         overrides: other fields, by table and name.
         surface: name of the run's, in place of the scene's.
     """
-    tables = copy.deepcopy(base)
-    ground = _ground(tables, surface)
+    fields: dict[str, Any] = {}
     for name, value in {**(overrides or {}), **values}.items():
         table, _, key = name.partition(".")
-        if table in (OWN_GROUND, surface, "ground"):
-            ground[key] = value
+        if table in (OWN_GROUND, surface):
+            fields[f"ground.{key}"] = value
         elif table in NAMES:
-            tables.setdefault(table, {})[key] = value
-    if set(ground) - {"surface", "slope_deg"} and (named := _values_of(ground)):
-        ground = {**named, **ground, "surface": f"{ground['surface']}-fitted"}
-    tables["ground"] = ground
-    return tables
+            fields[name] = value
+    ground = _ground(base.get("ground", {}), surface)
+    return with_fields({**base, "ground": ground}, fields, _SUFFIX)
 
 
-def _ground(tables: Tables, surface: str | None) -> dict[str, Any]:
+def _ground(ground: Table, surface: str | None) -> Table:
     """Table of the ground of a run on a surface, a named one or the scene's by another name."""
-    ground = dict(tables.get("ground", {}))
     if surface is None:
-        return ground or {"surface": "felt"}
+        return ground
     if surface in SURFACES:
         slope = {key: value for key, value in ground.items() if key == "slope_deg"}
         return {**slope, "surface": surface}
-    return {**_values_of(ground), **ground, "surface": surface}
-
-
-def _values_of(ground: Mapping[str, Any]) -> dict[str, Any]:
-    """Values of the named surface of a table, none where it names none."""
-    surface = SURFACES.get(ground.get("surface", ""))
-    return {key: getattr(surface, key) for key in SURFACE_FIELDS} if surface else {}
+    return {**spelled_out(ground, _SUFFIX), "surface": surface}
 
 
 def _check(name: str) -> None:

@@ -1,1 +1,1 @@
-"""Friction laws in MuJoCo, and the contact lengths they rest on."""
+"""Friction laws in MuJoCo, and the contact lengths that they depend on."""

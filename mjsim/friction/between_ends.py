@@ -1,8 +1,8 @@
 """Bounds of friction along x wherever the strip touches the ground.
 
-Each contact of analytic.friction.contacts is held by a dry friction of its own bound, at one node,
-since a flat patch moves as one. Where a tie leaves open how the whole moves (see
-analytic.friction.dissipation) one more friction holds what vanishing viscosity would: the mean
+Each contact of analytic.friction.contacts resists by a dry friction of its own bound, at one node,
+since a flat patch moves as one. Where equal bounds leave open how the whole moves (see
+analytic.friction.dissipation) one more friction anchors what vanishing viscosity would: the mean
 position of all contacts, or the contact at the border of what the bounds leave open.
 """
 
@@ -10,47 +10,47 @@ import math
 
 import mujoco
 
-from analytic.friction.contacts import Finder, StripContact
+from analytic.friction.contacts import ContactFinder, StripContact
 from analytic.friction.dissipation import minimisers
 from analytic.scene.chain import node_positions
-from mjsim.friction.traction import Bounded, ContactFriction
+from mjsim.friction.traction import BoundedFriction, ContactFriction
 from mjsim.model.pads import pads_by_node
-from mjsim.model.parts import PREFIX
+from mjsim.model.parts import PREFIX, tendon_names
 from mjsim.scene import Resolved, Scene
 
 _APART = 1e12  # divisor of a pulley that takes a node out of the mean
 
 
-def node_tendons(model: mujoco.MjModel, left: int, right: int, nodes: int) -> list[int]:
-    """Tendons of the nodes, left first, the ends' being known."""
-    return [left, *(model.tendon(f"{PREFIX}grip_{node}").id for node in range(1, nodes - 1)), right]
+def node_tendons(model: mujoco.MjModel, nodes: int) -> list[int]:
+    """Tendons that carry the friction of the nodes, left first."""
+    return [model.tendon(PREFIX + name).id for name in tendon_names(nodes)]
 
 
-class Anchors:
-    """Where friction holds the strip, and how far a step moved that by its order alone.
+class AnchoredContacts:
+    """Contacts that friction anchors, and how far a step moved them by its order alone.
 
     Attributes:
-        held: tendons of the nodes held in the coming step.
+        anchored: tendons of the nodes that are anchored in the coming step.
         contacts, bounds: tendons and bounds of all contacts in the coming step.
     """
 
     def __init__(self, data: mujoco.MjData) -> None:
-        self.held: list[int] = []
+        self.anchored: list[int] = []
         self.contacts: list[int] = []
         self.bounds: list[float] = []
-        self._holding: list[int] = []
+        self._anchored_before: list[int] = []
         self._rate, self._places = data.ten_velocity, data.ten_length
         self._before = self._places.copy()
 
     def after_step(self, dt: float) -> float:
-        """See Traction.after_step; the mean over what is held."""
-        excess, before, now = 0.0, self._before, self._places.copy()
-        held, self._holding = self._holding, self.held
-        if held:
-            gone = [dt * self._rate.item(i) - now.item(i) + before.item(i) for i in held]
-            excess = sum(gone) / len(gone)
-            now -= excess
-        self._before = now
+        """See StripFriction.after_step; the mean over the anchored nodes."""
+        excess, before, places = 0.0, self._before, self._places.copy()
+        tendons, self._anchored_before = self._anchored_before, self.anchored
+        if tendons:
+            moved = [dt * self._rate.item(i) - places.item(i) + before.item(i) for i in tendons]
+            excess = sum(moved) / len(moved)
+            places -= excess
+        self._before = places
         return excess
 
     def drift(self) -> float:
@@ -64,39 +64,38 @@ class Anchors:
 
 
 class ContactFrictionEverywhere(ContactFriction):
-    """Coulomb friction of a strip that may be held between its ends; `left_slip` is NaN."""
+    """Coulomb friction of a strip that may be anchored between its ends; `left_slip` is NaN."""
 
     def __init__(
         self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         super().__init__(scene, numerics, model, data)
-        self._tendons = node_tendons(model, self._left, self._right, numerics.links + 2)
-        self._anchors = Anchors(data)
+        self._tendons = node_tendons(model, numerics.links + 2)
+        self._anchors = AnchoredContacts(data)
         self._geoms = pads_by_node(model)[:, 0].tolist()
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
-        """See Traction.before_step."""
+        """See StripFriction.before_step."""
         super().before_step(slopes, left, right)
         self.left_slip = float("nan")
         force, _ = self._forces.by_node()
-        held = [i for i, push in enumerate(force) if push > 0.0]
+        pushed = [node for node, push in enumerate(force) if push > 0.0]
         anchors = self._anchors
-        anchors.contacts = [self._tendons[i] for i in held]
-        anchors.bounds = [force[i] * self._coefficient(i) for i in held]
+        anchors.contacts = [self._tendons[node] for node in pushed]
+        anchors.bounds = [
+            force[node] * self._friction.item(self._geoms[node], 0) for node in pushed
+        ]
         rates = [abs(self._rate.item(tendon)) for tendon in anchors.contacts]
-        anchors.held = [anchors.contacts[rates.index(min(rates))]] if held else []
+        anchors.anchored = [anchors.contacts[rates.index(min(rates))]] if pushed else []
 
     def after_step(self, dt: float) -> float:
-        """See Traction.after_step."""
+        """See StripFriction.after_step."""
         self.drift = self._anchors.drift()
         return self._anchors.after_step(dt)
 
-    def _coefficient(self, node: int) -> float:
-        return float(self._friction[self._geoms[node], 0])
 
-
-class BoundedContacts(Bounded):
-    """See Traction; `left_slip` is NaN, as more than the two ends share the motion."""
+class BoundedContacts(BoundedFriction):
+    """Bounds of all contacts; `left_slip` is NaN, as more than the two ends share the motion."""
 
     def __init__(
         self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
@@ -104,29 +103,29 @@ class BoundedContacts(Bounded):
         super().__init__(scene, numerics, model, data)
         nodes = node_positions(scene.strip, numerics.links)
         press = scene.ground.at(0.0).press(scene.strip.width)
-        self._finder = Finder(scene.strip, nodes, press)
+        self._finder = ContactFinder(scene.strip, nodes, press)
         self._half = 0.5 * scene.strip.length
-        self._tendons = node_tendons(model, self._left, self._right, len(nodes))
+        self._tendons = node_tendons(model, len(nodes))
         self._bounds[self._tendons] = 0.0
-        self._held_by: list[int] = [self._both]
-        self._meant: list[int] = []
+        self._resisting: list[int] = [self._both]
+        self._averaged: list[int] = []  # nodes in the mean position
         begin = model.tendon_adr[self._both]
         self._divisors = model.wrap_prm[begin : begin + model.tendon_num[self._both] : 3]
-        self._anchors = Anchors(data)
+        self._anchors = AnchoredContacts(data)
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
-        """See Traction.before_step."""
+        """See StripFriction.before_step."""
         self._soften_if_steep(slopes)
         force, height = self._forces.by_node()
         sides = self._on_side(slopes, left, right)
         contacts = self._finder.find(force, height, (self._half * sides[0], self._half * sides[1]))
-        for tendon in self._held_by:
+        for tendon in self._resisting:
             self._bounds[tendon] = 0.0
             self._drag[tendon] = 0.0
-        self.left_slip, self._anchors.held = float("nan"), []
+        self.left_slip, self._anchors.anchored = float("nan"), []
         if not contacts:
             self.contact_left = self.contact_right = 0.0
-            self._held_by = self._anchors.contacts = []
+            self._resisting = self._anchors.contacts = []
             return
         self.contact_left, self.contact_right = contacts[0].length, contacts[-1].length
         nodes = [_middle(contact) for contact in contacts]
@@ -137,19 +136,19 @@ class BoundedContacts(Bounded):
         ]
         for tendon, bound in zip(tendons, bounds, strict=True):
             self._bounds[tendon] = bound
-        self._held_by = [*tendons, self._both]
+        self._resisting = [*tendons, self._both]
         self._anchors.contacts, self._anchors.bounds = tendons, bounds
         rates = [self._rate.item(tendon) for tendon in tendons]
         low, high = minimisers(bounds, rates)
         viscous = self._by_speed and any(self._drag[tendon] for tendon in tendons)
         if high > low and self._level and not viscous:
-            self._hold(nodes, rates, low, high)
+            self._anchor_undecided(nodes, rates, low, high)
         else:
             speeds = [abs(v) if bound else math.inf for v, bound in zip(rates, bounds, strict=True)]
-            self._anchors.held = [tendons[speeds.index(min(speeds))]]
+            self._anchors.anchored = [tendons[speeds.index(min(speeds))]]
 
     def after_step(self, dt: float) -> float:
-        """See Traction.after_step."""
+        """See StripFriction.after_step."""
         if not self._by_speed:
             self.drift = self._anchors.drift()
         return self._anchors.after_step(dt)
@@ -157,21 +156,23 @@ class BoundedContacts(Bounded):
     def _inward(self, tendon: int) -> float:
         return {self._left: 1.0, self._right: 0.0}.get(tendon, 0.5)
 
-    def _hold(self, nodes: list[int], rates: list[float], low: float, high: float) -> None:
-        """Hold what a tie leaves open."""
+    def _anchor_undecided(
+        self, nodes: list[int], rates: list[float], low: float, high: float
+    ) -> None:
+        """Anchor what equal bounds leave open: velocities of the whole between two [m/s]."""
         tendons = [self._tendons[node] for node in nodes]
         mean = -sum(rates) / len(rates)
         if low < mean < high:
-            if nodes != self._meant:
+            if nodes != self._averaged:
                 self._divisors[:] = _APART
                 self._divisors[nodes] = 1.0
-                self._meant = nodes
-            self._bounds[self._both], self._anchors.held = self._tie, tendons
+                self._averaged = nodes
+            self._bounds[self._both], self._anchors.anchored = self._tie, tendons
         else:
             border = low if mean <= low else high
             off = [abs(rate + border) for rate in rates]
-            self._anchors.held = [tendons[off.index(min(off))]]
-            self._bounds[self._anchors.held[0]] += self._tie
+            self._anchors.anchored = [tendons[off.index(min(off))]]
+            self._bounds[self._anchors.anchored[0]] += self._tie
 
 
 def _middle(contact: StripContact) -> int:

@@ -1,4 +1,4 @@
-"""How long each end lies on its side, and what it carries, from the forces of MuJoCo's contacts.
+"""Lengths of side contact and loads of the ends, from the forces of MuJoCo's contacts.
 
 The length follows from the ground's forces, finer than the pads; see
 analytic.friction.contact_length. Plain floats: numpy is slow on a few numbers.
@@ -34,10 +34,10 @@ class ContactForces:
         arclength = node_positions(scene.strip, numerics.links)
         self._least = float(arclength[1])  # the first link lies flat as a whole
         pads = pads_by_node(model)
-        first, last = int(pads.min()), int(pads.max()) + 1
-        self._heights = data.geom_xpos[first:last, 2]  # of the pads, and of what is between them
-        self._rows = (pads[:, 0] - first).tolist()
-        self._every = self._rows == list(range(last - first))
+        begin, end = int(pads.min()), int(pads.max()) + 1
+        self._heights = data.geom_xpos[begin:end, 2]  # of the pads, and of geoms between them
+        self._rows = (pads[:, 0] - begin).tolist()
+        self._only_pads = self._rows == list(range(end - begin))
         self._arclength: list[float] = arclength.tolist()
         place = np.full(model.ngeom, np.nan)
         place[pads] = arclength[:, None]
@@ -71,40 +71,24 @@ class ContactForces:
 
     def by_node(self) -> tuple[list[float], list[float]]:
         """Normal force on each node and its height, (N + 2,) each [N, m]."""
-        contact, rowwise = self._data.contact, self._data.efc_force.tolist()
-        rowwise.append(0.0)  # of contacts in an adhesive gap, whose row is -1
         force = [0.0] * len(self._rows)
-        rows = contact.efc_address.tolist()
-        for i, geom in enumerate(contact.geom2.tolist()):
-            push = self._normal(i) if self._pyramidal else rowwise[rows[i]]
+        for geom, push in zip(self._data.contact.geom2.tolist(), self._pushes(), strict=True):
             force[self._node[geom]] += push
-        heights = self._heights.tolist()
-        if not self._every:
-            heights = [heights[row] for row in self._rows]
-        return force, [height - self._radius for height in heights]
+        return force, [height - self._radius for height in self._pad_heights()]
 
     def _length_of(self, force: float, moment: float) -> float:
         return max(flat_length(self._weight, force, moment), self._least)
 
     def _sums(self) -> tuple[tuple[float, float], tuple[float, float]] | None:
         """Force and moment about its end of either part; None if no pad is in the air."""
-        heights = self._heights.tolist()
-        if not self._every:
-            heights = [heights[row] for row in self._rows]
+        heights = self._pad_heights()
         top = max(heights)
         if top <= self._radius:
             return None
         middle, end, place = self._arclength[heights.index(top)], self._length, self._place
-        data = self._data
-        contact = data.contact
         left = right = moment_left = moment_right = 0.0
-        rows = contact.efc_address.tolist()
-        force = [self._normal(i) for i in range(len(rows))] if self._pyramidal else None
-        rowwise = data.efc_force.tolist()
-        rowwise.append(0.0)  # of contacts in an adhesive gap, whose row is -1
         # the ground is a plane, and MuJoCo names the plane of a pair first
-        for i, geom in enumerate(contact.geom2.tolist()):
-            push = force[i] if force else rowwise[rows[i]]
+        for geom, push in zip(self._data.contact.geom2.tolist(), self._pushes(), strict=True):
             s = place[geom]
             if s < middle:
                 left += push
@@ -113,6 +97,20 @@ class ContactForces:
                 right += push
                 moment_right += push * (end - s)
         return (left, moment_left), (right, moment_right)
+
+    def _pad_heights(self) -> list[float]:
+        """Heights of the centres of one pad per node, (N + 2,) [m]."""
+        heights: list[float] = self._heights.tolist()
+        return heights if self._only_pads else [heights[row] for row in self._rows]
+
+    def _pushes(self) -> list[float]:
+        """Normal force of each contact [N]."""
+        rows = self._data.contact.efc_address.tolist()
+        if self._pyramidal:
+            return [self._normal(i) for i in range(len(rows))]
+        forces = self._data.efc_force.tolist()
+        forces.append(0.0)  # of contacts in an adhesive gap, whose row is -1
+        return [forces[row] for row in rows]
 
     def _normal(self, contact: int) -> float:
         mujoco.mj_contactForce(self._model, self._data, contact, self._six)

@@ -1,4 +1,4 @@
-"""What friction does around each step of a simulation, the same for every robot."""
+"""Friction around each step of a simulation, by one protocol for every robot."""
 
 from collections.abc import Sequence
 from typing import Any, Protocol
@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.contact_length import may_lie_flat
-from mjsim.friction.in_plane import Grips
-from mjsim.friction.laws import traction
+from mjsim.friction.between_ends import BoundedContacts, ContactFrictionEverywhere
+from mjsim.friction.in_plane import LimbFooting
+from mjsim.friction.traction import BoundedEnds, ContactFriction
 from mjsim.model.body import Joints
 from mjsim.model.pads import pads_by_node
 from mjsim.results.status import FALLEN
@@ -22,13 +23,13 @@ class Footing(Protocol):
     """A friction law at work on a compiled scene.
 
     Attributes:
-        columns: names of what `after_step` gives.
+        columns: names of the numbers that `after_step` gives.
     """
 
     columns: tuple[str, ...]
 
     def prepare(self, pressures: Array) -> Sequence[Any]:
-        """What `before_step` takes at each step, at pressures in the chambers, (T, S) [Pa]."""
+        """Arguments of `before_step` at each step, from pressures in the chambers, (T, S) [Pa]."""
         ...
 
     def before_step(self, prepared: Any) -> None:
@@ -36,11 +37,11 @@ class Footing(Protocol):
         ...
 
     def after_step(self) -> tuple[float, ...]:
-        """Take off what the step moved by its order alone; a number for each of `columns`."""
+        """Take off how far the step moved anchors by its order alone; one number per column."""
         ...
 
     def stands(self) -> bool:
-        """Whether the robot is as it can be on a walk."""
+        """Tell whether the robot is as it can be on a walk."""
         ...
 
     def places(self) -> Array:
@@ -49,7 +50,7 @@ class Footing(Protocol):
 
 
 class StripFooting:
-    """A law of mjsim.friction.laws under a strip; see Footing.
+    """Friction of a strip by its scene; see Footing.
 
     Args:
         scene, numerics: what is simulated.
@@ -63,11 +64,16 @@ class StripFooting:
         self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData,
         joints: Joints,
     ) -> None:  # fmt: skip
-        self._law = traction(scene, numerics, model, data)
+        by_load, bounded = (
+            (ContactFrictionEverywhere, BoundedContacts) if scene.between
+            else (ContactFriction, BoundedEnds)
+        )  # fmt: skip
+        law = by_load if scene.friction == "coulomb" else bounded
+        self._law = law(scene, numerics, model, data)
         self._slopes, self._shift, self._dt = joints.slopes, joints.shift, numerics.timestep
         self._before, self._after = self._law.before_step, self._law.after_step
         self._peak = scene.robot.peak_pressure
-        self._sticky = scene.ground.at(0.0).adhesion > 0  # which may hold an inflated end flat
+        self._sticky = scene.ground.at(0.0).adhesion > 0  # which may keep an inflated end flat
         self._lengths = data.ten_length
         pads = pads_by_node(model)
         self._feet = int(pads[0, 0]), int(pads[-1, 0])
@@ -75,7 +81,7 @@ class StripFooting:
         self._low, self._high = feet_may_be(scene, numerics)
 
     def prepare(self, pressures: Array) -> Sequence[Any]:
-        """Whether each end may lie on its side at each step, by its pressure."""
+        """Tell whether each end may lie on its side at each step, by its pressure."""
         flat = self._sticky | may_lie_flat(pressures[:, [0, -1]], self._peak)
         return list(flat.tolist())
 
@@ -92,9 +98,9 @@ class StripFooting:
         return law.contact_left, law.contact_right, law.left_slip, law.drift
 
     def stands(self) -> bool:
-        """Whether both ends are still feet."""
-        low, high, (first, last), height = self._low, self._high, self._feet, self._height
-        return low < height.item(first) < high and low < height.item(last) < high
+        """Tell whether both ends are still feet."""
+        low, high, (left, right), height = self._low, self._high, self._feet, self._height
+        return low < height.item(left) < high and low < height.item(right) < high
 
     def places(self) -> Array:
         """Lengths of the tendons to the ends [m]."""
@@ -112,5 +118,5 @@ def footing(
 ) -> Footing:
     """The law of a scene at work."""
     if scene.in_space:
-        return Grips(scene, numerics, model, data)
+        return LimbFooting(scene, numerics, model, data)
     return StripFooting(scene, numerics, model, data, joints)

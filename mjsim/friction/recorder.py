@@ -1,4 +1,4 @@
-"""What the ground does to each node in each step, read from MuJoCo's constraint forces."""
+"""Forces of the ground on each node in each step, read from MuJoCo's constraint forces."""
 
 from typing import Any
 
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from analytic.scene.ground import depends_on_speed
 from mjsim.model.pads import pads_by_node
-from mjsim.model.parts import PREFIX, TENDONS
+from mjsim.model.parts import PREFIX, TENDONS, tendon_names
 from mjsim.results.forces import GroundForces
 from mjsim.scene import Scene
 
@@ -32,13 +32,11 @@ class ContactRecorder:
         self._nodes = len(pads)
         self._node_of_geom = np.full(model.ngeom, -1)
         self._node_of_geom[pads] = np.arange(len(pads))[:, None]
-        left, right, both = (model.tendon(PREFIX + name).id for name in TENDONS)
         self._node_of_tendon = np.full(model.ntendon, -1)
-        self._node_of_tendon[[left, right]] = 0, len(pads) - 1
-        if scene.between:
-            for node in range(1, len(pads) - 1):
-                self._node_of_tendon[model.tendon(f"{PREFIX}grip_{node}").id] = node
-        self._both = both
+        for node, name in enumerate(tendon_names(len(pads))):
+            if scene.between or name in TENDONS:
+                self._node_of_tendon[model.tendon(PREFIX + name).id] = node
+        self._both = both = model.tendon(PREFIX + TENDONS[2]).id
         begin = model.tendon_adr[both]
         self._divisors = model.wrap_prm[begin : begin + model.tendon_num[both] : 3]
         self._coulomb = scene.friction == "coulomb"
@@ -62,7 +60,7 @@ class ContactRecorder:
         ))  # fmt: skip
 
     def forces(self, count: int) -> GroundForces:
-        """Of the first so many steps."""
+        """Forces of the first `count` steps."""
         if self._coulomb:
             normal, friction = (np.array(part[:count]) for part in zip(*self._pushes, strict=True))
             return GroundForces(normal, friction)
@@ -72,17 +70,16 @@ class ContactRecorder:
         return GroundForces(normal, friction)
 
     def _sort(self, rows: tuple[NDArray[Any], ...], push: Array, pull: Array) -> None:
-        kind, which, force, geoms, divisors, drag = rows
-        contact = kind == _CONTACT
-        np.add.at(push, self._node_of_geom[geoms[which[contact]]], force[contact])
-        tendon = kind == _TENDON
-        where, strength = which[tendon], force[tendon]
-        nodes = self._node_of_tendon[where]
-        known = nodes >= 0
-        pull[nodes[known]] += strength[known]
-        held = np.full(self._nodes, 0.0)
-        held[[0, -1] if len(divisors) == 2 else slice(None)] = 1.0 / divisors
-        pull += strength[where == self._both].sum() * held
+        types, ids, force, geoms, divisors, drag = rows
+        contact = types == _CONTACT
+        np.add.at(push, self._node_of_geom[geoms[ids[contact]]], force[contact])
+        tendons, strength = ids[types == _TENDON], force[types == _TENDON]
+        nodes = self._node_of_tendon[tendons]
+        of_node = nodes >= 0
+        pull[nodes[of_node]] += strength[of_node]
+        share = np.full(self._nodes, 0.0)  # of each node in the mean position
+        share[[0, -1] if len(divisors) == 2 else slice(None)] = 1.0 / divisors
+        pull += strength[tendons == self._both].sum() * share
         if len(drag):
             tendons = np.flatnonzero(self._node_of_tendon >= 0)
             pull[self._node_of_tendon[tendons]] += drag[tendons]

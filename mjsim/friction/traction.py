@@ -1,14 +1,14 @@
-"""What friction does before each step, and which end is said to slide.
+"""Friction of a strip before each step, and which end slides.
 
-Two ways in MuJoCo for the laws of analytic.friction.laws. `BoundedEnds`: each end is held along x
-by a dry friction of its own bound, on the neutral line, so that it has no lever arm and does not
+Two ways in MuJoCo for the laws of analytic.friction.laws. `BoundedEnds`: each end is anchored along
+x by a dry friction of its own bound, on the neutral line, so that it has no lever arm and does not
 creep; the physics lets the weaker end slide. Where both bounds are equal that would leave it to
-momentum who slides: the rule of [Majidi13], both alike, is one more dry friction, on the mean
+momentum which one slides: the rule of [Majidi13], both alike, is one more dry friction, on the mean
 position of the ends. `mjsim.friction.between_ends` does so at every contact. `ContactFriction`:
 Coulomb friction at every pad, by MuJoCo's own contacts.
 """
 
-from typing import Protocol
+from abc import ABC, abstractmethod
 
 import mujoco
 
@@ -24,43 +24,16 @@ _TIPS = (0.0, 0.0)  # side contact of two tips
 _UNLOADED = (0.0, 0.0)  # what a law gets that needs no load
 
 
-class Traction(Protocol):
-    """A law at work on a compiled scene.
+class StripFriction(ABC):
+    """A law at work on a compiled strip: contact lengths of the ends, and which of them moves.
 
     Attributes:
         contact_left, contact_right: lengths of side contact, 0 for a tip [m].
         left_slip: part of the next change of separation that the left end takes up; NaN where more
             than the two ends share the motion.
-        drift: speed of what friction should have held in the last step [m/s], where left_slip does
-            not tell who that is; else NaN.
+        drift: speed of what friction should have anchored in the last step [m/s], where left_slip
+            does not tell what that is; else NaN.
     """
-
-    contact_left: float
-    contact_right: float
-    left_slip: float
-    drift: float
-
-    def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
-        """Read the contacts and set what resists in the next step.
-
-        Args:
-            slopes: of the two ends, positive where the strip rises inwards [rad].
-            left, right: whether these ends may lie on their side, by their pressure.
-        """
-        ...
-
-    def after_step(self, dt: float) -> float:
-        """How far towards +x the step moved what friction holds, by its order alone [m].
-
-        A place is a function of angles that turn at a constant rate in a step, and the step's
-        friction made that place's velocity vanish at its end. What it moved beyond dt times its
-        velocity is the integrator's, and taking it off keeps an anchor where it is.
-        """
-        ...
-
-
-class Ends:
-    """What both ways share: the ends' contact lengths, and who moves."""
 
     def __init__(
         self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
@@ -74,8 +47,23 @@ class Ends:
         self._pads = pads_by_node(model)[[0, -1]]
         self._at, self._slip = self._place.item(self._right), 0.0
 
+    @abstractmethod
+    def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
+        """Read the contacts and set what resists in the next step.
+
+        Args:
+            slopes: of the two ends, positive where the strip rises inwards [rad].
+            left, right: whether these ends may lie on their side, by their pressure.
+        """
+
     def after_step(self, dt: float) -> float:
-        """See Traction.after_step; the left end's place is a coordinate, exact in every step."""
+        """Displacement towards +x of an anchored place by the order of the step alone [m].
+
+        A place is a function of angles that turn at a constant rate in a step, and the step's
+        friction made that place's velocity vanish at its end. What it moved beyond dt times its
+        velocity is the integrator's, and taking it off keeps an anchor where it is. The left end's
+        place is a coordinate, exact in every step.
+        """
         excess, before, at = 0.0, self._at, self._place.item(self._right)
         if self._slip:
             excess = self._slip * (dt * self._rate.item(self._right) - (at - before))
@@ -85,21 +73,21 @@ class Ends:
     def _look(
         self, slopes: tuple[float, float], left: bool, right: bool
     ) -> tuple[tuple[bool, bool], tuple[float, float]]:
-        """Whether each end lies on its side, and over what length."""
+        """Tell whether each end lies on its side, and over what length [m]."""
         sides = left, right = self._on_side(slopes, left, right)
         return sides, self._forces.lengths(left, right) if left or right else _TIPS
 
     def _on_side(self, slopes: tuple[float, float], left: bool, right: bool) -> tuple[bool, bool]:
-        """Whether each end lies on its side: it may, and is as good as flat."""
+        """Tell whether each end lies on its side: it may, and is as good as flat."""
         return left and slopes[0] <= self._flat, right and slopes[1] <= self._flat
 
-    def _see_who_moves(self) -> None:
+    def _see_which_end_moves(self) -> None:
         left, right = abs(self._rate.item(self._left)), abs(self._rate.item(self._right))
         self.left_slip = 1.0 if left > right else 0.0
 
 
-class Bounded(Ends):
-    """What bounds at the ends and everywhere share: the law, and softer ground under steep ends."""
+class BoundedFriction(StripFriction):
+    """Bounds by a law, and softer ground under steep ends."""
 
     def __init__(
         self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
@@ -110,7 +98,7 @@ class Bounded(Ends):
         self._level, self._tie = scene.slope == 0, tie_force(scene, numerics)
         self._softness, self._bounds = model.geom_solref, model.tendon_frictionloss
         self._drag, self._by_speed = model.tendon_damping, depends_on_speed(scene.ground)
-        self._firm = contact_softness(scene, numerics)[0][0]
+        self._stiff = contact_softness(scene, numerics)[0][0]
         self._soft = numerics.steep_contact_time * numerics.timestep
         self._steep_angle, self._steep = numerics.steep_angle, (False, False)
         self._far = float(model.site_pos[model.site(f"{PREFIX}far").id][0])
@@ -120,7 +108,7 @@ class Bounded(Ends):
         if steep != self._steep:
             self._steep = steep
             for pads, is_steep in zip(self._pads, steep, strict=True):
-                self._softness[pads, 0] = self._soft if is_steep else self._firm
+                self._softness[pads, 0] = self._soft if is_steep else self._stiff
 
     def _bound(self, tendon: int, contact: float, load: float, inward: float) -> float:
         """Bound of a contact; sets its viscous resistance too.
@@ -142,10 +130,10 @@ class Bounded(Ends):
         return float(bound)
 
 
-class BoundedEnds(Bounded):
+class BoundedEnds(BoundedFriction):
     """Bounds of the friction along x at the two ends, whatever law gives them.
 
-    On a slope the weight decides a tie, and who takes up a change is seen as it moves.
+    On a slope the weight decides between equal bounds, and which end slides is seen as it moves.
     """
 
     def __init__(
@@ -153,30 +141,30 @@ class BoundedEnds(Bounded):
     ) -> None:
         super().__init__(scene, numerics, model, data)
         self._always = self._law.needs_load or self._surface is None or self._by_speed
-        self._last = (-1.0, -1.0)
+        self._contacts = (-1.0, -1.0)
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
-        """See Traction.before_step."""
+        """See StripFriction.before_step."""
         _, contacts = self._look(slopes, left, right)
         self._soften_if_steep(slopes)
-        if contacts != self._last or self._always:
-            self._last = self.contact_left, self.contact_right = contacts
+        if contacts != self._contacts or self._always:
+            self._contacts = self.contact_left, self.contact_right = contacts
             self._set_bounds(contacts)
         if not self._level or self._by_speed:
-            self._see_who_moves()
+            self._see_which_end_moves()
 
     def _set_bounds(self, contacts: tuple[float, float]) -> None:
         load_left, load_right = self._forces.loads() if self._law.needs_load else _UNLOADED
         left = self._bound(self._left, contacts[0], load_left, 1.0)
         right = self._bound(self._right, contacts[1], load_right, 0.0)
         self.left_slip = slip_fraction(left, right)
-        tied = left == right and self._level
+        equal = left == right and self._level
         if self._by_speed:
-            tied = tied and not (self._drag[self._left] or self._drag[self._right])
-        self._bounds[self._left : self._both + 1] = left, right, self._tie if tied else 0.0
+            equal = equal and not (self._drag[self._left] or self._drag[self._right])
+        self._bounds[self._left : self._both + 1] = left, right, self._tie if equal else 0.0
 
 
-class ContactFriction(Ends):
+class ContactFriction(StripFriction):
     """Coulomb friction of the pads.
 
     The outermost ones have the coefficient of a tip, or of a side while the end lies on it; the
@@ -194,12 +182,12 @@ class ContactFriction(Ends):
         self._sides = (False, False)
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
-        """See Traction.before_step."""
+        """See StripFriction.before_step."""
         sides, (self.contact_left, self.contact_right) = self._look(slopes, left, right)
         if sides != self._sides or not self._uniform:
             self._sides = sides
             self._set_friction(sides)
-        self._see_who_moves()
+        self._see_which_end_moves()
 
     def _set_friction(self, sides: tuple[bool, bool]) -> None:
         for pads, on_side in zip(self._pads, sides, strict=True):

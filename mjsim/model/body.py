@@ -1,4 +1,4 @@
-"""What a body is: a strip as MJCF, and its joints once compiled."""
+"""Protocols of a body: a strip as MJCF, and its joints once compiled."""
 
 from collections.abc import Sequence
 from typing import Any, Protocol
@@ -13,10 +13,10 @@ Array = NDArray[np.float64]
 
 
 class Joints(Protocol):
-    """What pressure does to the joints of a compiled body, and how its ends stand."""
+    """Joints of a compiled body: how pressure acts on them, and how its ends stand."""
 
     def loads(self, valves: Array, before: Array, pressures: Array) -> Sequence[Any]:
-        """What `apply` takes at each of T steps, worked out for all of them at once.
+        """Arguments of `apply` at each of T steps, computed for all of them at once.
 
         Args:
             valves: commanded, (T, S) [Pa].
@@ -30,7 +30,7 @@ class Joints(Protocol):
         ...
 
     def slopes(self) -> tuple[float, float]:
-        """Of the left and the right end, positive where the strip rises inwards [rad]."""
+        """Slopes of the left and the right end, positive where the strip rises inwards [rad]."""
         ...
 
     def shift(self, distance: float) -> None:
@@ -48,10 +48,10 @@ class Body(Protocol):
     name: str
 
     def check(self, scene: Scene, numerics: Resolved) -> None:
-        """Whether the body can do what a scene asks for.
+        """Check that the body can do what a scene asks for.
 
         Raises:
-            ValueError: it cannot; the message names what.
+            ValueError: it cannot; the message names the reason.
         """
         ...
 

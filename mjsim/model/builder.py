@@ -5,7 +5,7 @@ import numpy as np
 
 from mjsim.files.assets import BARE
 from mjsim.model.limbs import tree_spec
-from mjsim.model.parts import PREFIX, TOUCH, set_options
+from mjsim.model.parts import PREFIX, set_options, start_height
 from mjsim.model.stage import stage
 from mjsim.scene import Resolved, Scene, registry
 
@@ -21,8 +21,13 @@ def scene_spec(scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
     return on_ground(spec, scene, numerics)
 
 
+def bare_spec(scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
+    """The robot on a plane with nothing to look at."""
+    return on_ground(mujoco.MjSpec.from_file(str(BARE)), scene, numerics)
+
+
 def on_ground(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
-    """The robot put on a ground that is given as MJCF.
+    """The robot on a ground that is given as MJCF.
 
     Raises:
         ValueError: the body cannot do what the scene asks for.
@@ -32,12 +37,11 @@ def on_ground(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> mujoco.M
     body = registry.find(scene.body)
     body.check(scene, numerics)
     set_options(spec, scene, numerics)
-    height = numerics.pad_radius - TOUCH * scene.robot.length
+    height = start_height(scene.strip.length, numerics)
     strip = body.spec(scene, numerics)
     for item in (*strip.worldbody.bodies, *strip.worldbody.sites):
-        item.pos = np.add(
-            item.pos, (0.0, 0.0, height)
-        )  # not by a frame, which dm_control does not read
+        # not by a frame, which dm_control does not read
+        item.pos = np.add(item.pos, (0.0, 0.0, height))
     spec.attach(strip, prefix=PREFIX, frame=spec.worldbody.add_frame())
     return spec
 
@@ -52,14 +56,13 @@ def compile_model(scene: Scene, numerics: Resolved) -> mujoco.MjModel:
     Raises:
         ValueError: the body cannot do what the scene asks for, or mujoco refuses the model.
     """
-    if scene.in_space:  # which is not looked at as it is stepped
-        return compiled(on_ground(mujoco.MjSpec.from_file(str(BARE)), scene, numerics), scene,
-                        numerics)  # fmt: skip
-    return compiled(scene_spec(scene, numerics), scene, numerics)
+    # nothing to look at is needed to step a robot in space
+    spec = bare_spec(scene, numerics) if scene.in_space else scene_spec(scene, numerics)
+    return compiled(spec, scene, numerics)
 
 
 def compiled(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> mujoco.MjModel:
-    """A spec compiled, or why it cannot be.
+    """Compile a spec.
 
     Raises:
         ValueError: mujoco refuses it.

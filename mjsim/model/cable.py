@@ -12,16 +12,17 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.scene.chain import joint_springs, link_lengths
+from analytic.scene.chain import joint_springs
 from mjsim.model import parts
 from mjsim.model.body import Joints
+from mjsim.model.links import add_links
 from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
 
 _FIRST_JOINT = 4  # the joints are x, y, z, the ball of the whole, then those between links
-_WHOLE_BALL = 3  # coordinate where the quaternion of the whole is, after 3 slides
-_FIRST_BALL = 7  # and that of the first joint between links
+_WHOLE_BALL = 3  # coordinate where the quaternion of the whole begins, after 3 slides
+_FIRST_BALL = 7  # coordinate where that of the first joint between links begins
 
 
 class Cable:
@@ -30,39 +31,19 @@ class Cable:
     name = "cable"
 
     def check(self, scene: Scene, numerics: Resolved) -> None:
-        """Neither actuators nor sealed chambers."""
+        """Refuse actuators and sealed chambers."""
         parts.refuse_chain_only(self.name, scene)
 
     def spec(self, scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
-        """Links that hang from each other, the first one free in space."""
-        robot, links = scene.strip, numerics.links
-        spec = parts.template()
-        stiffness, _ = joint_springs(robot, links, np.zeros((1, len(robot.segments))))
-        edges = [(0.5 * side * robot.width, 0.0) for side in (-1, 1)]
-        lengths = link_lengths(robot, links).tolist()
-        parent, offset = spec.worldbody, 0.0
-        bodies = []
-        for i, length in enumerate(lengths):
-            body = parent.add_body(name=f"link_{i}", pos=(offset, 0, 0))
-            if i == 0:
-                _free(body)
-            else:
-                joint = body.add_joint(name=f"ball_{i}", type=mujoco.mjtJoint.mjJNT_BALL)
-                joint.stiffness[0] = stiffness[0, i - 1]
-                joint.damping[0] = numerics.damping_time * stiffness[0, i - 1]
-            mass = robot.weight_per_length / scene.gravity * length
-            wide, long = mass * robot.width**2 / 12, mass * length**2 / 12
-            body.explicitinertial, body.mass, body.ipos = True, mass, (length / 2, 0.0, 0.0)
-            body.inertia = wide, long, wide + long  # a plate without thickness
-            parts.add_pads(body, scene, numerics, i, [(0.0, *edge) for edge in edges])
-            if i == links:
-                ends = [(length, *edge) for edge in edges]
-                parts.add_pads(body, scene, numerics, i + 1, ends)
-            bodies.append(body)
-            parent, offset = body, length
-        origin = (0.0, 0.0, 0.0)
-        nodes = [(body, origin) for body in bodies]
-        parts.add_ends(spec, scene, [*nodes, (bodies[-1], (offset, 0.0, 0.0))])
+        """Links that are carried by each other, the first one free in space."""
+        strip, spec = scene.strip, parts.template()
+        nodes = add_links(spec.worldbody, strip, scene, numerics, ("link_", "ball_"),
+                          mujoco.mjtJoint.mjJNT_BALL, strip.width)  # fmt: skip
+        _free(nodes[0][0])
+        for number, (body, (x, _, _)) in enumerate(nodes):
+            edges = [(x, 0.5 * side * strip.width, 0.0) for side in (-1, 1)]
+            parts.add_pads(body, scene, numerics, number, edges)
+        parts.add_ends(spec, scene, nodes)
         parts.hold_sideways(spec, scene, numerics)
         return spec
 

@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 from analytic.scene.chain import (
     check_chamber,
     joint_springs,
-    link_lengths,
     sealed_springs,
     segments_fit,
 )
 from mjsim.model import parts
 from mjsim.model.body import Joints
+from mjsim.model.links import UP, add_links
 from mjsim.model.pneumatics import add_actuators, controls
 from mjsim.scene import Resolved, Scene
 
@@ -47,35 +47,16 @@ class Chain:
             )
 
     def spec(self, scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
-        """Links that hang from each other, the first one free in the plane."""
-        robot, links = scene.strip, numerics.links
+        """Links that are carried by each other, the first one free in the plane."""
         spec = parts.template()
-        lengths = link_lengths(robot, links)
-        stiffness, rest = joint_springs(robot, links, np.zeros((1, len(robot.segments))))
-        parent, offset = spec.worldbody, 0.0
-        bodies = []
-        for i, length in enumerate(lengths.tolist()):
-            body = parent.add_body(name=f"link_{i}", pos=(offset, 0, 0))
-            if i == 0:
-                slide = mujoco.mjtJoint.mjJNT_SLIDE
-                body.add_joint(name="x", type=slide, axis=(1, 0, 0))
-                body.add_joint(name="z", type=slide, axis=(0, 0, 1))
-                body.add_joint(name="pitch")
-            else:
-                joint = body.add_joint(name=f"hinge_{i}", springref=rest[0, i - 1])
-                joint.stiffness[0] = stiffness[0, i - 1]
-                joint.damping[0] = numerics.damping_time * stiffness[0, i - 1]
-            mass = robot.weight_per_length / scene.gravity * length
-            body.explicitinertial, body.mass, body.ipos = True, mass, (length / 2, 0, 0)
-            body.inertia = [mass * length**2 / 12] * 3  # a thin rod, as in the theory
-            parts.add_pads(body, scene, numerics, i, [(0.0, 0.0, 0.0)])
-            if i == links:
-                parts.add_pads(body, scene, numerics, i + 1, [(length, 0.0, 0.0)])
-            bodies.append(body)
-            parent, offset = body, length
-        origin = (0.0, 0.0, 0.0)
-        nodes = [(body, origin) for body in bodies]
-        parts.add_ends(spec, scene, [*nodes, (bodies[-1], (offset, 0.0, 0.0))])
+        nodes = add_links(spec.worldbody, scene.strip, scene, numerics, ("link_", "hinge_"))
+        first, _ = nodes[0]
+        for name, axis in (("x", (1, 0, 0)), ("z", (0, 0, 1))):
+            first.add_joint(name=name, type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
+        first.add_joint(name="pitch", axis=UP)
+        for number, (body, place) in enumerate(nodes):
+            parts.add_pads(body, scene, numerics, number, [place])
+        parts.add_ends(spec, scene, nodes)
         if scene.actuation == "actuators":
             add_actuators(spec, scene, numerics)
         return spec
@@ -83,7 +64,7 @@ class Chain:
     def bind(
         self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, numerics: Resolved
     ) -> Joints:
-        """By the way that pressure acts."""
+        """The hinges, by the way that pressure acts on them."""
         if scene.actuation == "actuators":
             return _Actuated(model, data, scene, numerics)
         if scene.chamber == "sealed":

@@ -1,4 +1,4 @@
-"""The pressure in the chambers, which follows the valves."""
+"""Pressure in the chambers, which follows the valves."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,12 +8,12 @@ from mjsim.scene.valves import Valves
 Array = NDArray[np.float64]
 
 
-class Chambers:
-    """Chambers at rest, without pressure, and what their valves were commanded of late.
+class ChamberPressures:
+    """Pressures in chambers that follow their valves, none at first.
 
     Args:
-        valves: how they follow.
-        segments: how many there are.
+        valves: which they follow.
+        segments: number of chambers.
         timestep: between commands [s].
 
     Attributes:
@@ -47,14 +47,14 @@ class Chambers:
         return pressures
 
     def _delayed(self, valves: Array) -> Array:
-        """The commands that act during each step."""
+        """Commands that act during each step, (T, S) [Pa]."""
         most = len(self._commands)
         if not most:
             return valves
-        known = np.concatenate([self._commands, valves])
+        commands = np.concatenate([self._commands, valves])
         rows = np.arange(len(valves))[:, None] + most - self._late
-        self._commands = known[-most:]
-        return np.asarray(known[rows, np.arange(valves.shape[1])])
+        self._commands = commands[-most:]
+        return np.asarray(commands[rows, np.arange(valves.shape[1])])
 
 
 def _kept(times: tuple[float, ...], timestep: float) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 
 
 class Compiled:
-    """Keeps a compiled model's numbers: every array, and the options, statistics and visuals.
+    """Numbers of a model as compiled: every array, and the options, statistics and visuals.
 
     Args:
         model: which bodies and friction may change wherever they like.
@@ -30,13 +30,13 @@ def _put(kept: Any, live: Any) -> None:
             getattr(live, name)[...] = value
         elif type(value).__module__ == type(kept).__module__:  # options and the like
             _put(value, getattr(live, name))
-        elif not isinstance(kept, mujoco.MjModel):  # whose own numbers are the sizes of its arrays
+        elif not isinstance(kept, mujoco.MjModel):  # its numbers are sizes of arrays
             setattr(live, name, value)
 
 
 @cache
 def fields(kind: type) -> tuple[str, ...]:
-    """What MuJoCo's structure holds, without its methods."""
+    """Names of a MuJoCo structure's attributes, without its methods."""
     return tuple(
         name for name in dir(kind)
         if not name.startswith("_") and not callable(getattr(kind, name))

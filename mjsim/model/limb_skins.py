@@ -3,10 +3,9 @@
 import mujoco
 import numpy as np
 
-from analytic.scene.chain import node_positions
 from analytic.scene.limbs import chambers_by_limb, plan
-from mjsim.model.limbs import limb_body, limbed
-from mjsim.model.skin import PALE_SKIN, segment_skin
+from mjsim.model.limbs import limbed, link_prefix
+from mjsim.model.skin import add_strip_skins
 from mjsim.scene import Resolved, Scene
 
 CAMERA = "above"
@@ -26,20 +25,7 @@ def add_skins(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
     robot = limbed(scene)
     flat = plan(robot)
     for limb, part in zip(robot.limbs, chambers_by_limb(robot), strict=True):
-        origin, angle = np.append(flat[limb.name][0], 0.0), limb.angle
-        c, s = np.cos(angle), np.sin(angle)
-        turned = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-        starts = node_positions(limb.strip, numerics.links)
-        half = (np.cos(angle / 2), 0.0, 0.0, np.sin(angle / 2))
-        for segment, chamber in enumerate(robot.chambers[part]):
-            shape = segment_skin(limb.strip, numerics.links, segment, numerics.pad_radius)
-            skin = spec.add_skin(name=f"skin_{chamber}", rgba=PALE_SKIN)
-            skin.vert = (shape.vertex @ turned.T + origin).ravel()
-            skin.face = shape.face.ravel()
-            skin.bodyname = [limb_body(limb.name, link) for link, _, _ in shape.bones]
-            skin.bindpos = np.ravel(
-                [turned @ (starts[link], 0.0, 0.0) + origin for link, _, _ in shape.bones]
-            )
-            skin.bindquat = np.ravel([half] * len(shape.bones))
-            skin.vertid = [moved.tolist() for _, moved, _ in shape.bones]
-            skin.vertweight = [weight.tolist() for _, _, weight in shape.bones]
+        names = [f"skin_{chamber}" for chamber in robot.chambers[part]]
+        origin = (*flat[limb.name][0], 0.0)
+        bodies = link_prefix(limb.name)
+        add_strip_skins(spec, limb.strip, numerics, names, bodies, origin, limb.angle)

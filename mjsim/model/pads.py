@@ -23,7 +23,7 @@ def pads_of(model: mujoco.MjModel, scene: Scene) -> Pads:
 
 
 def pads_by_node(model: mujoco.MjModel, limb: str | None = None) -> Pads:
-    """Geoms of the pads of a strip, or of one limb, a row a vertex, (N + 2, A)."""
+    """Geoms of the pads of a strip, or of one limb, one row per vertex, (N + 2, A)."""
     nodes: dict[int, list[int]] = {}
     for geom in range(model.ngeom):
         match = _PAD.fullmatch(model.geom(geom).name)

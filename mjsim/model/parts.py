@@ -1,4 +1,4 @@
-"""What every body's MJCF shares: options, contact pads, sites of the ends, friction tendons.
+"""Parts of every body's MJCF: options, contact pads, sites of the ends, friction tendons.
 
 Under bounds of their own, the friction of the two ends is carried by spatial tendons to a far fixed
 site: `left` and `right` along each end, and `both` along their mean; see mjsim.friction. Where it
@@ -20,18 +20,25 @@ from mjsim.scene import Resolved, Scene
 PALE, DARK = (0.86, 0.82, 0.72), (0.16, 0.17, 0.20)  # passive and inflated, as in Figure 4
 FAR = 100.0  # m; a line to a point this far is horizontal to 1 part in 1e6
 _FARTHER = 1e4  # m; a walk of 0.1 m changes the distance to there by 1e-6 m
-_NO_BOUND = 1e-12  # N; without any bound a tendon would get no row to be given one
+NO_BOUND = 1e-12  # N; without any bound a tendon would get no row to be given one
 TENDONS = ("left", "right", "both")
 TOUCH = 1e-6  # how deep the robot starts in the ground, over L: a contact at 0 is not seen; chosen
 PREFIX = "robot_"  # of the strip's names once it is on its ground
 TEMPLATE = Path(__file__).with_name("strip.xml")
 
 Place = tuple[float, float, float]
+Node = tuple[mujoco.MjsBody, Place]  # body, and place in its frame [m]
+ORIGIN: Place = (0.0, 0.0, 0.0)
 
 
 def template() -> mujoco.MjSpec:
     """Defaults of the strip."""
     return mujoco.MjSpec.from_file(str(TEMPLATE))
+
+
+def start_height(length: float, numerics: Resolved) -> float:
+    """Height of a neutral line that lies a little in the ground, by its length [m]."""
+    return numerics.pad_radius - TOUCH * length
 
 
 def refuse_chain_only(body: str, scene: Scene) -> None:
@@ -57,15 +64,20 @@ def set_options(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
 def contact_softness(scene: Scene, numerics: Resolved) -> tuple[Sequence[float], Sequence[float]]:
     """solref and solimp of the pads' contacts.
 
-    Frictionless ones are as stiff as the discrete integrator bears. With friction MuJoCo's convex
+    Frictionless ones are as stiff as the discrete integrator allows. With friction MuJoCo's convex
     contact lifts a pad that slides by v off the ground by about mu v times its damping over its
     stiffness; a pad that is lifted off loses its load for a step and falls. So those are given
-    little damping, and grow firm over a depth greater than that.
+    little damping, and stiffen over a depth greater than that.
     """
     time = numerics.contact_time * numerics.timestep
     if scene.friction == "coulomb":
-        return (-0.125 / time**2, -0.5 / time), (0.9, 0.999, numerics.contact_depth)
+        return softness_with_friction(time, numerics.contact_depth)
     return (time, 1.0), (0.999, 0.999, 0.001)
+
+
+def softness_with_friction(time: float, depth: float) -> tuple[Sequence[float], Sequence[float]]:
+    """solref and solimp of contacts with friction, by their time [s] and depth [m]."""
+    return (-0.125 / time**2, -0.5 / time), (0.9, 0.999, depth)
 
 
 def add_pads(
@@ -76,16 +88,22 @@ def add_pads(
     surface = scene.ground.at(0.0)
     press, reach = surface.press(scene.strip.width), surface.adhesion_reach
     for i, place in enumerate(places):
-        pad = body.add_geom(name=f"pad_{node}" + (f"_{i}" if i else ""))
-        pad.type, pad.pos = mujoco.mjtGeom.mjGEOM_SPHERE, place
-        pad.size[0], pad.mass, pad.group = numerics.pad_radius, 0.0, 3
-        pad.contype, pad.conaffinity, pad.priority = 1, 0, 1
+        pad = add_pad(body, f"pad_{node}" + (f"_{i}" if i else ""), place, numerics)
         pad.condim = 3 if coulomb else 1
         pad.solref[:], pad.solimp[:3] = contact_softness(scene, numerics)
         if press:
             pad.adhesion, pad.gap = press * _share(scene, numerics, node) / len(places), reach
         if coulomb:
             pad.friction[:] = pad_friction(scene, node in (0, numerics.links + 1)), 0.0, 0.0
+
+
+def add_pad(body: mujoco.MjsBody, name: str, place: Place, numerics: Resolved) -> mujoco.MjsGeom:
+    """Add a massless sphere that touches the ground, without friction."""
+    pad = body.add_geom(name=name)
+    pad.type, pad.pos = mujoco.mjtGeom.mjGEOM_SPHERE, place
+    pad.size[0], pad.mass, pad.group = numerics.pad_radius, 0.0, 3
+    pad.contype, pad.conaffinity, pad.priority, pad.condim = 1, 0, 1, 1
+    return pad
 
 
 def _share(scene: Scene, numerics: Resolved, node: int) -> float:
@@ -100,37 +118,39 @@ def pad_friction(scene: Scene, at_end: bool) -> float:
     return float(surface.tip_friction if at_end else surface.friction)  # type: ignore[arg-type]
 
 
-def add_ends(
-    spec: mujoco.MjSpec, scene: Scene, nodes: Sequence[tuple[mujoco.MjsBody, Place]]
-) -> None:
+def add_ends(spec: mujoco.MjSpec, scene: Scene, nodes: Sequence[Node]) -> None:
     """Sites at the two ends and the tendons to a far one; at every node if friction acts there.
 
     Args:
         spec: the strip.
         scene: tells the law.
-        nodes: the body of each node, left first, and where it is in that body's frame [m].
+        nodes: of the strip, left first.
     """
-    ends = {0: "end_left", len(nodes) - 1: "end_right"}
+    names = ["end_left", *(f"node_{node}" for node in range(1, len(nodes) - 1)), "end_right"]
+    tendons, everywhere = tendon_names(len(nodes)), scene.between
     constant = scene.friction != "coulomb"
-    everywhere = scene.between
-    names = [ends.get(node, f"node_{node}") for node in range(len(nodes))]
-    for node, (name, (body, place)) in enumerate(zip(names, nodes, strict=True)):
-        if everywhere or node in ends:
+    bound = NO_BOUND if constant else 0.0
+    for name, (body, place) in zip(names, nodes, strict=True):
+        if everywhere or name.startswith("end"):
             body.add_site(name=name, pos=place, size=[6e-4] * 3, group=4)
     spec.worldbody.add_site(name="far", pos=(-FAR, 0.0, 0.0), group=4)
-    bound = _NO_BOUND if constant else 0.0
-    left, right, both = TENDONS
-    _tie(spec, left, "far", names[:1], bound)
-    _tie(spec, right, "far", names[-1:], bound)
+    for end in (0, -1):
+        _tie(spec, tendons[end], "far", [names[end]], bound)
     mean = names if everywhere and constant else [names[0], names[-1]]
-    _tie(spec, both, "far", mean, bound)
+    _tie(spec, TENDONS[2], "far", mean, bound)
     if everywhere:
-        for node in range(1, len(nodes) - 1):
-            _tie(spec, f"grip_{node}", "far", [names[node]], bound)
+        for name, tendon in zip(names[1:-1], tendons[1:-1], strict=True):
+            _tie(spec, tendon, "far", [name], bound)
+
+
+def tendon_names(nodes: int) -> list[str]:
+    """Names of the tendons that carry the friction of each node, left first."""
+    left, right, _ = TENDONS
+    return [left, *(f"friction_{node}" for node in range(1, nodes - 1)), right]
 
 
 def hold_sideways(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
-    """Bounds across the walk for a body in space, where friction's bounds are of the plane only.
+    """Add bounds across the walk of a body in space, where friction's are of the plane only.
 
     They keep each end on the heading that nothing turns it from.
     """
@@ -143,16 +163,22 @@ def hold_sideways(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None
 
 
 def tie_force(scene: Scene, numerics: Resolved) -> float:
-    """Bound of the friction that holds what no law decides [N]."""
+    """Bound of the friction that resists motion which no law decides [N]."""
     return numerics.tie_bound * pneunet.base_rigidity(scene.strip) / scene.strip.length**2
 
 
 def _tie(spec: mujoco.MjSpec, name: str, to: str, sites: Sequence[str], bound: float) -> None:
-    tendon = spec.add_tendon(name=name, frictionloss=bound, group=4)
+    tendon = friction_tendon(spec, name, bound)
     tendon.width = 2e-4
-    tendon.solref_friction[:] = 0.001, 1.0  # nearly without creep
-    tendon.solimp_friction[:3] = 0.9999, 0.9999, 0.001
     for site in sites:
         tendon.wrap_pulley(1.0)
         tendon.wrap_site(to)
         tendon.wrap_site(site)
+
+
+def friction_tendon(spec: mujoco.MjSpec, name: str, bound: float) -> mujoco.MjsTendon:
+    """Add a tendon, of nothing yet, whose dry friction nearly does not creep; bound in N."""
+    tendon = spec.add_tendon(name=name, frictionloss=bound, group=4)
+    tendon.solref_friction[:] = 0.001, 1.0
+    tendon.solimp_friction[:3] = 0.9999, 0.9999, 0.001
+    return tendon

@@ -67,15 +67,31 @@ def add_actuators(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None
             chamber.gaintype = mujoco.mjtGain.mjGAIN_AFFINE
             chamber.gainprm[:3] = -bend, slope, 0.0
     for segment, inside in enumerate(segment_overlap(robot.borders, numerics.links).T, start=1):
-        tendon = spec.add_tendon(name=f"segment_{segment}", group=4)
-        for hinge in np.flatnonzero(inside).tolist():
-            tendon.wrap_joint(f"hinge_{hinge + 1}", 1.0)
-        chamber = _actuator(spec, scene, f"segment_{segment}", limit if by_segment else limit**2)
-        chamber.trntype, chamber.target = mujoco.mjtTrn.mjTRN_TENDON, f"segment_{segment}"
-        chamber.gaintype = mujoco.mjtGain.mjGAIN_FIXED
-        chamber.gainprm[0] = (
-            -bend if by_segment else -pneunet.curvature_per_pressure(robot) * stiffen
-        )
+        name = f"segment_{segment}"
+        chamber = _actuator(spec, scene, name, limit if by_segment else limit**2)
+        gain = bend if by_segment else pneunet.curvature_per_pressure(robot) * stiffen
+        turn_hinges(spec, chamber, name, "hinge_", inside, -gain)
+
+
+def turn_hinges(
+    spec: mujoco.MjSpec, actuator: mujoco.MjsActuator, tendon: str, hinges: str, overlap: Array,
+    gain: float,
+) -> None:  # fmt: skip
+    """Give an actuator the hinges of one segment, along a new tendon.
+
+    Args:
+        spec: the robot.
+        actuator: of the segment.
+        tendon: its name.
+        hinges: their names before the numbers from 1.
+        overlap: part of each hinge's element in the segment, (N,).
+        gain: moment per control.
+    """
+    path = spec.add_tendon(name=tendon, group=4)
+    for hinge in np.flatnonzero(overlap).tolist():
+        path.wrap_joint(f"{hinges}{hinge + 1}", float(overlap[hinge]))
+    actuator.trntype, actuator.target = mujoco.mjtTrn.mjTRN_TENDON, tendon
+    actuator.gaintype, actuator.gainprm[0] = mujoco.mjtGain.mjGAIN_FIXED, gain
 
 
 def _actuator(spec: mujoco.MjSpec, scene: Scene, name: str, limit: float) -> mujoco.MjsActuator:

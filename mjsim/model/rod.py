@@ -6,7 +6,7 @@ on top as couples on the edges beside each vertex, D/h g(r): they balance where 
 rest angle r. The rigidity is divided by g'(r), so that the stiffness about that angle is the
 pneu-net's. Edges are held by equality constraints: a strain-limiting layer does not stretch.
 
-A rod has no width to stand on. The couples are in the x-z plane whatever the rod does, and so hold
+A rod has no width to stand on. The couples are in the x-z plane whatever the rod does, and so keep
 it upright. The flex is written out, since MuJoCo 4's `<flexcomp>` adds a joint a twisting edge.
 """
 
@@ -34,7 +34,7 @@ class Rod:
     name = "rod"
 
     def check(self, scene: Scene, numerics: Resolved) -> None:
-        """Neither actuators nor sealed chambers."""
+        """Refuse actuators and sealed chambers."""
         parts.refuse_chain_only(self.name, scene)
 
     def spec(self, scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
@@ -48,12 +48,12 @@ class Rod:
             body = spec.worldbody.add_body(name=f"rod_{i}", pos=(x, 0, 0))
             for axis in np.eye(3):
                 body.add_joint(type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
-            body.explicitinertial, body.mass, body.ipos = True, mass[i], (0.0, 0.0, 0.0)
+            body.explicitinertial, body.mass, body.ipos = True, mass[i], parts.ORIGIN
             body.inertia = [mass[i] * _RADIUS**2] * 3  # a point does not turn
-            parts.add_pads(body, scene, numerics, i, [(0.0, 0.0, 0.0)])
+            parts.add_pads(body, scene, numerics, i, [parts.ORIGIN])
             bodies.append(body)
         _join(spec, bodies, numerics)
-        parts.add_ends(spec, scene, [(body, (0.0, 0.0, 0.0)) for body in bodies])
+        parts.add_ends(spec, scene, [(body, parts.ORIGIN) for body in bodies])
         for i, body in enumerate(bodies):
             # a rod has no width: every vertex is kept in the plane, not its ends alone
             if not body.sites and scene.friction != "coulomb":
@@ -69,16 +69,16 @@ class Rod:
 
 
 def _join(spec: mujoco.MjSpec, bodies: Sequence[mujoco.MjsBody], numerics: Resolved) -> None:
-    """Let the edges between bodies resist bending, and hold their lengths."""
+    """Let the edges between bodies resist bending, and fix their lengths."""
     flex = spec.add_flex(name="rod", dim=1, radius=_RADIUS, young=1.0)
     flex.damping, flex.contype, flex.conaffinity = numerics.damping_time, 0, 0
     flex.selfcollide = mujoco.mjtFlexSelf.mjFLEXSELF_NONE
     flex.vertbody = [body.name for body in bodies]
     vertices = np.arange(len(bodies))
     flex.elem = np.column_stack([vertices[:-1], vertices[1:]]).ravel()
-    held = spec.add_equality(type=mujoco.mjtEq.mjEQ_FLEX, name1=flex.name)
-    held.solref[:] = numerics.edge_time * numerics.timestep, 1.0
-    held.solimp[:3] = 0.9999, 0.9999, 0.001
+    lengths = spec.add_equality(type=mujoco.mjtEq.mjEQ_FLEX, name1=flex.name)
+    lengths.solref[:] = numerics.edge_time * numerics.timestep, 1.0
+    lengths.solimp[:3] = 0.9999, 0.9999, 0.001
 
 
 def half_stiffness(model: mujoco.MjModel) -> Array:
@@ -128,8 +128,8 @@ class _Vertices:
     def slopes(self) -> tuple[float, float]:
         (x0, _, z0), (x1, _, z1) = self._qpos[0], self._qpos[1]
         (x2, _, z2), (x3, _, z3) = self._qpos[-2], self._qpos[-1]
-        first, last = self._lengths[0], self._lengths[-1]
-        return (z1 - z0) / (x1 - x0 + first), (z2 - z3) / (x3 - x2 + last)
+        left, right = self._lengths[0], self._lengths[-1]
+        return (z1 - z0) / (x1 - x0 + left), (z2 - z3) / (x3 - x2 + right)
 
     def shift(self, distance: float) -> None:
         self._qpos[:, 0] -= distance

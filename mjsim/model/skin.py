@@ -1,5 +1,6 @@
 """A smooth skin over the chain: a soft strip with the ribs of its pneu-net chambers."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import mujoco
@@ -8,7 +9,7 @@ from numpy.typing import NDArray
 
 from analytic.scene.chain import link_lengths, node_positions
 from analytic.scene.robot import Robot
-from mjsim.model.parts import PALE, PREFIX
+from mjsim.model.parts import ORIGIN, PALE, PREFIX
 from mjsim.scene import Resolved
 
 Array = NDArray[np.float64]
@@ -34,15 +35,38 @@ class Skin(NamedTuple):
 
 
 def add_skins(spec: mujoco.MjSpec, robot: Robot, numerics: Resolved) -> None:
-    """Give a planar strip on its ground what it looks like, a skin a segment."""
-    nodes = node_positions(robot, numerics.links)
-    for segment in range(len(robot.segments)):
-        shape = segment_skin(robot, numerics.links, segment, numerics.pad_radius)
-        skin = spec.add_skin(name=f"segment_{segment + 1}", rgba=PALE_SKIN)
-        skin.vert, skin.face = shape.vertex.ravel(), shape.face.ravel()
-        skin.bodyname = [f"{PREFIX}link_{link}" for link, _, _ in shape.bones]
-        skin.bindpos = np.ravel([(nodes[link], 0.0, 0.0) for link, _, _ in shape.bones])
-        skin.bindquat = [1.0, 0.0, 0.0, 0.0] * len(shape.bones)
+    """Give a planar strip on its ground one skin per segment."""
+    names = [f"segment_{number + 1}" for number in range(len(robot.segments))]
+    add_strip_skins(spec, robot, numerics, names, f"{PREFIX}link_")
+
+
+def add_strip_skins(
+    spec: mujoco.MjSpec, strip: Robot, numerics: Resolved, names: Sequence[str], bodies: str,
+    origin: Sequence[float] = ORIGIN, angle: float = 0.0,
+) -> None:  # fmt: skip
+    """Give a flat strip its skins.
+
+    Args:
+        spec: the robot on its ground.
+        strip, numerics: its shape, and its links.
+        names: of the skins, one per segment.
+        bodies: names of the links before their numbers.
+        origin: of its left end in the world, (3,) [m].
+        angle: from the world's x to it, about z [rad].
+    """
+    c, s = np.cos(angle), np.sin(angle)
+    turned = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    starts = node_positions(strip, numerics.links)
+    half = (np.cos(angle / 2), 0.0, 0.0, np.sin(angle / 2))
+    for segment, name in enumerate(names):
+        shape = segment_skin(strip, numerics.links, segment, numerics.pad_radius)
+        skin = spec.add_skin(name=name, rgba=PALE_SKIN)
+        skin.vert, skin.face = (shape.vertex @ turned.T + origin).ravel(), shape.face.ravel()
+        skin.bodyname = [f"{bodies}{link}" for link, _, _ in shape.bones]
+        skin.bindpos = np.ravel(
+            [turned @ (starts[link], 0.0, 0.0) + origin for link, _, _ in shape.bones]
+        )
+        skin.bindquat = np.ravel([half] * len(shape.bones))
         skin.vertid = [moved.tolist() for _, moved, _ in shape.bones]
         skin.vertweight = [weight.tolist() for _, _, weight in shape.bones]
 
@@ -87,10 +111,10 @@ def _faces(count: int, around: int) -> NDArray[np.int_]:
     ring = np.arange(around)
     following = (ring + 1) % around
     near, far = count * around, count * around + 1
-    last = (count - 1) * around
+    last_ring = (count - 1) * around
     caps = [
         np.stack([np.full(around, near), following, ring], axis=1),
-        np.stack([np.full(around, far), last + ring, last + following], axis=1),
+        np.stack([np.full(around, far), last_ring + ring, last_ring + following], axis=1),
     ]
     return np.concatenate([wall, *caps])
 

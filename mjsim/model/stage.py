@@ -30,7 +30,7 @@ def stage(ground: Ground) -> mujoco.MjSpec:
 
 
 def _cut(look: mujoco.MjSpec, begin: float, end: float, first: bool) -> None:
-    """Show a surface from one place to another; the first one's plane carries the strip."""
+    """Show a surface between two places [m]; the plane of the first one carries the strip."""
     for name in ("floor", "slab"):
         geom = look.geom(name)
         geom.pos = (0.5 * (begin + end), geom.pos[1], geom.pos[2])
@@ -40,7 +40,7 @@ def _cut(look: mujoco.MjSpec, begin: float, end: float, first: bool) -> None:
 
 
 def look_of(surface: Surface) -> Path:
-    """What a surface looks like: its own, or the nearest of the three named ones."""
+    """File of the looks of a surface, or of the nearest of the three named ones."""
     named = LOOKS / f"{surface.name}.xml"
     if named.is_file():
         return named

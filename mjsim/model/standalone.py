@@ -1,4 +1,4 @@
-"""A scene as MJCF that walks by itself: no Python between its steps.
+"""Scenes as MJCF that walk by themselves: no Python between their steps.
 
 Friction is MuJoCo's own, by load; pressures are the controls of actuators, in Pa, of chambers at
 constant pressure. What the loop of mjsim does besides is left out: the outermost pads keep the
@@ -21,15 +21,15 @@ from mjsim.files.assets import MODELS
 from mjsim.files.files import whole
 from mjsim.model.builder import scene_spec
 from mjsim.model.parts import PALE, PREFIX
-from mjsim.model.standalone_limbs import ROUNDED_INERTIA, spec_in_space
+from mjsim.model.standalone_limbs import allow_rounding, spec_in_space
 from mjsim.scene import Numerics, Resolved, Scene, resolved
 
 TEXTURES = "textures"
-_DARKER = 0.86  # every other segment, so that they can be told apart
+_DARKER = 0.86  # every second segment, so that they can be distinguished
 
 
 def walking_scene(scene: Scene) -> Scene:
-    """The same scene with what MuJoCo does alone: friction by load, actuated chambers.
+    """Scene with what MuJoCo does alone: friction by load, actuated chambers.
 
     A surface without coefficients gets those with which a tip resists by its part of the tip force,
     and a side as that of a whole segment or leg does. For a strip an end carries half the weight;
@@ -79,11 +79,11 @@ def _spec_of_strip(scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
         actuator.ctrllimited = int(mujoco.mjtLimited.mjLIMITED_TRUE)
     for end in ("left", "right"):
         site = f"{PREFIX}end_{end}"
-        for name, kind in (("position", mujoco.mjtSensor.mjSENS_FRAMEPOS),
+        for name, sensor in (("position", mujoco.mjtSensor.mjSENS_FRAMEPOS),
                            ("velocity", mujoco.mjtSensor.mjSENS_FRAMELINVEL),
                            ("load", mujoco.mjtSensor.mjSENS_TOUCH)):  # fmt: skip
             spec.add_sensor(
-                name=f"{end}_{name}", type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=site
+                name=f"{end}_{name}", type=sensor, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=site
             )
     return spec
 
@@ -108,7 +108,7 @@ def write(scene: Scene, path: Path, numerics: Numerics | None = None) -> None:
 
 
 def _show_links(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
-    """A box a link, to look at."""
+    """Add one box per link, to look at."""
     robot = scene.strip
     lengths = link_lengths(robot, numerics.links)
     segment = segment_overlap(robot.borders, numerics.links).argmax(axis=1)
@@ -123,12 +123,10 @@ def _show_links(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
 
 
 def _actuate_balls(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
-    """A motor a ball joint, whose control is the pressure of its chamber."""
+    """Add one motor per ball joint, whose control is the pressure of its chamber."""
     robot = scene.strip
     bend = pneunet.curvature_per_pressure(robot) * pneunet.base_rigidity(robot)
-    for body in spec.bodies:
-        if body.explicitinertial:
-            body.inertia[2] *= ROUNDED_INERTIA
+    allow_rounding(spec)
     joints = [joint for joint in spec.joints if joint.name.startswith(f"{PREFIX}ball_")]
     for number, joint in enumerate(joints, start=1):
         motor = spec.add_actuator(name=f"{PREFIX}chamber_{number}", target=joint.name)

@@ -47,7 +47,7 @@ def confirm(objective: Objective, gait: Gait, surface: Surface) -> Confirmation:
     scene = replace(objective.scene, gait=gait, ground=surface)
     searched = objective.sign * objective.sure(scene.robot, gait, [surface])[0]
     try:
-        predicted = float(reference(scene).displacement[0])
+        predicted = float(reference(scene, objective.numerics).displacement[0])
     except ValueError:
         predicted = math.nan
     mujoco, status = _simulated(scene)

@@ -47,6 +47,7 @@ class Objective:
         backward: whether displacements to -x count.
         model: mujoco, coarse, or one of the quasi-static solvers.
         states: of a quasi-static solver in a ramp from no pressure to the peak.
+        numerics: whose links a reference in space takes, see mjsim.results.prediction.
     """
 
     scene: Scene
@@ -55,6 +56,7 @@ class Objective:
     backward: bool = False
     model: str = "elastica"
     states: int = 10
+    numerics: Numerics | None = None
 
     @property
     def sign(self) -> float:

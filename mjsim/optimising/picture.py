@@ -28,7 +28,7 @@ def draw(best: Gait, start: Gait, history: Sequence[Generation], path: Path) -> 
         panel.set_title(f"{name}: pressures, first chamber on top", fontsize=9)
         panel.set_xlabel("s")
         panel.set_yticks([])
-    course.plot([g.evaluations for g in history], [g.worth for g in history], label="best")
+    course.plot([g.evaluations for g in history], [g.value for g in history], label="best")
     course.plot([g.evaluations for g in history], [g.median for g in history], lw=0.8,
                 label="median of the generation")  # fmt: skip
     course.set_xlabel("evaluations")

@@ -25,13 +25,13 @@ class Generation(NamedTuple):
     Attributes:
         evaluations: number so far.
         best: gait of the largest objective so far.
-        worth: objective of the best gait.
+        value: objective of the best gait.
         median: of the objectives of this generation.
     """
 
     evaluations: int
     best: Gait
-    worth: float
+    value: float
     median: float
 
 

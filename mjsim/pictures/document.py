@@ -1,4 +1,4 @@
-"""The page put together: words, numbers, video, charts, scene and origin; nothing from outside."""
+"""Page of walks: words, numbers, video, charts, scene and origin; nothing from outside."""
 
 import base64
 import json
@@ -10,16 +10,23 @@ from typing import Any, NamedTuple
 import plotly.io
 from plotly.offline import get_plotlyjs
 
+from mjsim.files.text_table import Column
 from mjsim.files.written import as_tables, as_toml
-from mjsim.pictures import limb_charts, page_charts
+from mjsim.pictures import limb_charts, strip_charts
 from mjsim.results.trajectory import Trajectory
 
 _HERE = Path(__file__).parent
-_NONE = "–"
+COLUMNS = (
+    Column("run", "run"), Column("Δ/L a cycle", "displacement_over_L", "+.4f"),
+    Column("mm/s", "mm_per_s", "+.2f"), Column("theory", "predicted_displacement_over_L", "+.4f"),
+    Column("±", "prediction_uncertainty_over_L", ".4f"), Column("error", "error_over_L", "+.4f"),
+    Column("turn [°]", "turn_deg", "+.2f"), Column("height/L", "amplitude_over_L", ".3f"),
+    Column("status", "status"),
+)  # fmt: skip
 
 
 class Entry(NamedTuple):
-    """One walk of the page.
+    """A walk of the page.
 
     Attributes:
         name: of its file.
@@ -52,21 +59,13 @@ def page(entries: Sequence[Entry]) -> str:
 
 
 def _table(entries: Sequence[Entry]) -> str:
-    head = ("run", "Δ/L a cycle", "mm/s", "theory", "±", "error", "turn [°]", "height/L", "status")
     rows = []
     for entry in entries:
-        row = entry.record
-        speed = row["speed_m_per_s"]
-        cells = (
-            escape(entry.name), _signed(row["displacement_over_L"]),
-            _signed(None if speed is None else 1e3 * speed, 2),
-            _signed(row["predicted_displacement_over_L"]),
-            _plain(row["prediction_uncertainty_over_L"]), _signed(row["error_over_L"]),
-            _signed(row.get("turn_deg"), 2), _plain(row.get("amplitude_over_L"), 3),
-            escape(row["status"]),
-        )  # fmt: skip
-        rows.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
-    heads = "".join(f"<th>{cell}</th>" for cell in head)
+        speed = entry.record["speed_m_per_s"]
+        values = {**entry.record, "run": entry.name, "mm_per_s": speed and 1e3 * speed}
+        cells = "".join(f"<td>{escape(column.cell(values))}</td>" for column in COLUMNS)
+        rows.append(f"<tr>{cells}</tr>")
+    heads = "".join(f"<th>{column.head}</th>" for column in COLUMNS)
     return (
         f"<div class='scroll'><table><thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}"
         "</tbody></table></div><p class='note'>Displacement per cycle over the length L: of a "
@@ -84,11 +83,12 @@ def _section(entry: Entry) -> str:
         data = base64.b64encode(entry.video).decode("ascii")
         video = (f"<video controls loop muted playsinline preload='auto' "
                  f"src='data:video/mp4;base64,{data}'></video>")  # fmt: skip
+    charts = limb_charts if entry.walk.scene.in_space else strip_charts
     origin = {key: entry.origin.get(key) for key in ("versions", "commit")}
     parts = [
         f"<section><h2>{escape(entry.name)}</h2><p>{escape(_sentence(row))}</p>",
         *(f"<p class='note'>{escape(text)}</p>" for text in remarks), video,
-        *map(_chart, _charts(entry.walk)),
+        _chart(charts.shapes(entry.walk)), _chart(charts.course(entry.walk)),
         f"<h3>Scene</h3><pre>{escape(_toml(entry.walk))}</pre>",
         f"<h3>Origin</h3><pre>{escape(json.dumps(origin, indent=2))}</pre></section>",
     ]  # fmt: skip
@@ -96,20 +96,13 @@ def _section(entry: Entry) -> str:
 
 
 def _sentence(row: dict[str, Any]) -> str:
-    """What became of the walk, in words."""
+    """Result of the walk, in words."""
     gait = f"Gait {row['gait']} on {row['surface']}"
     shift = row["displacement_over_L"]
     if shift is None:
         return f"{gait}: {row['status']}, so there is no distance."
     way = "no direction" if row["direction"] == "none" else f"walks {row['direction']}"
     return f"{gait}: {way}, {1e3 * row['displacement_m']:+.2f} mm = {shift:+.4f} L a cycle."
-
-
-def _charts(walk: Trajectory) -> tuple[Any, Any]:
-    """Its shapes by a slider, and its course over time."""
-    if walk.scene.in_space:
-        return limb_charts.shapes(walk), limb_charts.course(walk)
-    return page_charts.shapes(walk), page_charts.course(walk)
 
 
 def _chart(figure: Any) -> str:
@@ -124,11 +117,3 @@ def _toml(walk: Trajectory) -> str:
         return as_toml(as_tables(walk.scene, walk.numerics))
     except ValueError as error:  # a ground of somebody's own
         return f"# {error}"
-
-
-def _signed(value: float | None, places: int = 4) -> str:
-    return _NONE if value is None else f"{value:+.{places}f}"
-
-
-def _plain(value: float | None, places: int = 4) -> str:
-    return _NONE if value is None else f"{value:.{places}f}"

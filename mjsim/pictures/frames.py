@@ -11,11 +11,11 @@ LEAD, TAIL = 0.5, 1.0  # s of stillness before and after the walk
 _LONGEST = 10.0  # s of a video of a robot of limbs; slower walks are shown faster
 
 
-def frame_times(last: float, faster: float = 1.0) -> Times:
-    """Times in a walk that ends at `last` of a video's frames, so many times as fast, (F,) [s]."""
-    return faster * np.arange(-LEAD, last / faster + TAIL, 1 / FPS)
+def frame_times(end: float, faster: float = 1.0) -> Times:
+    """Times [s] of the frames, (F,), of a walk that ends at a time, so many times as fast."""
+    return faster * np.arange(-LEAD, end / faster + TAIL, 1 / FPS)
 
 
-def how_much_faster(last: float) -> float:
-    """Times that a walk which ends at `last` [s] is shown faster than it was, to be short."""
-    return max(1.0, float(np.ceil(last / _LONGEST)))
+def how_much_faster(end: float) -> float:
+    """Speed of the video over that of a walk which ends at a time [s], so that it is short."""
+    return max(1.0, float(np.ceil(end / _LONGEST)))

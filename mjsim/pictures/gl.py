@@ -1,4 +1,4 @@
-"""Which OpenGL backend renders without a screen: EGL, else OSMesa, else none.
+"""OpenGL backend that renders without a screen: EGL, else OSMesa, else none.
 
 MuJoCo reads MUJOCO_GL once, when it is imported, and has no fallback; a backend whose library is
 there can still fail at the first context. So `find_backend` tries each one in a child process
@@ -39,7 +39,7 @@ def prepare() -> None:
 
 
 def renders(backend: str) -> bool:
-    """Whether a child process can render one frame with this backend."""
+    """True if a child process can render one frame with this backend."""
     environment = {**os.environ, VARIABLE: backend}
     environment.pop("PYOPENGL_PLATFORM", None)
     try:

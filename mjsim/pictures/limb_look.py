@@ -1,4 +1,4 @@
-"""What a robot of limbs looks like on its ground, from its side and from above."""
+"""Looks of a robot of limbs on its ground, from its side and from above."""
 
 from collections.abc import Callable
 
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from analytic.scene.limbs import plan
 from analytic.scene.robot import Robot
-from mjsim.model.limb_skins import CAMERA, add_camera, add_skins
+from mjsim.model.limb_skins import add_camera, add_skins
 from mjsim.model.limbs import limbed, tree_spec
 from mjsim.model.stage import stage
 from mjsim.pictures.look import Look
@@ -17,13 +17,12 @@ from mjsim.scene import Resolved, Scene
 Array = NDArray[np.float64]
 
 OVERHEAD = "overhead"
-_MARGIN = 0.25  # of the length that the robot may go before the camera follows
 _THICKER = 0.15  # of its height, that a limb at full pressure looks thicker by; chosen
-_HIGH, _WIDE = 3.0, 16.0  # of the one straight above [L, degrees]
+_HIGH, _WIDE = 3.0, 16.0  # of the camera straight above: height and field [L, degrees]
 
 
 class LimbLook(Look):
-    """Looks of a robot of limbs, which its cameras follow; see mjsim.pictures.looks.look."""
+    """Looks of a robot of limbs; see mjsim.pictures.camera.look."""
 
     def __init__(
         self, scene: Scene, numerics: Resolved, reach: float,
@@ -38,23 +37,15 @@ class LimbLook(Look):
         _add_overhead(spec, scene)
         if more:
             more(spec)
-        super().__init__(spec)
+        super().__init__(spec, scene)
         self.model.stat.extent *= robot.length / Robot.length
-        for i in range(self.model.ngeom):
-            if self.model.geom(i).name.startswith("surface"):
-                self.model.geom_size[i, :2] = np.maximum(self.model.geom_size[i, :2], reach)
+        sizes = self.model.geom_size
+        sizes[self.grounds, :2] = np.maximum(sizes[self.grounds, :2], reach)
         strips = [limb.strip for limb in robot.limbs for _ in limb.strip.segments]
         self._thickness = [strip.thickness + strip.chamber_height for strip in strips]
-        self._length = robot.length
-        self._cameras = [self.model.camera(name).id for name in (CAMERA, OVERHEAD)]
-        self._from = self.model.cam_pos[self._cameras, :2].copy()
 
     def pose(self, position: Array, coordinates: Array, fractions: Array) -> None:
-        """See Look.pose; chambers look thicker as they fill, and the cameras follow."""
-        gone = coordinates[:2]
-        self.model.cam_pos[self._cameras, :2] = self._from + np.sign(gone) * np.maximum(
-            np.abs(gone) - _MARGIN * self._length, 0.0
-        )
+        """Pose as Look.pose does; chambers look thicker as they fill."""
         self.model.skin_inflate[:] = _THICKER * fractions * self._thickness
         super().pose(position, coordinates, fractions)
 

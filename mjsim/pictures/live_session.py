@@ -24,7 +24,7 @@ class Session:
 
     Attributes:
         simulation: the stepper.
-        seen: what there was to see after the last step.
+        seen: observation after the last step.
         playing: whether the gait commands the valves.
         clock: how much of the gait has been played [s].
         valves: commanded pressures, (S,) [Pa].
@@ -43,7 +43,7 @@ class Session:
 
     @property
     def scene(self) -> Scene:
-        """What is being played."""
+        """Scene that is played."""
         return self.simulation.scene
 
     @property
@@ -54,7 +54,7 @@ class Session:
         return float(gone @ ahead) / self.scene.robot.length
 
     def gait_at(self, time: float) -> Array:
-        """What the gait commands, over and over, (S,) [Pa]."""
+        """Pressures that the gait commands, over and over, (S,) [Pa]."""
         gait = self.scene.gait
         (fractions,) = gait.fractions(np.array([time % gait.period]))
         return np.asarray(self.scene.robot.peak_pressure * fractions)
@@ -69,7 +69,7 @@ class Session:
         self.playing = False
 
     def advance(self, seconds: float) -> Observation:
-        """Go on for so long, in whole steps; what is left over is made up for later."""
+        """Go on for so long [s], in whole steps; the rest is made up for later."""
         dt = self.simulation.numerics.timestep
         self._owed += seconds
         for _ in range(int(self._owed / dt + 1e-9)):
@@ -81,12 +81,12 @@ class Session:
         return self.seen
 
     def restart(self) -> None:
-        """From rest, with the gait."""
+        """Begin again from rest, with the gait."""
         self.simulation.reset()
         self._begin()
 
     def move_to(self, ground: Ground) -> None:
-        """From rest on other ground.
+        """Begin again from rest on another ground.
 
         Raises:
             ValueError: the scene cannot be had there.
@@ -95,7 +95,7 @@ class Session:
         self._begin()
 
     def words(self) -> Sequence[tuple[str, str]]:
-        """What is to be told, a name and a value a line."""
+        """State in words, one name and one value per line."""
         gait = f"{self.scene.gait.name}, {'plays' if self.playing else 'by hand'}"
         pressures = " ".join(f"{1e-3 * p:.0f}" for p in self.seen.pressure)
         return (

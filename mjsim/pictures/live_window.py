@@ -1,7 +1,7 @@
-"""A session in MuJoCo's viewer: a slider a chamber and one for the ground, on the right.
+"""A session in MuJoCo's viewer: one slider per chamber and one for the ground, on the right.
 
-Physics and picture are two models: what is shown is posed, and its actuators, which push nothing,
-are the sliders.
+Physics and picture are two models: the picture is posed, and its actuators, which push nothing, are
+the sliders.
 """
 
 import threading
@@ -16,21 +16,21 @@ import numpy as np
 from analytic.scene.ground import Patches
 from analytic.scene.surface import SURFACES, Ground
 from mjsim.model.parts import PREFIX
+from mjsim.pictures.camera import hide_aids, look
 from mjsim.pictures.live_session import Session
 from mjsim.pictures.look import Look
-from mjsim.pictures.looks import look
 
 SPACE, BACKSPACE = 32, 259  # codes of GLFW
 _FRAME = 1 / 60  # s
 _PATIENCE = 10.0  # s that a window is given to close
 _LATEST = 0.1  # s of real time that are made up for after a hitch
 _REACH = 20.0  # lengths of the robot that the ground is shown to either side
-_MOVED = 1e-3  # of a slider: less is rounding
+_MOVED = 1e-3  # change of a slider below which it is rounding
 _KILO = 1e3
 
 
 class Shown(NamedTuple):
-    """What a session in a window came to.
+    """Figures of a session in a window.
 
     Attributes:
         frames: how many were drawn.
@@ -70,17 +70,17 @@ class _Window:
         shown_look, session = self._look, self._session
         self._pose()
         frames, simulated = 0, 0.0
-        others = set(threading.enumerate())
+        threads = set(threading.enumerate())
         with mujoco.viewer.launch_passive(
             shown_look.model, shown_look.data, key_callback=self._keys.append, show_left_ui=False
         ) as viewer:
             self._aim(viewer)
-            opened = last = clock.perf_counter()
+            opened = previous = clock.perf_counter()
             while viewer.is_running():
-                now = clock.perf_counter()
-                if seconds is not None and now - opened > seconds:
+                begun = clock.perf_counter()
+                if seconds is not None and begun - opened > seconds:
                     break
-                passed, last = min(now - last, _LATEST) * speed, now
+                passed, previous = min(begun - previous, _LATEST) * speed, begun
                 self._obey(viewer)
                 session.advance(passed)
                 simulated += passed
@@ -90,9 +90,9 @@ class _Window:
                 viewer.set_texts(self._texts())
                 viewer.sync()
                 frames += 1
-                clock.sleep(max(0.0, _FRAME - (clock.perf_counter() - now)))
+                clock.sleep(max(0.0, _FRAME - (clock.perf_counter() - begun)))
             shown = Shown(frames, clock.perf_counter() - opened, simulated)
-        for thread in set(threading.enumerate()) - others:
+        for thread in set(threading.enumerate()) - threads:
             thread.join(_PATIENCE)  # while it draws a last frame its window must be there
         return shown
 
@@ -140,20 +140,19 @@ class _Window:
 
     def _dress(self, viewer: Any) -> None:
         """Give the ground that is shown the looks of another one of the same build."""
-        other, model = self._looks_of(self._choices[self._chosen]).model, self._look.model
+        dressed, model = self._looks_of(self._choices[self._chosen]).model, self._look.model
         with viewer.lock():
             for name in ("mat_rgba", "mat_specular", "mat_shininess", "mat_reflectance",
                          "mat_texrepeat", "geom_pos", "geom_size", "geom_rgba",
                          "tex_data"):  # fmt: skip
-                getattr(model, name)[:] = getattr(other, name)
+                getattr(model, name)[:] = getattr(dressed, name)
         for texture in range(model.ntex):
             viewer.update_texture(texture)
 
     def _aim(self, viewer: Any) -> None:
         length = self._session.scene.robot.length
         with viewer.lock():
-            viewer.opt.geomgroup[3] = 0  # contact pads
-            viewer.opt.flags[mujoco.mjtVisFlag.mjVIS_TENDON] = 0
+            hide_aids(viewer.opt)
             camera = viewer.cam
             middle = self._session.simulation.nodes()[..., :2].reshape(-1, 2).mean(axis=0)
             camera.lookat[:] = *middle, 0.1 * length
@@ -174,7 +173,7 @@ class _Window:
 
 
 def grounds(first: Ground) -> list[Ground]:
-    """Those to choose from: the scene's own, then the named ones; patches stand alone."""
+    """Grounds to choose from: the scene's own, then the named ones; patches stand alone."""
     if isinstance(first, Patches):
         return [first]
     return [first, *(ground for name, ground in SURFACES.items() if name != first.name)]

@@ -1,4 +1,4 @@
-"""One picture that shows which way each walk went: start and end of the cycle, side by side."""
+"""Pictures that tell a walk at once: which way strips went, and four stages of a gait."""
 
 from collections.abc import Sequence
 
@@ -6,23 +6,24 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from analytic.locomotion import direction
+from mjsim.pictures.frames import HEIGHT, WIDTH
 from mjsim.pictures.overlay import BLUE, INK, font
-from mjsim.pictures.recording import pictures
+from mjsim.pictures.recording import pictures, written
 from mjsim.results.trajectory import Trajectory
 
-_ROWS = (400, 600)  # lines of a frame that hold a strip lying flat, and the ruler
+_ROWS = slice(400, 600)  # lines of a frame with a strip that lies flat, and the ruler
 _HEAD = 46  # lines above each walk for its words
 _WORDS = {"none": "stands still", "forward": "walks forward", "backward": "walks back"}
-_FAINT = 0.45  # how far the start fades into the end
+_START = 0.45  # part of the start in the mixture with the end
 
 
 def poster(walks: Sequence[Trajectory]) -> Image.Image:
-    """A band a walk: where the strip lay (faint) and where it lies after the cycles."""
+    """One band per walk: where the strip lay (pale) and where it lies after the cycles."""
     bands = []
     for walk in walks:
         ends = np.array([0.0, walk.time[-1]])
-        (start, _), (end, _) = ((frame.copy(), step) for frame, step in pictures(walk, ends))
-        mixed = (_FAINT * start[slice(*_ROWS)] + (1 - _FAINT) * end[slice(*_ROWS)]).astype(np.uint8)
+        start, end = (frame[_ROWS] for frame, _ in pictures(walk, ends))
+        mixed = (_START * start + (1 - _START) * end).astype(np.uint8)
         head = np.full((_HEAD, mixed.shape[1], 3), 255, np.uint8)
         picture = Image.fromarray(np.concatenate([head, mixed]))
         pen = ImageDraw.Draw(picture)
@@ -34,3 +35,10 @@ def poster(walks: Sequence[Trajectory]) -> Image.Image:
                  font=font(26), fill=BLUE, anchor="ra")  # fmt: skip
         bands.append(np.asarray(picture))
     return Image.fromarray(np.concatenate(bands))
+
+
+def stages(walk: Trajectory) -> Image.Image:
+    """Four stages of the gait of a robot of limbs, in the order of reading."""
+    frames = written(walk, np.cumsum(walk.scene.gait.ramp_times)[:4])
+    rows = [np.hstack(frames[i : i + 2]) for i in (0, 2)]
+    return Image.fromarray(np.vstack(rows)).resize((WIDTH, HEIGHT))

@@ -19,9 +19,13 @@ import numpy as np
 
 from mjsim.files.files import whole
 from mjsim.pictures.frames import FPS, HEIGHT, WIDTH, Frame, Times, frame_times, how_much_faster
+from mjsim.pictures.limb_film import LimbCamera
+from mjsim.pictures.limb_overlay import LimbOverlay
+from mjsim.pictures.overlay import Overlay, StripOverlay
+from mjsim.pictures.render import Camera
 from mjsim.results.trajectory import Trajectory
 
-BAND = (148, 568)  # lines of a frame that a band shows, of 720, between the sky and the slab
+_BAND = slice(148, 568)  # lines of a frame that a band shows, between the sky and the slab
 _QUALITY, _IN_SPACE = 27, 31  # x264's constant rate factor: 12 s stay under 500 KB
 _BAND_QUALITY = 12  # of bands, which are encoded once more
 _BAND_SCALE = 1.1  # of letters in a band
@@ -43,10 +47,10 @@ def film(walks: Sequence[Trajectory], paths: Sequence[Path], joint: Path | None 
     """
     if not walks:
         return
-    last = max(float(walk.time[-1]) for walk in walks)
+    until = max(float(walk.time[-1]) for walk in walks)
     with tempfile.TemporaryDirectory() as folder:
         bands = [Path(folder) / f"{i}.mp4" if joint else None for i in range(len(walks))]
-        jobs = list(zip(walks, paths, bands, [last] * len(walks), strict=True))
+        jobs = list(zip(walks, paths, bands, [until] * len(walks), strict=True))
         # never in this process, which may have imported mujoco without OpenGL
         context = multiprocessing.get_context("spawn")
         workers = min(len(walks), os.cpu_count() or 1)
@@ -64,61 +68,52 @@ def write_video(walk: Trajectory, path: Path) -> int:
 
 def pictures(walk: Trajectory, times: Times) -> Iterator[tuple[Frame, int]]:
     """Pictures of a walk without anything written on them, and the step that each shows."""
-    from mjsim.pictures.render import Camera
-
     shown, frame = -1, np.empty(0, np.uint8)
-    with Camera(walk, WIDTH, HEIGHT) as camera:
+    in_space = walk.scene.in_space
+    with LimbCamera(walk) if in_space else Camera(walk, WIDTH, HEIGHT) as camera:
         for time in times:
             step = int(np.clip(np.searchsorted(walk.time, time), 0, len(walk.time) - 1))
             step = max(step, walk.start)  # still until the first cycle
             if step != shown:
-                shown, frame = step, camera.frame(step).copy()
+                shown, frame = step, camera.frame(step)
             yield frame, step
 
 
-def band_of(frame: Frame) -> Frame:
-    """The lines of a frame that a band shows, with room for letters above the strip."""
-    low, high = (line * len(frame) // HEIGHT // 2 * 2 for line in BAND)
-    return frame[low:high]
+def written(walk: Trajectory, times: Times) -> list[Frame]:
+    """Pictures of a walk with the state written on them."""
+    overlay = overlay_of(walk)
+    return [overlay.draw(frame, step) for frame, step in pictures(walk, times)]
 
 
-def _draw(walk: Trajectory, path: Path, band: Path | None, last: float) -> int:
-    """Write the video of a walk, shown until `last` [s], and its band; the number of frames."""
+def overlay_of(walk: Trajectory, scale: float = 1.0, faster: float = 1.0) -> Overlay:
+    """The overlay of a walk, by the kind of its robot; see mjsim.pictures.overlay.Overlay."""
+    kind = LimbOverlay if walk.scene.in_space else StripOverlay
+    return kind(walk, scale, faster)
+
+
+def _draw(walk: Trajectory, path: Path, band: Path | None, until: float) -> int:
+    """Write the video of a walk, shown until a time [s], and its band; the number of frames."""
     import mediapy
 
     mediapy.set_ffmpeg(imageio_ffmpeg.get_ffmpeg_exe())
-    in_space, faster = walk.scene.in_space, 1.0
-    if in_space:
-        last = float(walk.time[-1])
-        faster = how_much_faster(last)
-    times = frame_times(last, faster)
+    in_space, duration = walk.scene.in_space, float(walk.time[-1])
+    faster = how_much_faster(duration) if in_space else 1.0
+    times = frame_times(duration if in_space else until, faster)
+    overlay, small = overlay_of(walk, faster=faster), overlay_of(walk, _BAND_SCALE)
     with ExitStack() as stack, warnings.catch_warnings():
         warnings.simplefilter("ignore", ResourceWarning)  # mediapy leaves ffmpeg's pipes
+
+        def writer(part: Path, lines: int, quality: int) -> mediapy.VideoWriter:
+            video = mediapy.VideoWriter(part, (lines, WIDTH), fps=FPS, crf=quality)
+            return stack.enter_context(video)
+
         part = stack.enter_context(whole(path))
-        quality = _IN_SPACE if in_space else _QUALITY
-        video = stack.enter_context(
-            mediapy.VideoWriter(part, (HEIGHT, WIDTH), fps=FPS, crf=quality)
-        )
-        if in_space:
-            from mjsim.pictures.limb_film import LimbCamera
-
-            camera = stack.enter_context(LimbCamera(walk, faster))
-            for time in times:
-                video.add_image(camera.frame(float(time)))
-            return len(times)
-        from mjsim.pictures.overlay import Overlay
-
-        overlay, small = Overlay(walk, HEIGHT / 720), Overlay(walk, _BAND_SCALE * HEIGHT / 720)
-        narrow = None
-        if band:
-            shape = band_of(np.empty((HEIGHT, WIDTH, 3), np.uint8)).shape[:2]
-            narrow = stack.enter_context(
-                mediapy.VideoWriter(band, shape, fps=FPS, crf=_BAND_QUALITY)
-            )
+        video = writer(part, HEIGHT, _IN_SPACE if in_space else _QUALITY)
+        narrow = band and writer(band, _BAND.stop - _BAND.start, _BAND_QUALITY)
         for frame, step in pictures(walk, times):
             video.add_image(overlay.draw(frame, step))
             if narrow:
-                narrow.add_image(small.draw(band_of(frame), step))
+                narrow.add_image(small.draw(frame[_BAND], step))
     return len(times)
 
 

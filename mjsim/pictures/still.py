@@ -1,11 +1,11 @@
 """One picture at a time of a robot that goes on: what an environment shows."""
 
-import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mjsim.model.limb_skins import CAMERA
-from mjsim.pictures.looks import look
+from mjsim.pictures.camera import View, look
+from mjsim.pictures.frames import Frame
 from mjsim.scene import Numerics, Scene
 
 _REACH = 10.0  # lengths of ground that are shown; chosen
@@ -23,23 +23,16 @@ class Still:
         self, scene: Scene, numerics: Numerics, width: int = 480, height: int = 240
     ) -> None:
         self._look = look(scene, numerics, _REACH * scene.robot.length)
-        self._view = CAMERA if scene.in_space else "side"
-        self._camera_x = self._look.model.cam_pos[:, 0].copy()
-        self._options = mujoco.MjvOption()
-        mujoco.mjv_defaultOption(self._options)
-        self._options.geomgroup[3] = False  # contact pads
-        self._options.flags[mujoco.mjtVisFlag.mjVIS_TENDON] = False
-        self._renderer = mujoco.Renderer(self._look.model, height, width)
+        self._view = View(self._look, CAMERA if scene.in_space else "side", width, height)
 
     def draw(
         self, position: NDArray[np.float64], coordinates: NDArray[np.float64], fractions: ArrayLike
-    ) -> NDArray[np.uint8]:
+    ) -> Frame:
         """The robot as it is, see mjsim.pictures.look.Look.pose."""
-        self._look.model.cam_pos[:, 0] = self._camera_x + float(position[0, 0, 0])
         self._look.pose(position, coordinates, np.asarray(fractions, dtype=float))
-        self._renderer.update_scene(self._look.data, self._view, self._options)
-        return np.asarray(self._renderer.render())
+        self._view.update()
+        return self._view.render()
 
     def close(self) -> None:
         """Free the OpenGL context."""
-        self._renderer.close()
+        self._view.close()

@@ -1,4 +1,4 @@
-"""What a strip looks like on its ground, whatever its body, by its trace in the x-z plane."""
+"""Looks of a strip on its ground, of any body, by its trace in the x-z plane."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -21,11 +21,7 @@ _RULED = (0.08, 0.20)  # lengths of robots that the ruler suits [m]
 
 
 class StripLook(Look):
-    """Looks of a strip; see mjsim.pictures.looks.look.
-
-    Attributes:
-        scale: of the stage, 1 for the default robot.
-    """
+    """Looks of a strip; see mjsim.pictures.camera.look."""
 
     def __init__(
         self, scene: Scene, numerics: Resolved, reach: float,
@@ -40,8 +36,7 @@ class StripLook(Look):
         add_skins(spec, scene.strip, numerics)
         if more:
             more(spec)
-        super().__init__(spec)
-        self.scale = scene.strip.length / Robot.length
+        super().__init__(spec, scene)
         self._fit(scene, reach)
 
     def _bend(self, position: Array, coordinates: Array) -> None:
@@ -51,24 +46,29 @@ class StripLook(Look):
 
     def _fit(self, scene: Scene, reach: float) -> None:
         """Scale the stage to the robot, and stretch the ground to how far it goes."""
-        model, scale = self.model, self.scale
+        model, scale = self.model, scale_of(scene)
         model.stat.extent *= scale
         model.cam_pos[:] *= scale
+        self.cameras *= scale
         patched = isinstance(scene.ground, Patches)  # lengths along x are as they are
-        grounds = [name for name in (model.geom(i).name for i in range(model.ngeom))
-                   if name.startswith("surface")]  # fmt: skip
-        for name in (*grounds, "ruler", "start", "table"):
-            geom, x = model.geom(name).id, slice(1 if patched and name in grounds else 0, None)
-            model.geom_pos[geom, x] *= scale
-            model.geom_size[geom, x] *= scale
-            if name in grounds and not patched:
-                model.geom_size[geom, 0] = max(model.geom_size[geom, 0], reach)
+        ruler, start, table = (model.geom(name).id for name in ("ruler", "start", "table"))
+        for geom in (*self.grounds, ruler, start, table):
+            scaled = slice(1 if patched and geom in self.grounds else 0, None)
+            model.geom_pos[geom, scaled] *= scale
+            model.geom_size[geom, scaled] *= scale
+        if not patched:
+            along = model.geom_size[self.grounds, 0]
+            model.geom_size[self.grounds, 0] = np.maximum(along, reach)
         if not _RULED[0] <= scene.strip.length <= _RULED[1]:
-            model.geom_rgba[model.geom("ruler").id, 3] = 0.0
+            model.geom_rgba[ruler, 3] = 0.0
         else:  # its ticks are centimetres, whatever the robot's length
-            ruler = model.geom("ruler").id
             model.geom_pos[ruler, 0] /= scale
             model.geom_size[ruler, :2] /= scale
+
+
+def scale_of(scene: Scene) -> float:
+    """Scale of the stage of a strip, 1 for the default robot."""
+    return scene.strip.length / Robot.length
 
 
 def slopes_of(nodes: Array) -> Array:

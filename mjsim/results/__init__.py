@@ -1,1 +1,1 @@
-"""What a walk was: trajectory, measures, record, files, plots."""
+"""Results of a walk: trajectory, measures, record, files, plots."""

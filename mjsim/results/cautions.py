@@ -1,4 +1,4 @@
-"""What makes a distance unsure, from the scene's own numbers: one line each, beside the result."""
+"""Notes on what makes a distance unsure, from the numbers of the scene, one line each."""
 
 import math
 from dataclasses import replace
@@ -13,50 +13,52 @@ from analytic.scene.limbs import limbs_of
 from analytic.scene.surface import Surface
 from analytic.shapes import Flag
 from mjsim.model.limbs import longest_step
-from mjsim.results.measures import Measures
-from mjsim.results.prediction import displacement, prediction
+from mjsim.results.prediction import Reference, displacement, prediction
 from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Scene
 
-APART = 1e-3  # of the length: what differs by more is told apart; chosen
-NEARLY = 0.05  # bounds this near each other are nearly a tie, pressures this near nearly as high
-_MATTERS = 0.05  # part of the distance that inertia may be without a word; chosen
-_TURNED = 0.2  # degrees: less needs no word; chosen
+APART = 1e-3  # difference of displacements, over L, from which on they differ; chosen
+NEARLY = 0.05  # relative difference of nearly equal bounds, and of nearly equal pressures; chosen
+_MATTERS = 0.05  # part of the distance from which on inertia is noted; chosen
+_TURNED = 0.2  # error of the turn from which on it is noted [degrees]; chosen
 _ROUNDED = 1.01  # a step that was printed to two digits is short enough
 _FEET = 3  # that stand without falling, if a robot of limbs has so many
-_LINKS, _STATES = 30, 25  # that tell where the branch ends
+_LINKS, _STATES = 30, 25  # of the elastica that finds the end of the branch
 
 
-def cautions(
-    scene: Scene, numbers: Measures | None, prediction: Prediction, error: float | None,
-    bar: float | None,
-) -> list[str]:  # fmt: skip
-    """All of them, of a strip whose prediction is known.
+def cautions(walk: Trajectory, theory: Reference, row: dict[str, Any]) -> list[str]:
+    """Notes on a walk beside its reference.
 
     Args:
-        scene, numbers, prediction: the walk and its reference.
-        error: of the displacement per cycle over L against the reference; None if there is none.
-        bar: how sure the reference is, over L; None if that is not known.
+        walk, theory: the walk and its reference.
+        row: its record, see mjsim.results.record.
     """
+    if not isinstance(theory.walk, Prediction):
+        return _of_limbs(walk, row)
+    if row["predicted_displacement_over_L"] is None:
+        return []
+    numbers = (row["displacement_over_L"], row["error_over_L"])
     return [
-        *elsewhere(scene),
-        *_later(scene, prediction),
-        *inertia(
-            numbers.displacement if numbers else math.nan,
-            math.nan if error is None else error,
-            bar or 0.0,
-        ),
-        *_near_ties(scene, prediction),
-        *_near_end(scene, prediction),
-    ]
+        *between_ends(walk.scene),
+        *_later(walk.scene, theory.walk),
+        *(inertia(*numbers, row["prediction_uncertainty_over_L"] or 0.0)
+          if None not in numbers else []),
+        *_near_ties(walk.scene, theory.walk),
+        *near_end(walk.scene, theory.walk),
+    ]  # fmt: skip
 
 
 def tied(scene: Scene, prediction: Prediction, alike: float = 0.0) -> float:
-    """Displacement per cycle over L that hangs on bounds that are alike, or nearly so.
+    """Displacement per cycle over L that depends on contacts with equal, or nearly equal, bounds.
 
-    Coulomb friction leaves ties open, and where friction at rest is more than in sliding, the end
-    that happens to slide first goes on alone. The constant bounds of [Majidi13] decide them by
-    rule: there it is 0 for ties, and for near-ties what would change if the bounds were alike.
+    Coulomb friction leaves open which of two equal bounds yields, and where friction at rest is
+    more than in sliding, the end that happens to slide first goes on alone. The constant bounds of
+    [Majidi13] decide it by rule: there it is 0 for equal bounds, and for nearly equal ones the
+    change if they were equal.
+
+    Args:
+        scene, prediction: the scene and its reference.
+        alike: relative difference of nearly equal bounds; 0 for equal ones.
     """
     ground = scene.ground
     if scene.between or not isinstance(ground, Surface):
@@ -76,7 +78,7 @@ def _near_ties(scene: Scene, prediction: Prediction) -> list[str]:
 
 
 def _later(scene: Scene, prediction: Prediction) -> list[str]:
-    """Cycles after those walked, by theory."""
+    """A note on the cycles after those walked, by theory."""
     by_cycle = prediction.by_cycle / scene.strip.length
     if scene.cycles >= len(by_cycle) or not abs(by_cycle[-1] - by_cycle[0]) > APART:
         return []
@@ -84,67 +86,69 @@ def _later(scene: Scene, prediction: Prediction) -> list[str]:
 
 
 def inertia(displacement: float, error: float, bar: float) -> list[str]:
-    """How far the walk is from the reference, which has no inertia, if that is worth a word.
+    """Distance of the walk from the reference, which has no inertia, if it matters.
 
-    What the anchor rule does not explain (mjsim.results.measures) is a part of it: inertia also
-    moves who is the anchor, and then both ends keep the rule.
+    The part that the anchor rule does not explain (mjsim.results.measures) is a part of it: inertia
+    also moves who is the anchor, and then both ends keep the rule.
+
+    Args:
+        displacement: of the walk per cycle, over L.
+        error: its difference from the reference.
+        bar: uncertainty of the reference.
     """
     if not abs(error) > max(_MATTERS * abs(displacement), APART, bar):
         return []
     return [f"inertia moves it by about {abs(error):.3f} L: slower ramps are nearer to theory"]
 
 
-def _near_end(scene: Scene, prediction: Prediction) -> list[str]:
-    """Whether the stable branch ends at little more pressure."""
+def near_end(scene: Scene, prediction: Prediction) -> list[str]:
+    """A note where the stable branch ends at little more pressure."""
     if not np.isfinite(prediction.locomotion.per_cycle):
         return []
     robot = scene.strip
-    more = replace(robot, peak_pressure=(1 + NEARLY) * robot.peak_pressure)
-    path = more.peak_pressure * scene.gait.pressures(_STATES)
+    inflated = replace(robot, peak_pressure=(1 + NEARLY) * robot.peak_pressure)
+    path = inflated.peak_pressure * scene.gait.pressures(_STATES)
     links = max(_LINKS, 10 * len(robot.segments))
-    shapes = Elastica(links, scene.chamber).solve(more, path, scene.ground, Friction(), None)
+    shapes = Elastica(links, scene.chamber).solve(inflated, path, scene.ground, Friction(), None)
     flags = Flag(int(np.bitwise_or.reduce(shapes.status)))
-    for flag, what in ((Flag.BRANCH_END, "the stable branch ends"),
-                       (Flag.ROLLED_UP, "an end rolls up off the ground")):  # fmt: skip
+    for flag, event in ((Flag.BRANCH_END, "the stable branch ends"),
+                        (Flag.ROLLED_UP, "an end rolls up off the ground")):  # fmt: skip
         if flag & flags:
-            return [f"{what} within {NEARLY:.0%} more pressure"]
+            return [f"{event} within {NEARLY:.0%} more pressure"]
     return []
 
 
-def limb_cautions(walk: Trajectory, row: dict[str, Any]) -> list[str]:
-    """The same of a robot of limbs.
+def between_ends(scene: Scene) -> list[str]:
+    """A note on friction where a long robot touches the ground between its ends."""
+    if scene.contacts != "ends" or not scene.gait.dips():
+        return []
+    everywhere = replace(scene, contacts="all")
+    shift = displacement(everywhere, prediction(everywhere))
+    if not np.isfinite(shift):
+        return []
+    return [f"friction acts at the two ends alone; wherever it touches, {shift:+.4f} L"]
 
-    Args:
-        walk: it.
-        row: its record, see mjsim.results.record.
-    """
+
+def _of_limbs(walk: Trajectory, row: dict[str, Any]) -> list[str]:
+    """Notes on a robot of limbs: inertia, time step and limbs that stand."""
     notes = []
-    if row["error_over_L"] is not None:
-        far = row["predicted_displacement_over_L"]
-        off = math.hypot(row["error_over_L"], row["aside_over_L"] - row["predicted_aside_over_L"])
-        turned = abs(row["error_deg"])
-        bar = row["prediction_uncertainty_over_L"] or 0.0
-        much = off > max(_MATTERS * abs(far), 2 * APART) + bar
-        much |= turned > max(_TURNED + row["prediction_uncertainty_deg"],
-                             _MATTERS * abs(row["predicted_turn_deg"]))  # fmt: skip
-        if much:
-            notes.append("inertia: a slower gait comes closer to the reference")
+    if row["error_over_L"] is not None and _inertia_of_limbs(row):
+        notes.append("inertia: a slower gait comes closer to the reference")
     step = longest_step(walk.scene, walk.numerics)
     if walk.numerics.timestep > step * _ROUNDED:
         notes.append(f"limbs sink in too deep: take a timestep of at most {step:.2g} s")
     feet = min(_FEET, len(limbs_of(walk.scene.robot)))
-    standing = float(np.mean(walk.contacts[walk.start :] < feet))
-    if standing > 0:
-        notes.append(f"on {row['fewest_limbs_on_ground']} limbs for {standing:.0%} of the time")
+    part = float(np.mean(walk.contacts[walk.start :] < feet))
+    if part > 0:
+        notes.append(f"on {row['fewest_limbs_on_ground']} limbs for {part:.0%} of the time")
     return notes
 
 
-def elsewhere(scene: Scene) -> list[str]:
-    """What friction would do where a long robot touches the ground between its ends."""
-    if scene.contacts != "ends" or not scene.gait.dips():
-        return []
-    everywhere = replace(scene, contacts="all")
-    found = displacement(everywhere, prediction(everywhere))
-    if not np.isfinite(found):
-        return []
-    return [f"friction acts at the two ends alone; wherever it touches, {found:+.4f} L"]
+def _inertia_of_limbs(row: dict[str, Any]) -> bool:
+    """True where displacement or turn are off the reference by more than its uncertainty."""
+    off = math.hypot(row["error_over_L"], row["aside_over_L"] - row["predicted_aside_over_L"])
+    matters = max(_MATTERS * abs(row["predicted_displacement_over_L"]), 2 * APART)
+    turn = max(_TURNED + row["prediction_uncertainty_deg"],
+               _MATTERS * abs(row["predicted_turn_deg"]))  # fmt: skip
+    bar = row["prediction_uncertainty_over_L"] or 0.0
+    return bool(off > matters + bar or abs(row["error_deg"]) > turn)

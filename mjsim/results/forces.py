@@ -9,12 +9,12 @@ Array = NDArray[np.float64]
 
 
 class GroundForces(NamedTuple):
-    """What the ground did in each step, left end first.
+    """Forces of the ground in each step, left end first.
 
     Attributes:
         normal: push of the ground on each node, (T, N + 2) [N].
-        friction: along +x on each node, viscous resistance included, (T, N + 2) [N]. What holds a
-            side contact acts at the one node that stands for it.
+        friction: along +x on each node, viscous resistance included, (T, N + 2) [N]. Friction
+            of a side contact acts at the one node that stands for it.
     """
 
     normal: Array

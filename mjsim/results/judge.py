@@ -1,4 +1,4 @@
-"""How a recorded walk ended, by written criteria."""
+"""Status of a recorded walk, by written criteria."""
 
 from dataclasses import replace
 
@@ -37,7 +37,7 @@ def _status(walk: Trajectory, stopped: bool, unsettled: bool) -> Status:
     if not np.abs(walk.line[..., 1]).max() < _ASIDE * length:
         return Status.TURNED
     if slid(walk) > _SLID * length:
-        return Status.SLID  # whatever became of it on the way down
+        return Status.SLID  # also where it failed on the way down
     if stopped:
         return Status.TOPPLED
     return Status.UNSETTLED if unsettled else Status.OK

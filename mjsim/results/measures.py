@@ -1,4 +1,4 @@
-"""Numbers of one walk: how far, which way, how high, how straight, and what is unexplained."""
+"""Numbers of one walk: displacement, direction, height, turn and what is unexplained."""
 
 import math
 from itertools import pairwise
@@ -21,11 +21,11 @@ class Measures(NamedTuple):
     Attributes:
         displacement: ahead, of a strip's left end or the trunk's beginning, per cycle: in the last
             one on uniform ground, else their mean; see Trajectory.moved.
-        aside: the same to the left.
+        aside: displacement to the left.
         turn: of the robot to the left in the last cycle [rad].
         speed: displacement per time [m/s].
         by_cycle: displacement in each cycle; the first may differ where a gait starts inflated.
-        direction: of it, "none" below analytic.locomotion.STANDSTILL.
+        direction: of the displacement, "none" below analytic.locomotion.STANDSTILL.
         amplitude: greatest height of the strip, or of any limb.
         unexplained: displacement per cycle of a strip that the anchor rule does not account for;
             NaN where the ground resists by speed, and of a robot of limbs.
@@ -48,12 +48,12 @@ class Measures(NamedTuple):
 
 
 def measure(walk: Trajectory) -> Measures | None:
-    """Measures of a walk that ended well; None of one that did not, as it has none."""
+    """Measures of a walk that ended well; None of one that did not."""
     if walk.status is not Status.OK:
         return None
     scene, length = walk.scene, walk.scene.robot.length
     ends = walk.ends_of_cycles()
-    moves = np.array([walk.moved(one, two) for one, two in pairwise(ends.tolist())]) / length
+    moves = np.array([walk.moved(*pair) for pair in pairwise(ends.tolist())]) / length
     uniform = isinstance(scene.ground, Surface)
     counted = 1 if uniform else scene.cycles  # how many cycles the displacement is the mean of
     ahead, aside = moves[-counted:].mean(axis=0).tolist()
@@ -78,18 +78,18 @@ def measure(walk: Trajectory) -> Measures | None:
 def _ruled(walk: Trajectory, rows: NDArray[np.int_]) -> float:
     """Displacement of a strip's left end between two states by the anchor rule [m], or NaN.
 
-    What the rule does not explain is what inertia drags the anchored end along for want of
+    What the rule does not explain is the motion of the anchored end by inertia, for want of
     friction. It vanishes as the gait slows, and is a lower bound on the error of the displacement
     at finite speed.
     """
     if walk.scene.in_space or depends_on_speed(walk.scene.ground):
         return math.nan  # all contacts may slide, by their viscous resistance
-    first, last = rows.tolist()
-    steps = slice(first + 1, last + 1)
+    begin, end = rows.tolist()
+    steps = slice(begin + 1, end + 1)
     x, _ = walk.nodes()
-    ruled = -float(walk.left_slip_fraction[steps] @ np.diff(x[:, -1] - x[:, 0])[first:last])
+    ruled = -float(walk.left_slip_fraction[steps] @ np.diff(x[:, -1] - x[:, 0])[begin:end])
     if math.isnan(ruled):
-        travel = float(x[last, 0] - x[first, 0])
+        travel = float(x[end, 0] - x[begin, 0])
         ruled = travel - float(walk.drift[steps].sum()) * walk.numerics.timestep
     return ruled
 

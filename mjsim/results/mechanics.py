@@ -1,6 +1,6 @@
 """Curvature, moment, tension and energy along a walk, from its shapes and its ground forces.
 
-By the pneu-net laws of the robot alone: what a body of one's own adds to the strip is not in it.
+The laws are those of the pneu-nets; what the body of a plugin adds to the strip is not in them.
 """
 
 from typing import TYPE_CHECKING, NamedTuple
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 class Bending(NamedTuple):
-    """At each of N hinges after each step.
+    """Bending at each of N hinges, and its energies, after each step.
 
     Attributes:
         curvature: positive where the strip arches, (T, N) [1/m].
@@ -35,23 +35,23 @@ class Bending(NamedTuple):
 
 
 class Balance(NamedTuple):
-    """Inner forces and energies after each step, needs the ground's forces.
+    """Inner forces and energies after each step, from the ground's forces.
 
     Attributes:
         tension: along each of N + 1 links, by statics, (T, N + 1) [N].
         potential: energy of height, and of place on a slope, (T,) [J].
         kinetic: energy of motion, (T,) [J].
-        rubbed: that friction has taken since the first state, (T,) [J].
+        friction_loss: that friction has taken since the first state, (T,) [J].
     """
 
     tension: Array
     potential: Array
     kinetic: Array
-    rubbed: Array
+    friction_loss: Array
 
 
 def bending(walk: "Trajectory") -> Bending:
-    """Of every state, from the directions of the links."""
+    """Bending in every state, from the directions of the links."""
     robot, links = walk.scene.strip, walk.numerics.links
     element = robot.length / links
     turn = turns(walk)
@@ -71,7 +71,7 @@ def bending(walk: "Trajectory") -> Bending:
 
 
 def balance(walk: "Trajectory") -> Balance | None:
-    """Of every state; None where the ground's forces were not recorded."""
+    """Balance in every state; None where the ground's forces were not recorded."""
     if walk.forces is None:
         return None
     scene, dt = walk.scene, walk.numerics.timestep
@@ -84,15 +84,15 @@ def balance(walk: "Trajectory") -> Balance | None:
     pulled = np.cumsum(walk.forces.friction, axis=1)[:, :-1] - along * carried
     pushed = np.cumsum(walk.forces.normal, axis=1)[:, :-1] - down * carried
     velocity = np.diff(walk.line, axis=0, prepend=walk.line[:1]) / dt
-    one, two = velocity[:, :-1], velocity[:, 1:]
-    squares = (one * one + one * two + two * two).sum(axis=2) / 3  # of a thin rod
+    left, right = velocity[:, :-1], velocity[:, 1:]
+    squares = (left * left + left * right + right * right).sum(axis=2) / 3  # of a thin rod
     middle = 0.5 * (walk.line[:, :-1] + walk.line[:, 1:])
     slipped = np.diff(x, axis=0)
     return Balance(
         tension=-(pulled * np.cos(tangent) + pushed * np.sin(tangent)),
         potential=(middle[..., 2] * down + middle[..., 0] * along) @ weights,
         kinetic=0.5 * squares @ weights / scene.gravity,
-        rubbed=_since_start(-(walk.forces.friction[1:] * slipped).sum(axis=1)),
+        friction_loss=_since_start(-(walk.forces.friction[1:] * slipped).sum(axis=1)),
     )
 
 

@@ -32,7 +32,7 @@ _REFERENCE = (
 
 
 class Variable(NamedTuple):
-    """One of the file; a coordinate where its name is its only dimension."""
+    """Variable of the file; a coordinate where its name is its only dimension."""
 
     name: str
     dimensions: tuple[str, ...]
@@ -42,7 +42,7 @@ class Variable(NamedTuple):
 
 
 def variables(walk: "Trajectory") -> Iterator[Variable]:
-    """Coordinates, what was simulated, then what follows from it."""
+    """Coordinates, simulated quantities, then those that follow from them."""
     yield Variable("time", ("time",), walk.time, "s", "since the first cycle began")
     if walk.scene.in_space:
         yield from _limbs(walk)
@@ -66,7 +66,7 @@ def _named(words: Sequence[str]) -> NDArray[Any]:
 
 
 def _limbs(walk: "Trajectory") -> Iterator[Variable]:
-    """What a robot of limbs alone has."""
+    """Variables of a robot of limbs alone."""
     limbs, time = limbs_of(walk.scene.robot), ("time",)
     along = np.array([node_positions(limb.strip, walk.numerics.links) for limb in limbs])
     chambers = _named(walk.scene.robot.chambers)
@@ -81,7 +81,7 @@ def _limbs(walk: "Trajectory") -> Iterator[Variable]:
 
 
 def _strip(walk: "Trajectory") -> Iterator[Variable]:
-    """What a strip alone has."""
+    """Variables of a strip alone."""
     robot, links = walk.scene.strip, walk.numerics.links
     nodes, lengths = node_positions(robot, links), link_lengths(robot, links)
     for name, values, units, meaning in (
@@ -128,7 +128,7 @@ def _mechanics(walk: "Trajectory") -> Iterator[Variable]:
                    "along the links, by statics of what is left of them")  # fmt: skip
     yield Variable("potential_energy", time, balanced.potential, "J", "of weight")
     yield Variable("kinetic_energy", time, balanced.kinetic, "J", "of the links")
-    yield Variable("friction_dissipation", time, balanced.rubbed, "J",
+    yield Variable("friction_dissipation", time, balanced.friction_loss, "J",
                    "lost between strip and ground so far")  # fmt: skip
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mjsim.model.parts import DARK, PALE
+from mjsim.results.shades import shade
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _SHAPES = 7  # drawn where no times are given
-_LEFT, _RIGHT, _HELD = "#1a4dbf", "#c2571a", "#0a8232"
+_LEFT, _RIGHT, _ANCHORED = "#1a4dbf", "#c2571a", "#0a8232"
 
 
 class Plots:
-    """Of one walk; `walk.plot` makes it.
+    """Plots of one walk; `walk.plot` makes them.
 
     Args:
         walk: what to draw.
@@ -47,19 +47,13 @@ class Plots:
         x, z = 1e3 * np.array(walk.nodes())
         rows = [int(np.searchsorted(walk.time, time - 1e-9)) for time in chosen]
         apart = 1.15 * max(float(z[rows].max()), 0.05e3 * walk.scene.strip.length)
-        borders = np.asarray(walk.scene.strip.borders)
-        nodes = np.linspace(0.0, 1.0, walk.numerics.links + 2)
-        inside = np.clip(np.searchsorted(borders, 0.5 * (nodes[1:] + nodes[:-1])) - 1, 0, None)
-        fractions = np.clip(np.abs(walk.pressure) / walk.scene.strip.peak_pressure, 0.0, 1.0)
-        pale, dark = np.array(PALE), np.array(DARK)
+        fractions = walk.pressure / walk.scene.strip.peak_pressure
         for number, (row, time) in enumerate(zip(rows, chosen, strict=True)):
             up = -number * apart
             ax.axhline(up, color="0.85", lw=0.8, zorder=0)
-            for segment, fraction in enumerate(fractions[row]):
-                part = np.flatnonzero(inside == segment)
-                piece = slice(part[0], part[-1] + 2)
+            for piece, fraction in zip(segments(walk), fractions[row], strict=True):
                 ax.plot(x[row, piece], up + z[row, piece], lw=4, solid_capstyle="butt",
-                        color=tuple(pale + fraction * (dark - pale)))  # fmt: skip
+                        color=tuple(shade(fraction)))  # fmt: skip
             ax.annotate(f"{time:.3g} s", (1.0, up), xycoords=("axes fraction", "data"),
                         xytext=(4, 0), textcoords="offset points", va="center")  # fmt: skip
         ax.set_xmargin(0.1)
@@ -68,20 +62,19 @@ class Plots:
         return ax
 
     def track(self, ax: "Axes | None" = None) -> "Axes":
-        """How far both ends have gone since the first cycle began, over time."""
+        """Displacement of both ends since the first cycle began, over time."""
         walk, ax = self._walk, _axes(ax)
         x, _ = walk.nodes()
-        rows = slice(walk.start, None)
         for end, name, colour in ((0, "left end", _LEFT), (-1, "right end", _RIGHT)):
-            gone = 1e3 * (x[rows, end] - x[walk.start, end])
-            ax.plot(walk.time[rows], gone, color=colour, label=name)
+            gone = 1e3 * (x[walk.start :, end] - x[walk.start, end])
+            ax.plot(walk.time[walk.start :], gone, color=colour, label=name)
         ax.axhline(0.0, color="0.7", lw=0.8, zorder=0)
         ax.set(xlabel="time [s]", ylabel="displacement [mm]", title=walk.scene.ground.name)
         ax.legend(frameon=False)
         return ax
 
     def contacts(self, ax: "Axes | None" = None) -> "Axes":
-        """Which parts of the strip touch the ground over time; the end that stays in green.
+        """Contact of the parts of the strip with the ground over time; the end that stays in green.
 
         By the recorded push of the ground, else by height. Bands stand for the two ends.
         """
@@ -94,9 +87,9 @@ class Plots:
         ax.pcolormesh(np.append(time - 0.5 * dt, time[-1] + 0.5 * dt), s, touching.T,
                       cmap=ListedColormap(["white", "0.75"]), vmin=0, vmax=1,
                       rasterized=True)  # fmt: skip
-        for end, holds in ((0, 0.0), (-1, 1.0)):  # as bands, as a tip is only a point
-            held = walk.left_slip_fraction[rows] == holds
-            for chosen, colour in ((touching[:, end], "0.5"), (touching[:, end] & held, _HELD)):
+        for end in (0, -1):  # as bands, as a tip is only a point
+            stays = touching[:, end] & anchored(walk, end)[rows]
+            for chosen, colour in ((touching[:, end], "0.5"), (stays, _ANCHORED)):
                 ax.plot(time, np.where(chosen, s[end], np.nan), color=colour, lw=6,
                         solid_capstyle="butt")  # fmt: skip
         ax.margins(x=0)
@@ -104,8 +97,21 @@ class Plots:
         return ax
 
 
+def segments(walk: "Trajectory") -> list[slice]:
+    """Vertices of each segment, those at a border in both."""
+    middle = (np.arange(walk.numerics.links + 1) + 0.5) / (walk.numerics.links + 1)
+    inside = np.searchsorted(np.asarray(walk.scene.strip.borders)[1:-1], middle)
+    links = [np.flatnonzero(inside == i) for i in range(len(walk.scene.strip.segments))]
+    return [slice(int(part[0]), int(part[-1]) + 2) for part in links]
+
+
+def anchored(walk: "Trajectory", end: int) -> NDArray[np.bool_]:
+    """Truth of each step in which an end, 0 or -1, keeps its place by the anchor rule, (T,)."""
+    return np.asarray(walk.left_slip_fraction == (0.0 if end == 0 else 1.0))
+
+
 def touches(walk: "Trajectory") -> NDArray[np.bool_]:
-    """Whether each node touches the ground after each step, (T, N + 2)."""
+    """Contact of each node with the ground after each step, (T, N + 2)."""
     if walk.forces is not None:
         return np.asarray(walk.forces.normal > 0)
     return np.asarray(walk.line[..., 2] <= 1e-4 * walk.scene.strip.length)
@@ -124,5 +130,5 @@ def _axes(ax: Any) -> Any:
         return ax
     import matplotlib.pyplot as plt
 
-    _, made = plt.subplots(layout="constrained")
-    return made
+    _, axes = plt.subplots(layout="constrained")
+    return axes

@@ -1,4 +1,4 @@
-"""From a scene to its quasi-static reference and error bar: what every command prints."""
+"""Quasi-static reference of a scene and its error bar, which every command prints."""
 
 import math
 from dataclasses import replace
@@ -17,13 +17,13 @@ from mjsim.scene import Numerics, Resolved, Scene, resolved
 Array = NDArray[np.float64]
 
 STATES = 25  # of the reference in a ramp from no pressure to the peak
-WEAK = "weak friction"  # which bends nothing and only decides who slides
-_RESOLVED = 2e-4  # of the length: what no halving shows; then 51 of 53 random scenes hold
+WEAK = "weak friction"  # which bends nothing and only decides which end slides
+_RESOLVED = 2e-4  # error over L that no halving shows; with it 51 of 53 random scenes are within
 _LINKS, _LINKS_A_SEGMENT = 60, 24  # of the reference: contacts between the ends need finer links
 _PARTS, _PARTS_BETWEEN = 32, 8  # of increments in which contacts change, see analytic.prediction
-HALF = 0.5  # of links, states and parts: what the error bar compares with
+HALF = 0.5  # of links, states and parts, with which the error bar compares
 QUASI_STATIC = "quasi-static"  # the reference of robots of limbs
-LIMB_STATES = 20  # of it, in a change by the peak pressure
+LIMB_STATES = 20  # of the quasi-static reference, in a change by the peak pressure
 
 
 class Reference(NamedTuple):
@@ -34,7 +34,7 @@ class Reference(NamedTuple):
         displacement: ahead and to the left over L, (2,); NaN where there is none.
         turn: to the left [rad].
         by_cycle: displacement ahead in each cycle over L, (C,).
-        flags: names of what it met, and whether all its states converged.
+        flags: names of events on its path, and of states that did not converge.
         walk: all of its states.
     """
 
@@ -57,12 +57,12 @@ def reference(
     scene: Scene, numerics: Numerics | None = None, finer: float = 1.0, bent: bool = True,
     path: Array | None = None, times: Array | None = None,
 ) -> Reference:  # fmt: skip
-    """What the quasi-static reference of its robot makes of a scene.
+    """Quasi-static reference of a scene.
 
     Args:
         scene: robot, gait, ground, friction and chambers; not what MuJoCo alone needs.
         numerics: of the walk beside it, whose links per limb a reference in space takes.
-        finer: multiplies links and states; HALF of them are what an error bar compares with.
+        finer: multiplies links and states; an error bar compares with HALF of them.
         bent: whether friction bends the robot, else it is WEAK.
         path, times: pressures in the chambers to follow in place of the gait's, (B, S) [Pa], and
             when, (B,) [s].
@@ -92,20 +92,20 @@ def _of_limbs(
         bent, scene.chamber, path, times,
     )  # fmt: skip
     moves, turns = walk.by_cycle(cycles)
-    last = moves[-1] if isinstance(scene.ground, Surface) else moves.mean(axis=0)
+    move = moves[-1] if isinstance(scene.ground, Surface) else moves.mean(axis=0)
     flags = () if walk.converged else ("not_converged",)
     length = robot.length
-    return Reference(QUASI_STATIC, last / length, float(turns[-1]), moves[:, 0] / length, flags,
+    return Reference(QUASI_STATIC, move / length, float(turns[-1]), moves[:, 0] / length, flags,
                      walk)  # fmt: skip
 
 
 def error_bars(scene: Scene, fine: Reference, coarse: Reference) -> tuple[float | None, float]:
-    """What half the links and states change: of the displacement over L, and the turn [rad].
+    """Changes by half the links and states: of the displacement over L, and of the turn [rad].
 
     Args:
         scene: what is predicted.
         fine: its reference.
-        coarse: the same by HALF of everything.
+        coarse: the reference by HALF of everything.
     """
     change = float(np.hypot(*(fine.displacement - coarse.displacement)))
     resolves = 0.0 if scene.in_space else _RESOLVED
@@ -132,7 +132,7 @@ def prediction(
     path: ArrayLike | None = None,
     times: ArrayLike | None = None,
 ) -> Prediction:
-    """What a quasi-static solver makes of a scene.
+    """Prediction of a scene by a quasi-static solver.
 
     Every cycle is walked where they differ from each other, else one; two where a gait starts
     inflated, whose first cycle differs from those after.
@@ -166,9 +166,9 @@ def prediction(
     )  # fmt: skip
 
 
-def displacement(scene: Scene, found: Prediction) -> float:
+def displacement(scene: Scene, walk: Prediction) -> float:
     """Predicted displacement over L of the cycle that a walk of the scene is measured by."""
-    distance = found.locomotion.per_cycle
+    distance = walk.locomotion.per_cycle
     if isinstance(scene.ground, Surface):
-        distance = found.by_cycle[min(scene.cycles, found.cycles) - 1]
+        distance = walk.by_cycle[min(scene.cycles, walk.cycles) - 1]
     return float(distance / scene.strip.length)

@@ -1,4 +1,4 @@
-"""What a result was made from: versions, commit, resolved configuration."""
+"""Origin of a result: versions, commit, resolved configuration."""
 
 import os
 import platform
@@ -32,25 +32,25 @@ def origin() -> dict[str, Any]:
 
 @cache
 def signature() -> dict[str, Any]:
-    """The same as words for a table's columns, `versions` and `commit`."""
+    """Versions and commit as words for the columns of a table, `versions` and `commit`."""
     source = origin()
     versions = " ".join(f"{name}={version}" for name, version in source["versions"].items())
     return {"versions": versions, "commit": source["commit"] or ""}
 
 
 def machine() -> str:
-    """What kind of machine this is, in a few words."""
+    """Kind of this machine, in a few words."""
     return f"{platform.machine()} {platform.system()} {os.cpu_count()} cores"
 
 
 def provenance(scene: Scene, numerics: Numerics) -> dict[str, Any]:
-    """Plain data that says how to make a result again."""
+    """Plain data from which a result can be made again."""
     described = {field.name: _plain(getattr(scene, field.name)) for field in fields(scene)}
     return {**origin(), "scene": described, "numerics": asdict(numerics)}
 
 
 def _plain(value: Any) -> Any:
-    """A part of a scene as plain data; of a ground of one's own its name."""
+    """A part of a scene as plain data; of the ground of a plugin its name."""
     if is_dataclass(value) and not isinstance(value, type):
         return asdict(value)
     return value if isinstance(value, str | int | float) else value.name
@@ -92,10 +92,10 @@ def configuration(described: dict[str, Any]) -> tuple[Scene, Resolved]:
 def _made(kind: type[Kind], table: Any, name: str) -> Kind:
     if not isinstance(table, dict):
         raise ValueError(f"{name} {table!r} was not one of this program")
-    known = [field.name for field in fields(kind)]  # type: ignore[arg-type]
+    names = [field.name for field in fields(kind)]  # type: ignore[arg-type]
     for key in table:
-        if key not in known:
-            raise ValueError(f"key {key!r} of {name} is unknown; known are {', '.join(known)}")
+        if key not in names:
+            raise ValueError(f"key {key!r} of {name} is unknown; known are {', '.join(names)}")
     return kind(**{key: _frozen(value) for key, value in table.items()})
 
 

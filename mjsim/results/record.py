@@ -11,12 +11,12 @@ from analytic.prediction import Prediction
 from analytic.scene.limbs import limbs_of
 from mjsim.files.text_table import Column, text_table
 from mjsim.results import prediction
-from mjsim.results.cautions import APART, cautions, limb_cautions, tied
+from mjsim.results.cautions import APART, cautions, tied
 from mjsim.results.measures import measure, slid_over_length
 from mjsim.results.prediction import HALF, STATES, Reference, error_bars
 from mjsim.results.trajectory import Trajectory
 
-_OPEN = 1e-4  # of the length: less is a rounding
+_OPEN = 1e-4  # undecided displacement, over L, from which on it is printed; less is rounding
 
 
 def record(walk: Trajectory) -> dict[str, Any]:
@@ -24,12 +24,12 @@ def record(walk: Trajectory) -> dict[str, Any]:
     scene, numerics, length = walk.scene, walk.numerics, walk.scene.robot.length
     theory, numbers = reference(walk), measure(walk)
     ahead, aside = theory.displacement.tolist()
-    known = math.isfinite(ahead)
-    bar, turn_bar = error_bars(scene, theory, reference(walk, HALF)) if known else (None, 0.0)
-    error = numbers.displacement - ahead if numbers and known else None
+    predicted = math.isfinite(ahead)
+    bar, turn_bar = error_bars(scene, theory, reference(walk, HALF)) if predicted else (None, 0.0)
     simulated = float(len(walk.time) * numerics.timestep)
     shift = numbers and numbers.displacement
     turn = numbers and math.degrees(numbers.turn)
+    touching = walk.contacts[walk.start :]
     row: dict[str, Any] = {
         "surface": scene.ground.name,
         "robot": ", ".join(limb.name for limb in limbs_of(scene.robot)),
@@ -50,50 +50,42 @@ def record(walk: Trajectory) -> dict[str, Any]:
         "turn_deg": turn,
         "radius_over_L": _number(numbers and numbers.radius),
         "predicted_by": theory.name,
-        "predicted_displacement_over_L": ahead if known else None,
-        "predicted_by_cycle_over_L": theory.by_cycle.tolist() if known else None,
+        "predicted_displacement_over_L": _number(ahead),
+        "predicted_by_cycle_over_L": theory.by_cycle.tolist() if predicted else None,
         "prediction_uncertainty_over_L": bar,
-        "predicted_direction": direction(ahead, 1.0, bar or 0.0) if known else None,
-        "predicted_aside_over_L": aside if known else None,
-        "predicted_turn_deg": math.degrees(theory.turn) if known else None,
-        "prediction_uncertainty_deg": math.degrees(turn_bar) if known else None,
-        "prediction_undecided_over_L": _undecided(walk, theory) if known else None,
+        "predicted_direction": direction(ahead, 1.0, bar or 0.0) if predicted else None,
+        "predicted_aside_over_L": _number(aside),
+        "predicted_turn_deg": math.degrees(theory.turn) if predicted else None,
+        "prediction_uncertainty_deg": math.degrees(turn_bar) if predicted else None,
+        "prediction_undecided_over_L": _undecided(walk, theory) if predicted else None,
         "prediction_flags": [flag.upper() for flag in theory.flags],
         "prediction_notes": [],
-        "error_over_L": error,
-        "error_deg": None if turn is None or not known else turn - math.degrees(theory.turn),
+        "error_over_L": shift - ahead if shift is not None and predicted else None,
+        "error_deg": None if turn is None or not predicted else turn - math.degrees(theory.turn),
         "unexplained_over_L": _number(numbers and numbers.unexplained),
         "heading_deg": numbers and math.degrees(numbers.heading),
         "sideways_over_L": numbers and numbers.sideways,
         "amplitude_over_L": numbers and numbers.amplitude,
         "slid_over_L": slid_over_length(walk) if walk.status == "slid" else None,
-        "fewest_limbs_on_ground": _fewest(walk),
+        "fewest_limbs_on_ground": int(touching.min()) if scene.in_space else None,
         "sim_time_s": simulated,
         "wall_time_s": walk.wall_time,
         "realtime_factor": simulated / walk.wall_time,
         "status": str(walk.status),
     }
-    if isinstance(theory.walk, Prediction):
-        notes = cautions(scene, numbers, theory.walk, error, bar) if known else []
-    else:
-        notes = limb_cautions(walk, row)
-    return {**row, "prediction_notes": notes}
-
-
-def _fewest(walk: Trajectory) -> int | None:
-    return int(walk.contacts[walk.start :].min()) if walk.scene.in_space else None
+    return {**row, "prediction_notes": cautions(walk, theory, row)}
 
 
 def _undecided(walk: Trajectory, theory: Reference) -> float | None:
-    """Displacement over L that hangs on bounds that are alike, of a strip."""
+    """Displacement of a strip over L that depends on contacts with equal bounds."""
     return tied(walk.scene, theory.walk) if isinstance(theory.walk, Prediction) else None
 
 
 def reference(walk: Trajectory, finer: float = 1) -> Reference:
-    """What the quasi-static reference makes of the same scene.
+    """Quasi-static reference of the same scene.
 
     Chambers that lag behind their valves take the robot along another path than the gait's: then
-    it is theirs that the reference follows.
+    the reference follows theirs.
 
     Args:
         walk: whose scene it is.
@@ -111,8 +103,8 @@ def reference(walk: Trajectory, finer: float = 1) -> Reference:
 
 def _along(walk: Trajectory, states: int) -> NDArray[np.int_]:
     """Rows in which pressures have changed by a part of the peak, or time by a part of a ramp."""
-    since = walk.pressure[walk.start :]
-    changed = np.abs(np.diff(since, axis=0)).max(axis=1) / walk.scene.robot.peak_pressure
+    changed = np.abs(np.diff(walk.pressure[walk.start :], axis=0)).max(axis=1)
+    changed /= walk.scene.robot.peak_pressure
     passed = np.full(len(changed), walk.numerics.timestep / max(walk.scene.gait.ramp_times))
     parts = np.cumsum(states * np.maximum(changed, passed)).astype(int)
     rows = walk.start + 1 + np.flatnonzero(np.diff(parts, prepend=0))
@@ -120,12 +112,12 @@ def _along(walk: Trajectory, states: int) -> NDArray[np.int_]:
 
 
 def _number(value: float | None) -> float | None:
-    """None for a number that does not exist."""
+    """The number, or None for one that does not exist."""
     return value if value is not None and math.isfinite(value) else None
 
 
 def table(records: list[dict[str, Any]]) -> str:
-    """One line a run: direction and displacement beside the prediction, and what it cost."""
+    """Table of one line per run: displacement beside the prediction, and what it cost."""
     by, in_space = records[0]["predicted_by"], records[0]["robot"] != "strip"
     middle = (
         Column("turn °", "turn_deg", "+.2f"), Column(by, "predicted_turn_deg", "+.2f"),
@@ -147,7 +139,7 @@ def table(records: list[dict[str, Any]]) -> str:
 
 
 def _remarks(row: dict[str, Any]) -> str:
-    """What the reference met on its way and leaves out, and how far a slope dragged the strip."""
+    """Flags and notes of the reference, the first cycle, and how far a strip slid down a slope."""
     remarks = [f"{row['predicted_by']} {flag.lower()}" for flag in row["prediction_flags"]]
     remarks += row["prediction_notes"]
     if (row["prediction_undecided_over_L"] or 0.0) > _OPEN:
@@ -156,9 +148,9 @@ def _remarks(row: dict[str, Any]) -> str:
     if row["displacement_by_cycle_over_L"] and _differ(row["displacement_by_cycle_over_L"]):
         text += f" first cycle {row['displacement_by_cycle_over_L'][0]:+.4f} L"
     if row["status"] == "slid":
-        far = row["slid_over_L"]
-        far = "away before its first cycle" if far is None else f"{far:.3f} L downhill"
-        text += f" {far}: no bound holds its weight there"
+        slid = row["slid_over_L"]
+        where = "away before its first cycle" if slid is None else f"{slid:.3f} L downhill"
+        text += f" {where}: no bound holds its weight there"
     return text
 
 

@@ -1,14 +1,14 @@
-"""How a simulation ended: the words for it, and what an end is still a foot by."""
+"""Statuses of a simulation, and heights from which on a robot has left the ground."""
 
 from enum import StrEnum
 
-FALLEN = 0.1  # an end this far off the ground, over L, is no foot any more; chosen
-THROWN = 0.01  # the lowest of all points this far off the ground, over L: nothing stands; chosen
+FALLEN = 0.1  # an end this far off the ground, over L, has left it; chosen
+THROWN = 0.01  # the lowest point this far off the ground, over L: all of it has left; chosen
 AT_REST = 1e-3  # speed of the ends below which the strip is at rest before time 0 [L/s]; chosen
 
 
 class Status(StrEnum):
-    """How a simulation ended."""
+    """End of a simulation."""
 
     OK = "ok"
     DIVERGED = "diverged"  # a coordinate left the range that any walk can have, or is not finite

@@ -1,4 +1,4 @@
-"""What a simulation returns, and its netCDF file."""
+"""Trajectory that a simulation returns, and its netCDF file."""
 
 import json
 import math
@@ -54,10 +54,10 @@ class Trajectory:
             (T,) [m].
         left_slip_fraction: of a strip, part of a change of separation that the friction law gives
             the left end, (T,); NaN where more than the two ends share the motion.
-        drift: of a strip, speed of what friction should have held, NaN where left_slip_fraction
-            tells who that is, (T,) [m/s].
+        drift: of a strip, speed of what friction should have anchored, NaN where left_slip_fraction
+            says which end that is, (T,) [m/s].
         contacts: of a robot of limbs, how many of them touch the ground, (T,).
-        forces: what the ground did to each node of a strip; None where it was not recorded.
+        forces: of the ground on each node of a strip; None where it was not recorded.
     """
 
     scene: Scene
@@ -114,15 +114,15 @@ class Trajectory:
         along, aside, _ = (self.line[:, -1] - self.line[:, 0]).T
         return np.arctan2(aside, along)
 
-    def moved(self, one: int, two: int) -> Array:
+    def moved(self, begin: int, end: int) -> Array:
         """Displacement of the trunk's beginning, a strip's left end, between two states, (2,) [m].
 
         Ahead and to the left: of the x-axis for a strip, of the trunk's direction in the first of
         the states for a robot in space.
         """
-        gone = self.line[two, 0, :2] - self.line[one, 0, :2]
+        gone = self.line[end, 0, :2] - self.line[begin, 0, :2]
         if isinstance(self.scene.robot, LimbedRobot):
-            gone = gone @ rotation(self.scene.robot.limbs[0].angle + self.heading[one])
+            gone = gone @ rotation(self.scene.robot.limbs[0].angle + self.heading[begin])
         return np.asarray(gone)
 
     def ends_of_cycles(self) -> NDArray[np.int_]:
@@ -204,6 +204,19 @@ def load(path: Path | str) -> Trajectory:
             forces=forces,
             **{name: np.asarray(file[name][...], dtype=float) for name in names},
         )
+
+
+def read(path: Path) -> tuple[Trajectory, dict[str, Any]]:
+    """Read a walk that was saved and its origin: versions, commit, scene and numerics.
+
+    Raises:
+        ValueError: the file is no such file, or cannot be read.
+    """
+    try:
+        with h5netcdf.File(path, "r") as file:
+            return load(path), json.loads(file.attrs["provenance"])
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise ValueError(f"cannot read a trajectory from {str(path)!r}: {error}") from error
 
 
 def of_angles(scene: Scene, numerics: Resolved, file: Any) -> tuple[Array, Array]:

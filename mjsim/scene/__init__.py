@@ -1,4 +1,4 @@
-"""What is simulated (Scene) and how (Numerics); needs no MuJoCo."""
+"""Scenes and their numerics; needs no MuJoCo."""
 
 from mjsim.scene.numerics import CONES, INTEGRATORS, Numerics, Resolved
 from mjsim.scene.scene import ACTUATIONS, Scene, resolved

@@ -16,13 +16,13 @@ TABLE = Path(__file__).with_name("auto.csv")
 _TIGHTEST = 0.005  # tolerance that was measured
 
 
-class Rung(NamedTuple):
-    """Links and time step, and how they did.
+class Level(NamedTuple):
+    """Links and time step, with their measured accuracy and speed.
 
     Attributes:
         contacts: where friction acts, "ends" or "all".
         links_per_segment, timestep: [1, s].
-        scenes: on how many it was measured.
+        scenes: number of scenes on which it was measured.
         within_10, within_2, within_half: part of them within 10 %, 2 % and 0.5 %.
         realtime: median of simulated time over CPU time.
     """
@@ -43,8 +43,8 @@ def check_tolerance(tolerance: float) -> None:
         raise ValueError(f"tolerance must lie between {_TIGHTEST} and 1, got {tolerance!r}")
 
 
-def rungs(contacts: str, path: Path = TABLE) -> list[Rung]:
-    """Those to walk, coarsest first.
+def levels(contacts: str, path: Path = TABLE) -> list[Level]:
+    """Levels to walk, coarsest first.
 
     Args:
         contacts: "ends" or "all".
@@ -52,7 +52,7 @@ def rungs(contacts: str, path: Path = TABLE) -> list[Rung]:
     """
     with path.open(newline="", encoding="utf-8") as file:
         return [
-            Rung(row["contacts"], int(row["links_per_segment"]), float(row["timestep"]),
-                 int(row["scenes"]), *(float(row[name]) for name in Rung._fields[4:]))
+            Level(row["contacts"], int(row["links_per_segment"]), float(row["timestep"]),
+                 int(row["scenes"]), *(float(row[name]) for name in Level._fields[4:]))
             for row in csv.DictReader(file) if row["contacts"] == contacts
         ]  # fmt: skip

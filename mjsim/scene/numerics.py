@@ -1,4 +1,4 @@
-"""How a body is discretised and integrated."""
+"""Discretisation and integration of a body."""
 
 from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
@@ -19,8 +19,8 @@ OF_THE_PLANE = ("integrator", "side_angle", "steep_contact_time", "steep_angle",
                  "impratio", "contact_depth", "edge_time", "tie_bound")  # fmt: skip
 
 # contact times that the classic integrators need: at least so many steps, and so long; measured
-_FIRM_STEPS, _STEEP_STEPS = 2.0, 4.0
-_FIRM, _STEEP = 0.005, 0.02  # s
+_STIFF_STEPS, _STEEP_STEPS = 2.0, 4.0
+_STIFF, _STEEP = 0.005, 0.02  # s
 
 
 @dataclass(frozen=True)
@@ -57,19 +57,19 @@ class Numerics:
     cone: Cone = "elliptic"
     """of Coulomb friction: the shape of its friction cones"""
     impratio: float = 100.0
-    """of Coulomb friction: firmness of friction over that of the normal force; chosen"""
+    """of Coulomb friction: stiffness of friction over that of the normal force; chosen"""
     contact_depth: float = 4e-5
-    """of Coulomb friction: depth in which contacts grow firm [m]; chosen"""
+    """of Coulomb friction: depth in which contacts stiffen [m]; chosen"""
     edge_time: float | None = None
     """time constant of the rod's edges [timestep]; 0.5 with discrete, else 2"""
     tie_bound: float = 1.5
-    """bound of the friction that holds the mean position of two ends that resist alike [D0/L^2];
+    """bound of the friction that anchors the mean position of two ends that resist alike [D0/L^2];
     chosen, about the strongest bound of the named surfaces"""
     contact_softness: float = 0.008
     """of a robot in space: part of an acceleration that contacts yield to, of slow gaits; chosen:
     with less, limbs that turn fast are thrown; faster gaits get more"""
     tie_time: float = 0.1
-    """of a robot in space: in which motion that no bound holds dies down, by viscosity at all
+    """of a robot in space: in which motion that no bound stops dies down, by viscosity at all
     contacts alike, which is weak where some are bound [s]; chosen"""
 
     def __post_init__(self) -> None:
@@ -86,7 +86,7 @@ class Numerics:
             raise ValueError(f"timestep must be at most {LONGEST_STEP} s, got {self.timestep!r}")
 
     def resolved(self, body: str, friction: str, in_space: bool = False) -> "Resolved":
-        """The same with a number for whatever is chosen for body, law, integrator and robot.
+        """Fill in the numbers that are chosen for body, law, integrator and robot.
 
         Raises:
             ValueError: the links are not such as the robot can have.
@@ -103,9 +103,9 @@ class Numerics:
         }
         if self.integrator != "discrete":
             step = chosen["timestep"] if self.timestep is None else self.timestep
-            chosen["contact_time"] = max(_FIRM_STEPS, _FIRM / step)
+            chosen["contact_time"] = max(_STIFF_STEPS, _STIFF / step)
             chosen["steep_contact_time"] = max(_STEEP_STEPS, _STEEP / step)
-            chosen["edge_time"] = _FIRM_STEPS
+            chosen["edge_time"] = _STIFF_STEPS
         given: dict[str, Any] = {item.name: getattr(self, item.name) for item in fields(self)}
         for name in OF_THE_PLANE if in_space else OF_SPACE:
             if given[name] not in (getattr(Numerics, name), chosen.get(name)):

@@ -1,4 +1,4 @@
-"""What is simulated: a robot that walks a gait on a ground."""
+"""Scenes: a robot that walks a gait on a ground."""
 
 import math
 from dataclasses import dataclass, field
@@ -46,7 +46,7 @@ class Scene:
     body: str = "chain"
     """model of the robot: chain, links joined by hinges, in the plane for a strip and in space for
     a robot of limbs; cable, links with ball joints in space; rod, point masses in space that are
-    held in a plane: for bending out of it take the cable"""
+    kept in a plane: for bending out of it take the cable"""
     friction: str = "constant"
     """friction law: constant, V_t at a tip and tau by area on a side; coulomb, by load"""
     contacts: Contacts = "auto"
@@ -62,7 +62,7 @@ class Scene:
     """what carries the moment of pressure: rest-angles and stiffness of the joints, set at each
     step; or actuators, with pressure as their control"""
     valves: Valves = field(default_factory=Valves)
-    """how the pressure in the chambers follows what the valves are commanded"""
+    """how the pressure in the chambers follows the commands of the valves"""
     gravity: float = GRAVITY
     """[m/s^2]; only the mass w/g that the weight w per length has depends on it"""
     settle_time: float = 0.5
@@ -116,8 +116,8 @@ class Scene:
         stages = np.abs(np.array(self.gait.stages))
         for limb, part in zip(limbs_of(self.robot), chambers_by_limb(self.robot), strict=True):
             most = float((stages[:, part] @ np.diff(limb.strip.borders)).max())
-            what = f"limb {limb.name!r}" if self.in_space else "this strip"
-            check_turn(limb.strip, self.robot.peak_pressure, most, self.gait.name, what)
+            strip = f"limb {limb.name!r}" if self.in_space else "this strip"
+            check_turn(limb.strip, self.robot.peak_pressure, most, self.gait.name, strip)
 
     def _check_limbs(self) -> None:
         """Raise ValueError for what a robot of limbs cannot do, with the reason."""
@@ -138,23 +138,26 @@ class Scene:
 
     @property
     def in_space(self) -> bool:
-        """Whether the robot moves in space, and not in one upright plane."""
+        """Tell whether the robot moves in space, and not in one upright plane."""
         return isinstance(self.robot, LimbedRobot)
 
     @property
     def strip(self) -> Robot:
-        """The one limb of a robot that is a strip.
+        """The limb of a robot that is a strip.
 
         Raises:
             ValueError: it has several limbs.
         """
         if isinstance(self.robot, LimbedRobot):
-            raise ValueError(f"only a strip can do this, not {len(self.robot.limbs)} limbs")
+            raise ValueError(
+                "this is seen from the side, in the plane of a strip; a robot of "
+                f"{len(self.robot.limbs)} limbs has no such plane"
+            )
         return self.robot
 
     @property
     def between(self) -> bool:
-        """Whether friction acts between the ends of a strip, or at all contacts of limbs."""
+        """Tell whether friction acts between the ends of a strip, or at all contacts of limbs."""
         if self.in_space:
             return True
         return self.contacts == "all" or (self.contacts == "auto" and self.gait.dips())

@@ -1,16 +1,16 @@
-"""Valves and chambers as people have them: they fill and vent late, slowly and not alike."""
+"""Valves and chambers of real robots: they fill and vent late, slowly and not alike."""
 
 import math
 from dataclasses import dataclass, fields
 
 from analytic.checks import not_negative
 
-Each = float | tuple[float, ...]
+PerSegment = float | tuple[float, ...]
 
 
 @dataclass(frozen=True)
 class Valves:
-    """How the pressure in the chambers follows what the valves are commanded.
+    """Dynamics by which the pressure in the chambers follows the commands of the valves.
 
     A command acts after the dead time; then the chamber's pressure approaches it exponentially, by
     one time constant while it fills and by another while it vents, and never faster than the flow
@@ -20,13 +20,13 @@ class Valves:
         ValueError: a number is negative, or a flow limit is not positive.
     """
 
-    fill_time: Each = 0.0
+    fill_time: PerSegment = 0.0
     """time constant with which chambers fill [s]"""
-    vent_time: Each | None = None
+    vent_time: PerSegment | None = None
     """time constant with which they vent [s]; as they fill if not given"""
-    dead_time: Each = 0.0
+    dead_time: PerSegment = 0.0
     """from a command to its first effect [s]"""
-    flow_limit: Each | None = None
+    flow_limit: PerSegment | None = None
     """fastest change of pressure that the supply and the tubes let through [Pa/s]; none if not
     given"""
 
@@ -45,7 +45,7 @@ class Valves:
             object.__setattr__(self, field.name, numbers if len(numbers) > 1 else numbers[0])
 
     def of(self, name: str, segments: int) -> tuple[float, ...]:
-        """One number a segment of that field; infinity where there is no flow limit."""
+        """Numbers of a field, one per segment; infinity where there is no flow limit."""
         value = getattr(self, name)
         if value is None:
             value = self.fill_time if name == "vent_time" else math.inf
@@ -60,22 +60,22 @@ class Valves:
 
     @property
     def ideal(self) -> bool:
-        """Whether the pressure in the chambers is what the valves are commanded."""
+        """Tell whether the pressure in the chambers is that of the commands."""
         return not (self.lags or self.flow_limit or self.dead)
 
     @property
     def lags(self) -> bool:
-        """Whether chambers fill or vent in time."""
+        """Tell whether chambers fill or vent in time."""
         return any(self.of("fill_time", 1)) or any(self.of("vent_time", 1))
 
     @property
     def dead(self) -> bool:
-        """Whether a command acts later."""
+        """Tell whether a command acts later."""
         return any(self.of("dead_time", 1))
 
     @property
     def time_constant(self) -> float | None:
-        """The one of a first-order filter that they all are, or None if they are more than that."""
+        """Time constant if all are one first-order filter, or None if they are more than that."""
         if self.dead or self.flow_limit:
             return None
         times = {*self.of("fill_time", 1), *self.of("vent_time", 1)}

@@ -1,1 +1,1 @@
-"""Stepping a scene, and what comes out."""
+"""Stepping scenes in MuJoCo."""

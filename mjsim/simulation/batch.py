@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from mjsim.files.plugins import processes
 from mjsim.model.builder import compile_model
-from mjsim.model.chambers import Chambers
+from mjsim.model.chambers import ChamberPressures
 from mjsim.model.pneumatics import controls
 from mjsim.results.judge import judge
 from mjsim.results.status import Status
@@ -41,8 +41,8 @@ class Refused(NamedTuple):
     """A scene that could not be simulated.
 
     Attributes:
-        scene: it.
-        message: why, in one line.
+        scene: as given.
+        message: the reason, in one line.
     """
 
     scene: Scene
@@ -59,10 +59,10 @@ def simulate_all(
     Args:
         scenes: the walks.
         numerics: for all of them; chosen for each if None.
-        workers: processes; one a core if None.
+        workers: processes; one per core if None.
 
     Returns:
-        A trajectory a scene, or why there is none.
+        One trajectory per scene, or why there is none.
 
     Raises:
         RuntimeError: called while a process imports the script anew, for want of a main guard.
@@ -98,7 +98,7 @@ def rollout(
     Args:
         scenes: of one body, robot layout and duration, with actuators, under Coulomb friction.
         numerics: for all of them; chosen for each if None.
-        threads: at work at a time; one a core if None.
+        threads: at work at a time; one per core if None.
 
     Raises:
         ValueError: a scene is not of that kind, or they differ in length.
@@ -111,20 +111,20 @@ def rollout(
             )
     if not scenes:
         return []
-    own = resolved(scenes[0], numerics)
-    commands = [_commands(scene, own) for scene in scenes]
+    common = resolved(scenes[0], numerics)
+    commands = [_commands(scene, common) for scene in scenes]
     if len({command.shape for command in commands}) > 1:
         raise ValueError("scenes of a rollout must be of one duration and number of segments")
-    models = [compile_model(scene, own) for scene in scenes]
+    models = [compile_model(scene, common) for scene in scenes]
     states = np.array([_first_state(model) for model in models])
     rest = np.zeros(commands[0].shape[1])
     pressures = [
-        Chambers(scene.valves, len(rest), own.timestep).follow(command)
+        ChamberPressures(scene.valves, len(rest), common.timestep).follow(command)
         for scene, command in zip(scenes, commands, strict=True)
     ]
     sequence = np.array(
         [
-            controls(scene, own, command, rest, pressure)
+            controls(scene, common, command, rest, pressure)
             for scene, command, pressure in zip(scenes, commands, pressures, strict=True)
         ]
     )
@@ -137,15 +137,15 @@ def rollout(
     for scene, model, pressure, state in zip(scenes, models, pressures, recorded, strict=True):
         coordinates = state[:, 1 : 1 + model.nq]  # after the time
         unknown = np.full(len(coordinates), np.nan)
-        first = walking_steps(scene, own) - len(coordinates) + 1
+        first = walking_steps(scene, common) - len(coordinates) + 1
         walk = Trajectory(
             scene=scene,
-            numerics=own,
+            numerics=common,
             status=Status.OK,
-            time=own.timestep * np.arange(first, first + len(coordinates), dtype=float),
+            time=common.timestep * np.arange(first, first + len(coordinates), dtype=float),
             pressure=pressure,
             coordinates=coordinates,
-            position=positions(model, scene, own, coordinates),
+            position=positions(model, scene, common, coordinates),
             contact_left=unknown,
             contact_right=unknown,
             left_slip_fraction=unknown,

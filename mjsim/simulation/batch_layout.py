@@ -1,4 +1,4 @@
-"""Which scenes can be stepped side by side, and their models as rows of one.
+"""Scenes that can be stepped in one batch, and their models as rows of one.
 
 Scenes whose models have the same parts differ by numbers only: each is compiled without anything to
 look at, and the numbers go into the rows of `mujoco.batch.Batch.expand`.
@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from analytic.scene.ground import depends_on_speed
 from analytic.scene.surface import Surface
-from mjsim.files.assets import BARE
-from mjsim.model.builder import compiled, on_ground
+from mjsim.model.builder import bare_spec, compiled
 from mjsim.model.parts import PREFIX
 from mjsim.scene import Resolved, Scene
 from mjsim.simulation.schedule import before_start
@@ -30,7 +29,7 @@ FIELDS = (
 
 
 def refusal(scene: Scene) -> str | None:
-    """Why a scene cannot be stepped beside others, or None if it can."""
+    """Reason why a scene cannot be stepped in a batch, or None if it can."""
     ground = scene.ground
     if scene.in_space:
         return "the robot must be a strip"
@@ -46,7 +45,7 @@ def refusal(scene: Scene) -> str | None:
 
 
 def layout(scene: Scene, numerics: Resolved) -> Hashable:
-    """What scenes that are stepped side by side have in common."""
+    """Numbers that all scenes of a batch have in common."""
     return len(scene.strip.segments), len(before_start(scene, numerics))
 
 
@@ -56,7 +55,7 @@ def bare_model(scene: Scene, numerics: Resolved) -> mujoco.MjModel:
     Raises:
         ValueError: MuJoCo refuses the model.
     """
-    spec = on_ground(mujoco.MjSpec.from_file(str(BARE)), scene, numerics)
+    spec = bare_spec(scene, numerics)
     force = 1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE)
     for node in range(numerics.links + 2):
         spec.add_sensor(
@@ -67,20 +66,20 @@ def bare_model(scene: Scene, numerics: Resolved) -> mujoco.MjModel:
 
 
 def models(scenes: Sequence[Scene], numerics: Resolved) -> list[mujoco.MjModel]:
-    """A model each; scenes that differ in gait, pressure and ground only share theirs.
+    """One model per scene; scenes that differ in gait, pressure and ground only share it.
 
     Raises:
         ValueError: MuJoCo refuses a model.
     """
-    known: dict[Hashable, mujoco.MjModel] = {}
-    found = []
+    compiled_models: dict[Hashable, mujoco.MjModel] = {}
+    keys = []
     for scene in scenes:
         robot = {k: v for k, v in vars(scene.strip).items() if k != "peak_pressure"}
         key = (*robot.items(), scene.gravity, scene.slope)
-        if key not in known:
-            known[key] = bare_model(scene, numerics)
-        found.append(known[key])
-    return found
+        if key not in compiled_models:
+            compiled_models[key] = bare_model(scene, numerics)
+        keys.append(key)
+    return [compiled_models[key] for key in keys]
 
 
 def write(batch: Batch, rows: Sequence[int], given: Sequence[mujoco.MjModel]) -> None:

@@ -1,6 +1,6 @@
-"""Walks of many scenes by few models: what `simulate` gives, for half its CPU time.
+"""Walks of many scenes by few models: the results of `simulate`, for half its CPU time.
 
-What cannot be stepped side by side (see mjsim.simulation.batch_layout.refusal) is walked by
+Scenes that cannot be stepped in a batch (see mjsim.simulation.batch_layout.refusal) are walked by
 `simulate`.
 """
 
@@ -18,20 +18,20 @@ from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Resolved, Scene, resolved
 from mjsim.simulation.batch import Refused
 from mjsim.simulation.batch_layout import layout, refusal
-from mjsim.simulation.batch_strips import Block, Strips
+from mjsim.simulation.batch_strips import Block, StripBatch
 from mjsim.simulation.schedule import check_steps, walking
 from mjsim.simulation.simulation import simulate
 
 Array = NDArray[np.float64]
 
-ABREAST = 64  # scenes at a time; chosen: more gain little, and need memory
+BATCH_SIZE = 64  # scenes at a time; chosen: more gain little, and need memory
 _BLOCK = 256  # steps that are prepared at once
 
 
 def simulate_batch(
     scenes: Sequence[Scene], numerics: Numerics | None = None, threads: int = 1
 ) -> list[Trajectory | Refused]:
-    """A walk a scene, in order, those alike side by side.
+    """One walk per scene, in order; scenes of one layout are stepped together.
 
     Args:
         scenes: the walks.
@@ -39,53 +39,52 @@ def simulate_batch(
         threads: of MuJoCo; for many cores processes are better, see undulator sweep.
 
     Returns:
-        A trajectory a scene, or why there is none.
+        One trajectory per scene, or why there is none.
     """
-    found: dict[int, Trajectory | Refused] = {}
+    walks: dict[int, Trajectory | Refused] = {}
     alike: dict[Hashable, list[int]] = {}
     for i, scene in enumerate(scenes):
-        own = resolved(scene, numerics)
+        complete = resolved(scene, numerics)
         try:
-            check_steps(scene, own)
+            check_steps(scene, complete)
             if refusal(scene):
-                found[i] = simulate(scene, numerics)
+                walks[i] = simulate(scene, numerics)
             else:
-                alike.setdefault((own, layout(scene, own)), []).append(i)
+                alike.setdefault((complete, layout(scene, complete)), []).append(i)
         except ValueError as error:
-            found[i] = Refused(scene, str(error))
+            walks[i] = Refused(scene, str(error))
     for group in alike.values():
-        for begin in range(0, len(group), ABREAST):
-            some = group[begin : begin + ABREAST]
-            walks = _abreast([scenes[i] for i in some], numerics, threads)
-            found |= dict(zip(some, walks, strict=True))
-    return [found[i] for i in range(len(scenes))]
+        for begin in range(0, len(group), BATCH_SIZE):
+            some = group[begin : begin + BATCH_SIZE]
+            batch = _batch([scenes[i] for i in some], numerics, threads)
+            walks |= dict(zip(some, batch, strict=True))
+    return [walks[i] for i in range(len(scenes))]
 
 
-def _abreast(
+def _batch(
     scenes: Sequence[Scene], numerics: Numerics | None, threads: int
 ) -> list[Trajectory | Refused]:
-    own = resolved(scenes[0], numerics)
     try:
-        strips = Strips(scenes, own, threads)
+        strips = StripBatch(scenes, resolved(scenes[0], numerics), threads)
     except ValueError as error:
         if len(scenes) > 1:  # one that MuJoCo refuses must not spoil the others
-            return [walk for s in scenes for walk in _abreast([s], numerics, threads)]
+            return [walk for s in scenes for walk in _batch([s], numerics, threads)]
         return [Refused(scenes[0], str(error))]
     started, worked = clock.perf_counter(), clock.process_time()
     every = np.arange(len(scenes))
     blocks = strips.reset(every)
     settled = strips.settled
-    valves = [walking(scene, own, scene.gait) for scene in scenes]
+    valves = [walking(scene, strips.numerics, scene.gait) for scene in scenes]
     lengths = np.array([len(commands) for commands in valves])
-    done = 0
-    while (rows := np.flatnonzero((lengths > done) & settled & ~strips.stopped)).size:
-        until = min(done + _BLOCK, int(lengths[rows].min()))
-        blocks.append(strips.play(np.array([valves[row][done:until] for row in rows]), rows))
-        done = until
+    begin = 0
+    while (rows := np.flatnonzero((lengths > begin) & settled & ~strips.stopped)).size:
+        end = min(begin + _BLOCK, int(lengths[rows].min()))
+        blocks.append(strips.play(np.array([valves[row][begin:end] for row in rows]), rows))
+        begin = end
     wall = (clock.perf_counter() - started) / len(scenes)
     cpu = (clock.process_time() - worked) / len(scenes)
     return [
-        # a strip that takes long to come to rest has steps of its own before the first cycle
+        # a strip that takes long to come to rest has more steps before the first cycle
         _trajectory(strips, row, blocks, wall, cpu)
         if settled[row] or strips.stopped[row]
         else simulate(scenes[row], numerics)
@@ -94,7 +93,7 @@ def _abreast(
 
 
 def _trajectory(
-    strips: Strips, row: int, blocks: Sequence[Block], wall: float, cpu: float
+    strips: StripBatch, row: int, blocks: Sequence[Block], wall: float, cpu: float
 ) -> Trajectory:
     parts = []
     for block in blocks:

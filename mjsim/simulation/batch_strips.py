@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from analytic.friction.contact_length import may_lie_flat
 from analytic.scene.chain import joint_springs
 from mjsim.friction.footing import feet_may_be
-from mjsim.model.chambers import Chambers
+from mjsim.model.chambers import ChamberPressures
 from mjsim.model.pads import pads_by_node
 from mjsim.results.status import AT_REST
 from mjsim.scene import Resolved, Scene
-from mjsim.simulation.batch_ends import Ends, Rows
+from mjsim.simulation.batch_ends import BoundedEndsBatch, Indices
 from mjsim.simulation.batch_layout import layout, models, refusal, write
 from mjsim.simulation.schedule import before_start, check_steps
 
@@ -23,7 +23,7 @@ _FIRST_HINGE = 3  # the joints are x, z, pitch, then the hinges
 
 
 class Block:
-    """What `Strips.play` did, a row a scene and a column a step.
+    """Steps that `StripBatch.play` did, one row per scene and one column per step.
 
     Attributes:
         rows: the scenes.
@@ -34,7 +34,7 @@ class Block:
         steps: that were done before a scene stopped, (R,).
     """
 
-    def __init__(self, rows: Rows, pressure: Array, nq: int) -> None:
+    def __init__(self, rows: Indices, pressure: Array, nq: int) -> None:
         shape = pressure.shape[:2]
         self.rows, self.pressure = rows, pressure
         self.coordinates = np.empty((*shape, nq))
@@ -42,7 +42,7 @@ class Block:
         self.steps = np.full(shape[0], shape[1])
 
 
-class Strips:
+class StripBatch:
     """Scenes of one layout, stepped together.
 
     Args:
@@ -62,9 +62,9 @@ class Strips:
     def __init__(self, scenes: Sequence[Scene], numerics: Resolved, threads: int = 1) -> None:
         self.scenes, self.numerics = list(scenes), numerics
         for scene in scenes:
-            why = refusal(scene)
-            if why:
-                raise ValueError(f"to be stepped side by side, {why}")
+            reason = refusal(scene)
+            if reason:
+                raise ValueError(f"to be stepped side by side, {reason}")
             check_steps(scene, numerics)
         if len({layout(scene, numerics) for scene in scenes}) > 1:
             raise ValueError("scenes that are stepped side by side must be of one layout")
@@ -78,20 +78,20 @@ class Strips:
         self._length = batch.bind("ten_length")
         pads = pads_by_node(self.model)[:, 0]
         self._feet = pads[[0, -1]]
-        self._ends = Ends(scenes, numerics, batch, self.model)
+        self._ends = BoundedEndsBatch(scenes, numerics, batch, self.model)
         self._limits = np.array([feet_may_be(scene, numerics) for scene in scenes])
         self.pressure = np.zeros((len(scenes), len(scenes[0].strip.segments)))
         self.stopped = np.zeros(len(scenes), dtype=bool)
-        self._chambers: list[Chambers] = [self._at_rest(scene) for scene in scenes]
+        self._chambers: list[ChamberPressures] = [self._at_rest(scene) for scene in scenes]
         self._lay(every)
 
     def __getstate__(self) -> None:
         raise TypeError("strips that are stepped side by side cannot be copied, single ones can")
 
-    def _at_rest(self, scene: Scene) -> Chambers:
-        return Chambers(scene.valves, len(scene.strip.segments), self.numerics.timestep)
+    def _at_rest(self, scene: Scene) -> ChamberPressures:
+        return ChamberPressures(scene.valves, len(scene.strip.segments), self.numerics.timestep)
 
-    def _lay(self, rows: Rows) -> None:
+    def _lay(self, rows: Indices) -> None:
         """Lay strips on the ground, without pressure."""
         for row in rows.tolist():
             self._chambers[row] = self._at_rest(self.scenes[row])
@@ -102,7 +102,7 @@ class Strips:
         self._batch.reset(rows)
         self._ends.start(rows)
 
-    def reset(self, rows: Rows, scenes: Sequence[Scene] | None = None) -> list[Block]:
+    def reset(self, rows: Indices, scenes: Sequence[Scene] | None = None) -> list[Block]:
         """Lay strips on the ground, let them settle and inflate them to the gait's first stage.
 
         Args:
@@ -110,7 +110,7 @@ class Strips:
             scenes: in place of theirs, of the same layout.
 
         Returns:
-            What was done, and whether each is at rest in `settled`.
+            The steps that were done; `settled` tells which are at rest.
         """
         if scenes is not None:
             for row, scene in zip(rows.tolist(), scenes, strict=True):
@@ -121,58 +121,59 @@ class Strips:
         self._lay(rows)
         valves = np.array([before_start(self.scenes[row], self.numerics) for row in rows])
         late = max(1, round(0.1 * self.scenes[0].settle_time / self.numerics.timestep))
-        first = self.play(valves[:, :-late], rows)
+        begin = self.play(valves[:, :-late], rows)
         ends = self._length[rows].copy()
-        last = self.play(valves[:, -late:], rows)
+        end = self.play(valves[:, -late:], rows)
         speed = np.abs(self._length[rows] - ends).max(axis=1) / (late * self.numerics.timestep)
         lengths = np.array([self.scenes[row].strip.length for row in rows])
         self.settled = speed < AT_REST * lengths
-        return [first, last]
+        return [begin, end]
 
-    def play(self, valves: Array, rows: Rows | None = None) -> Block:
+    def play(self, valves: Array, rows: Indices | None = None) -> Block:
         """Do as many steps as there are commands, (R, T, S) [Pa], or up to a failure of each."""
         rows = np.arange(len(self.scenes)) if rows is None else rows
         pressure = np.array(
             [self._chambers[row].follow(v) for row, v in zip(rows.tolist(), valves, strict=True)]
         )
-        done = Block(rows, pressure, self.model.nq)
+        block = Block(rows, pressure, self.model.nq)
         if not valves.shape[1]:
-            return done
+            return block
         springs = self._springs(rows, pressure)
         peak = np.array([self.scenes[row].strip.peak_pressure for row in rows])
         flat = may_lie_flat(pressure[:, :, [0, -1]], peak[:, None, None])
         dt, ends, hinges = self.numerics.timestep, self._ends, slice(_FIRST_HINGE, None)
         active = np.flatnonzero(~self.stopped[rows])
-        done.steps[self.stopped[rows]] = 0
+        block.steps[self.stopped[rows]] = 0
         for step, (stiffness, rest) in enumerate(springs):
-            now = rows[active]
-            if not len(now):
+            moving = rows[active]
+            if not len(moving):
                 break
-            self._stiffness[now, hinges], self._rest[now, hinges] = stiffness[active], rest[active]
-            angles = self._qpos[now, _FIRST_HINGE - 1 :]
+            self._stiffness[moving, hinges] = stiffness[active]
+            self._rest[moving, hinges] = rest[active]
+            angles = self._qpos[moving, _FIRST_HINGE - 1 :]
             slopes = np.stack([angles[:, 0], -angles.sum(axis=1)], axis=1)
-            ends.before_step(now, slopes, flat[active, step])
-            self._batch.step(now)
-            self._qpos[now, 0] -= ends.after_step(now, dt)
-            done.coordinates[active, step] = self._qpos[now]
-            done.contact[active, step] = ends.contact[now]
-            done.left_slip[active, step] = ends.left_slip[now]
-            low, high = self._limits[now].T
-            height = self._place[now[:, None], self._feet, 2]
+            ends.before_step(moving, slopes, flat[active, step])
+            self._batch.step(moving)
+            self._qpos[moving, 0] -= ends.after_step(moving, dt)
+            block.coordinates[active, step] = self._qpos[moving]
+            block.contact[active, step] = ends.contact[moving]
+            block.left_slip[active, step] = ends.left_slip[moving]
+            low, high = self._limits[moving].T
+            height = self._place[moving[:, None], self._feet, 2]
             stands = (low[:, None] < height) & (height < high[:, None])
             fallen = ~stands.all(axis=1)
             if fallen.any():
-                done.steps[active[fallen]] = step + 1
-                self.stopped[now[fallen]] = True
+                block.steps[active[fallen]] = step + 1
+                self.stopped[moving[fallen]] = True
                 active = active[~fallen]
-        self.pressure[rows] = pressure[np.arange(len(rows)), np.maximum(done.steps, 1) - 1]
-        return done
+        self.pressure[rows] = pressure[np.arange(len(rows)), np.maximum(block.steps, 1) - 1]
+        return block
 
-    def coordinates(self, rows: Rows) -> Array:
-        """Of MuJoCo now, (R, nq)."""
+    def coordinates(self, rows: Indices) -> Array:
+        """Coordinates of MuJoCo, (R, nq)."""
         return np.array(self._qpos[rows])
 
-    def _springs(self, rows: Rows, pressure: Array) -> list[tuple[Array, Array]]:
+    def _springs(self, rows: Indices, pressure: Array) -> list[tuple[Array, Array]]:
         """Stiffness and rest angle of the hinges at each step, (R, N) each."""
         each = [
             joint_springs(self.scenes[row].strip, self.numerics.links, p, self.scenes[row].chamber)

@@ -1,9 +1,9 @@
-"""Numerics that check themselves: a scene walked ever finer, until two walks agree.
+"""Walks that check their numerics: a scene walked ever finer, until two walks agree.
 
 Two walks in a row must agree within a quarter of the tolerance, as coarse ones may be wrong alike,
 and within all of it once steps are so short that errors halve; they differ in links as well as in
 steps. On 120 scenes that were not used to choose, the distance is then within 10 %, 2 % and 0.5 %
-(or 0.001 L) in 98, 98 and 97 %, see `python benchmarks/auto.py check 120`. The rungs are measured,
+(or 0.001 L) in 98, 98 and 97 %, see `python benchmarks/auto.py check 120`. The levels are measured,
 see mjsim.scene.auto; steps are made shorter where a ramp needs it. A failure counts as the robot's
 only if two fine walks fail alike.
 """
@@ -18,7 +18,7 @@ from mjsim.results.measures import measure
 from mjsim.results.status import Status
 from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Resolved, Scene
-from mjsim.scene.auto import check_tolerance, rungs
+from mjsim.scene.auto import check_tolerance, levels
 from mjsim.scene.numerics import MAX_LINKS
 from mjsim.simulation.simulation import simulate
 
@@ -31,7 +31,7 @@ _SHORT = 1e-3  # of the length: less is as good as the same, whatever the tolera
 
 
 class Checked(NamedTuple):
-    """A walk and how sure its distance is.
+    """A walk and how certain its distance is.
 
     Attributes:
         walk: the finest.
@@ -65,7 +65,7 @@ def walk_checked(
     before: Trajectory | None = None
     tried, error, agreed = [], math.nan, False
     check_tolerance(tolerance)
-    for numerics in ladder(scene):
+    for numerics in refinements(scene):
         walk = simulate(scene, numerics, progress, forces)
         tried.append(walk.numerics)
         if before is not None:
@@ -76,7 +76,7 @@ def walk_checked(
     return Checked(walk, error, agreed, tried)
 
 
-def ladder(scene: Scene) -> Iterator[Numerics]:
+def refinements(scene: Scene) -> Iterator[Numerics]:
     """Numerics for a scene, each finer than the one before; the last if none agree before."""
     longest = min(scene.gait.ramp_times) / _STEPS_A_RAMP
     if scene.in_space:
@@ -85,24 +85,23 @@ def ladder(scene: Scene) -> Iterator[Numerics]:
         return
     borders = np.asarray(scene.strip.borders)
     segments = math.ceil(borders[-1] / np.diff(borders).min() - 1e-9)  # as short as the shortest
-    last: tuple[int, float] | None = None
-    for rung in rungs("all" if scene.between else "ends"):
-        links = min(MAX_LINKS, max(12, rung.links_per_segment * segments))
-        pair = (links, min(rung.timestep, longest))
-        if pair != last:
-            last = pair
-            yield Numerics(links=pair[0], timestep=pair[1])
-    assert last is not None
-    yield Numerics(links=min(MAX_LINKS, 2 * last[0]), timestep=0.5 * last[1])
+    links, timestep = 0, 0.0
+    for level in levels("all" if scene.between else "ends"):
+        before = links, timestep
+        links = min(MAX_LINKS, max(12, level.links_per_segment * segments))
+        timestep = min(level.timestep, longest)
+        if (links, timestep) != before:
+            yield Numerics(links=links, timestep=timestep)
+    yield Numerics(links=min(MAX_LINKS, 2 * links), timestep=0.5 * timestep)
 
 
 def _agreement(before: Trajectory, walk: Trajectory, tolerance: float) -> tuple[float, bool]:
-    one, two = measure(before), measure(walk)
-    if one is None or two is None:
+    coarse, fine = measure(before), measure(walk)
+    if coarse is None or fine is None:
         alike = before.status == walk.status is not Status.UNSETTLED
         return math.nan, alike and before.numerics.timestep <= _FINE
-    error = abs(one.displacement - two.displacement)
-    return error, error <= closeness(walk.numerics.timestep) * allowed(two.displacement, tolerance)
+    error = abs(coarse.displacement - fine.displacement)
+    return error, error <= closeness(walk.numerics.timestep) * allowed(fine.displacement, tolerance)
 
 
 def closeness(timestep: float) -> float:
@@ -111,5 +110,5 @@ def closeness(timestep: float) -> float:
 
 
 def allowed(displacement: float, tolerance: float) -> float:
-    """How far another one may be from a displacement over L: a part of it, or 0.001."""
+    """Greatest difference from a displacement over L: a part of it, or 0.001."""
     return max(tolerance * abs(displacement), _SHORT)

@@ -1,7 +1,7 @@
-"""Copies of what is stepped, which go on as the original would.
+"""Copies of simulations, which go on as the original would.
 
 Bodies and friction hold views into MuJoCo's arrays, which a plain copy would leave behind, or cut
-off. Here a view is written down as the place that it has, and found there again in the copy.
+off. A view is written down as its place, and is read from there in the copy.
 """
 
 import copy
@@ -23,15 +23,15 @@ _PLAIN = (type, ModuleType, str, bytes, int, float, complex, bool, type(None))
 
 
 class Copied:
-    """Something stepped in MuJoCo, whole in copies: by `copy` as by `deepcopy` and by pickle.
+    """Base of simulations in MuJoCo, whole in copies: by `copy`, `deepcopy` and pickle.
 
-    Laws and bodies of any kind are copied with it, with what they remember of the last step.
+    Laws and bodies of any kind are copied with it, with their state of the last step.
 
     Attributes:
         data: MuJoCo's, and its model.
 
     Raises:
-        TypeError: on copying, if it holds what cannot be copied so; the message names it.
+        TypeError: on copying, if an attribute cannot be copied so; the message names it.
     """
 
     data: mujoco.MjData
@@ -54,18 +54,18 @@ class Copied:
 
 
 def _written(whole: Copied, kept: list[Any] | None = None) -> bytes:
-    """All that something has beside MuJoCo's memory.
+    """Attributes of a simulation beside MuJoCo's memory, as bytes.
 
     Args:
-        whole: it.
+        whole: the simulation.
         kept: where to put what a copy in this process shares; by reference to modules if None.
     """
     file = io.BytesIO()
     try:
         _Writer(file, whole, kept).dump(vars(whole))
     except (TypeError, AttributeError, ValueError, pickle.PicklingError) as error:
-        kind = type(whole).__name__
-        raise TypeError(f"{kind} cannot be copied with what it holds: {error}") from error
+        name = type(whole).__name__
+        raise TypeError(f"{name} cannot be copied with what it holds: {error}") from error
     return file.getvalue()
 
 
@@ -80,22 +80,22 @@ class _Writer(pickle.Pickler):
         super().__init__(file, pickle.HIGHEST_PROTOCOL)
         self._kept = kept
         owners = {"data": whole.data, "model": whole.data.model}
-        self._known: dict[int, tuple[Any, tuple[Any, ...]]] = {id(whole): (whole, ("whole",))}
+        self._places: dict[int, tuple[Any, tuple[Any, ...]]] = {id(whole): (whole, ("whole",))}
         arrays = []
         for owner, memory in owners.items():
-            self._known[id(memory)] = memory, (owner,)
+            self._places[id(memory)] = memory, (owner,)
             for name in fields(memory.__class__):
                 value = getattr(memory, name)
                 if isinstance(value, np.ndarray) and value.size:
                     arrays.append((value.ctypes.data, value.nbytes, owner, name))
                 elif type(value).__module__ == _STRUCTURES:
-                    self._known.setdefault(id(value), (value, ("part", owner, name)))
+                    self._places.setdefault(id(value), (value, ("part", owner, name)))
         self._arrays = sorted(arrays)
 
     def persistent_id(self, obj: Any) -> tuple[Any, ...] | None:
-        """How the reader finds what is not copied by its content."""
-        if id(obj) in self._known:
-            return self._known[id(obj)][1]
+        """Name by which the reader finds what is not copied by its content."""
+        if id(obj) in self._places:
+            return self._places[id(obj)][1]
         if isinstance(obj, np.ndarray):
             return None if obj.flags.owndata or not obj.size else self._place(obj)
         if self._kept is not None and _shared(obj):
@@ -157,14 +157,14 @@ def _view(base: Any, shape: Any, dtype: Any, offset: int, strides: Any) -> Any:
 
 
 def _shared(obj: Any) -> bool:
-    """Whether a copy may have the same, as it holds nothing of what is copied."""
+    """Tell whether a copy may have the same object, as it refers to nothing that is copied."""
     if isinstance(obj, type):
-        local = (kind for kind in obj.__mro__ if "<locals>" in kind.__qualname__)
-        parts = (part for kind in local for part in vars(kind).values())
+        local = (base for base in obj.__mro__ if "<locals>" in base.__qualname__)
+        parts = (part for base in local for part in vars(base).values())
         inner = (getattr(part, "__func__", getattr(part, "fget", part)) for part in parts)
         return all(_shared(part) for part in inner if isinstance(part, FunctionType))
     if isinstance(obj, FunctionType):
         cells = [cell.cell_contents for cell in obj.__closure__ or ()]
-        held = [*cells, *(obj.__defaults__ or ()), *(obj.__kwdefaults__ or {}).values()]
-        return all(isinstance(part, _PLAIN) for part in held)
+        references = [*cells, *(obj.__defaults__ or ()), *(obj.__kwdefaults__ or {}).values()]
+        return all(isinstance(part, _PLAIN) for part in references)
     return isinstance(obj, ModuleType | Compiled)

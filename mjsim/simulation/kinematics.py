@@ -1,4 +1,4 @@
-"""Where the robot is, from MuJoCo's coordinates."""
+"""Places of the robot, from MuJoCo's coordinates."""
 
 import mujoco
 import numpy as np
@@ -22,7 +22,7 @@ def positions(model: mujoco.MjModel, scene: Scene, numerics: Resolved, coordinat
 
 
 def nodes_of(data: mujoco.MjData, pads: Pads, numerics: Resolved) -> Array:
-    """The same of one state whose kinematics are done, (L, N + 2, 3) [m]."""
+    """Vertices of the neutral lines in a state whose kinematics are done, (L, N + 2, 3) [m]."""
     return _above_rest(data.geom_xpos[pads].mean(axis=2), numerics)
 
 

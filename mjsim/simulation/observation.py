@@ -1,4 +1,4 @@
-"""What a controller sees, and what it is."""
+"""Controllers, and their observations."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 
 
 class Observation(NamedTuple):
-    """What a controller sees after a step.
+    """Measurements that a controller gets after each step.
 
     Attributes:
         time: since the first cycle began [s].
@@ -22,7 +22,7 @@ class Observation(NamedTuple):
         right: x of the right end of a strip, of the end of a trunk [m].
         contact_left, contact_right: length of side contact of a strip's ends, 0 for a tip [m]; NaN
             of a robot of limbs.
-        contacts: how many limbs of such a robot touch the ground; NaN of a strip.
+        contacts: number of limbs of such a robot that touch the ground; NaN of a strip.
         status: OK, or why the simulation stopped.
     """
 
@@ -43,4 +43,4 @@ class Observation(NamedTuple):
 
 
 Policy = Callable[[Observation], ArrayLike]
-"""From what is seen to what the valves are commanded, (S,) [Pa]; a Gait is the open-loop one."""
+"""Function from an observation to commands of the valves, (S,) [Pa]; a Gait is open-loop."""

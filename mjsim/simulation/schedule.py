@@ -1,4 +1,4 @@
-"""When the valves are commanded what: steps before the first cycle, and of the cycles."""
+"""Commands of the valves at each step: before the first cycle, and in the cycles."""
 
 import numpy as np
 from numpy.typing import NDArray

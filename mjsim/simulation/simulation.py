@@ -1,4 +1,4 @@
-"""A scene stepped in MuJoCo: the one loop, for gaits, controllers, environments and sweeps."""
+"""Scenes stepped in MuJoCo: the loop of gaits, controllers, environments and sweeps."""
 
 import math
 import time as clock
@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from analytic.scene.gait import Gait
 from mjsim.friction.footing import footing
-from mjsim.friction.in_plane import Grips
+from mjsim.friction.in_plane import LimbFooting
 from mjsim.friction.recorder import ContactRecorder
 from mjsim.model.builder import compile_model
-from mjsim.model.chambers import Chambers
+from mjsim.model.chambers import ChamberPressures
 from mjsim.model.compiled import Compiled
 from mjsim.model.limbs import Hinges
 from mjsim.model.pads import pads_of
@@ -39,11 +39,11 @@ class Simulation(Copied):
     Args:
         scene: the walk.
         numerics: how it is discretised; chosen for the scene where not given.
-        forces: whether to record what the ground does to each node, at 10 us a step.
+        forces: whether to record the forces of the ground on each node, at 10 us a step.
         history: whether to keep all states, or the last one only, without forces.
 
     Attributes:
-        scene, numerics: what is simulated and how, with a number for everything.
+        scene, numerics: as simulated, with a number for everything.
         model, data: MuJoCo's; the model is as compiled after each reset, whatever was set in it.
 
     Raises:
@@ -57,6 +57,8 @@ class Simulation(Copied):
         forces: bool = False,
         history: bool = True,
     ) -> None:
+        if forces and scene.in_space:
+            raise ValueError("forces on nodes are recorded of strips alone, got a robot of limbs")
         self.scene, self._with_forces, self._history = scene, forces and history, history
         self.numerics = resolved(scene, numerics)
         check_steps(scene, self.numerics)
@@ -82,10 +84,11 @@ class Simulation(Copied):
         )  # fmt: skip
         self._footing = footing(scene, numerics, model, self.data, self._joints)
         self._pads = pads_of(model, scene)
-        self._chambers = Chambers(scene.valves, len(scene.robot.chambers), numerics.timestep)
+        self._chambers = ChamberPressures(
+            scene.valves, len(scene.robot.chambers), numerics.timestep
+        )
         self._pressure = self._chambers.pressure
-        recorded = self._with_forces and not scene.in_space
-        self._recorder = ContactRecorder(scene, model, self.data) if recorded else None
+        self._recorder = ContactRecorder(scene, model, self.data) if self._with_forces else None
         self._coordinates: list[Array] = []
         self._rows: list[tuple[float, ...]] = []
         self._pressures: list[Array] = []
@@ -96,7 +99,7 @@ class Simulation(Copied):
         return self.observe()
 
     def _settle(self) -> bool:
-        """Do the steps before the first cycle, more if need be; whether the robot is at rest."""
+        """Do the steps before the first cycle, more if needed; tell whether it is at rest."""
         before = before_start(self.scene, self.numerics)
         late = max(1, round(0.1 * self.scene.settle_time / self.numerics.timestep))
         self._play(before[:-late])
@@ -138,7 +141,7 @@ class Simulation(Copied):
 
         Args:
             policy: commands the valves; the scene's gait if None.
-            progress: called now and then with the number of steps done since the last call.
+            progress: called regularly with the number of steps done since the last call.
 
         Returns:
             The trajectory; look at its status before any number of it.
@@ -166,9 +169,9 @@ class Simulation(Copied):
         return self.trajectory()
 
     def observe(self) -> Observation:
-        """What there is to see now."""
+        """Observation of the state."""
         trunk = self.nodes()[0]
-        seen = dict(zip(self._footing.columns, self._rows[-1], strict=True))
+        measured = dict(zip(self._footing.columns, self._rows[-1], strict=True))
         nan, qpos = float("nan"), self.data.qpos
         along, aside, _ = trunk[-1] - trunk[0]
         heading = qpos.item(_YAW) if self.scene.in_space else math.atan2(aside, along)
@@ -178,10 +181,10 @@ class Simulation(Copied):
             place=trunk[0, :2].copy(),
             heading=heading,
             right=float(trunk[-1, 0]),
-            contact_left=seen.get("contact_left", nan),
-            contact_right=seen.get("contact_right", nan),
-            contacts=seen.get("contacts", nan),
-            status=self._now(),
+            contact_left=measured.get("contact_left", nan),
+            contact_right=measured.get("contact_right", nan),
+            contacts=measured.get("contacts", nan),
+            status=self._status(),
         )
 
     def trajectory(self) -> Trajectory:
@@ -218,9 +221,9 @@ class Simulation(Copied):
         record = self._recorder and self._recorder.record
 
         started, worked = clock.perf_counter(), clock.process_time()
-        for step, (load, what) in enumerate(zip(loads, prepared, strict=True)):
+        for step, (load, contact) in enumerate(zip(loads, prepared, strict=True)):
             apply(load)
-            before_step(what)
+            before_step(contact)
             step_model(model, data)
             if record:
                 record()
@@ -243,9 +246,9 @@ class Simulation(Copied):
             self._pressures[0] = self._pressures[0][-1:]
 
     def nodes(self) -> Array:
-        """Vertices of the limbs' neutral lines now, z over flat rest, (L, N + 2, 3) [m]."""
+        """Vertices of the limbs' neutral lines, z over flat rest, (L, N + 2, 3) [m]."""
         data = self.data
-        if self.scene.in_space:  # whose law looks at where the last step began
+        if self.scene.in_space:  # whose friction needs the kinematics from before the step
             data = mujoco.MjData(self.model)
             data.qpos[:] = self.data.qpos
         mujoco.mj_kinematics(self.model, data)
@@ -258,10 +261,10 @@ class Simulation(Copied):
 
     def side_contacts(self) -> Array:
         """Length over which each limb of a robot in space lies on its side, (L,) [m]."""
-        assert isinstance(self._footing, Grips)
+        assert isinstance(self._footing, LimbFooting)
         return self._footing.side_contacts()
 
-    def _now(self) -> Status:
+    def _status(self) -> Status:
         if self._stopped:
             return self.trajectory().status
         return Status.UNSETTLED if self._unsettled else Status.OK
@@ -277,7 +280,7 @@ def simulate(
 
     Args:
         scene, numerics, forces: see Simulation.
-        progress: called now and then with the number of steps done since the last call; True for a
+        progress: called regularly with the number of steps done since the last call; True for a
             bar, in a notebook or a terminal.
     """
     simulation = Simulation(scene, numerics, forces)

@@ -3,7 +3,7 @@
 from mjsim.files.tables import build
 from mjsim.results.measures import measure
 from mjsim.scene import Numerics
-from mjsim.simulation.checked import allowed, closeness, ladder
+from mjsim.simulation.checked import allowed, closeness, refinements
 from mjsim.simulation.simulation import simulate
 from mjsim.sweeps.plan import Plan
 
@@ -17,7 +17,7 @@ def picked(plan: Plan) -> tuple[Numerics, Numerics]:
     scene, _ = build(plan.base)
     assert plan.tolerance is not None
     previous = None
-    for numerics in ladder(scene):
+    for numerics in refinements(scene):
         walk = simulate(scene, numerics)
         measures = measure(walk)
         if previous is not None and measures is not None:

@@ -35,8 +35,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.checks import is_number, one_of, whole
+from mjsim.files.keys import NAMES, check_keys
 from mjsim.files.quantities import check_field, field_value, with_fields
-from mjsim.files.tables import NAMES, Tables, build, check_keys, read_tables
+from mjsim.files.tables import Tables, build, read_tables
 from mjsim.files.typed import read_toml
 from mjsim.results.prediction import QUASI_STATIC
 from mjsim.scene import Numerics, Scene
@@ -57,6 +58,7 @@ seed = 1
 "robot.weight_per_length" = { from = 0.7, to = 2.8, log = true }
 """
 MODELS = ("mujoco", "auto", QUASI_STATIC, "elastica", "obstacle", "lifted", "modes")
+IN_SPACE = MODELS[:3]  # of robots of limbs too
 MOST = 100_000_000  # scenes
 MOST_LEVELS = 1_000_000  # of a field, and samples
 _KEYS = ("model", "tolerance", "states", "bent", "confirm", "scene", "grid", "latin_hypercube",
@@ -160,8 +162,10 @@ def make_plan(content: Mapping[str, Any], folder: Path = Path()) -> Plan:
             raise ValueError(f"tolerance is of models mujoco and auto, got model {model!r}")
     states = content.get("states", _STATES)
     whole("states", states, 1, 10_000)
+    if "states" in content and model in ("mujoco", "auto", QUASI_STATIC):
+        raise ValueError(f"states is of the strip's solvers, got model {model!r}")
     bent = content.get("bent", False)
-    if not isinstance(bent, bool) or (bent and model != "elastica"):
+    if not isinstance(bent, bool) or ("bent" in content and model != "elastica"):
         raise ValueError(f"bent must be true or false, and is of model elastica, got {bent!r}")
     confirm = content.get("confirm", _CONFIRM if model == "mujoco" and tolerance else 0)
     whole("confirm", confirm, 0)
@@ -182,7 +186,11 @@ def make_plan(content: Mapping[str, Any], folder: Path = Path()) -> Plan:
     plan = Plan(base, model, tolerance, states, bent, confirm, rows, levels, samples, digest)
     if not 0 < len(plan) <= MOST:
         raise ValueError(f"must have 1 to {MOST:,} scenes, got {len(plan):,}")
-    build(base)
+    scene, _ = build(base)
+    if scene.in_space and model not in IN_SPACE:
+        raise ValueError(
+            f"model of a robot of limbs must be one of {', '.join(IN_SPACE)}; got {model!r}"
+        )
     return plan
 
 

@@ -117,7 +117,7 @@ def _checked(job: Job, scene: Scene, numerics: Numerics) -> Row:
     if not check.agreed:
         row["status"] = "unconverged" if row["status"] == "ok" else row["status"]
     elif "uncertainty_over_L" in row and math.isfinite(check.error):
-        row["uncertainty_over_L"] += check.error
+        row["uncertainty_over_L"] = (row["uncertainty_over_L"] or 0.0) + check.error
         row["direction"] = direction(row["displacement_over_L"], 1.0, row["uncertainty_over_L"])
     return row
 

@@ -16,7 +16,7 @@ from walks import refusal
 from mjsim.commands import run
 from mjsim.files import cli
 from mjsim.scene import Scene
-from mjsim.simulation.checked import ladder
+from mjsim.simulation.checked import refinements
 from studies.accuracy import __main__ as chart
 from studies.accuracy import cantilever_bodies, figure, heavy_cantilever, walking
 from studies.accuracy.benchmark_cases import COULOMB, GROUNDS, WALK
@@ -149,7 +149,7 @@ def test_engines_that_share_no_code_agree_with_the_elastica_on_the_distance():
 def test_the_command_picks_a_body(tmp_path, capsys):
     words = ["--body", "auto", "--tolerance", "0.05", "--json", "--no-video"]
     assert run.main([*words, "--surface", "gelatin", "--out", str(tmp_path)]) == 0
-    row, choice = json.loads(capsys.readouterr().out), next(ladder(Scene()))
+    row, choice = json.loads(capsys.readouterr().out), next(refinements(Scene()))
     assert row["body"] == "chain"
     assert row["links"] >= choice.links
     assert row["timestep_s"] < choice.timestep  # the second of two that agree

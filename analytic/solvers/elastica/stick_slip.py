@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.contact_length import end_contact, end_loads, ripple
-from analytic.friction.contacts import Finder, StripContact
+from analytic.friction.contacts import ContactFinder, StripContact
 from analytic.friction.laws import LAWS, Friction
 from analytic.scene.chain import node_positions
 from analytic.scene.ground import depends_on_speed, over
@@ -73,7 +73,7 @@ class StickSlip:
         self._nodes = node_positions(chain.robot, chain.links)
         self._press = ground.at(0.0).press(chain.robot.width)
         self._air = ripple(chain.robot, self._nodes)
-        self._finder = Finder(chain.robot, self._nodes, self._press)
+        self._finder = ContactFinder(chain.robot, self._nodes, self._press)
         self._law = LAWS[friction.law]
         self._by_speed = depends_on_speed(ground)
         self._pull = friction.downhill(chain.robot) / chain.force_unit

@@ -126,7 +126,7 @@ class Tree:
             axes[self.hinges[i]], centres[self.hinges[i]] = -side, places[1:-1]
             outward = np.cos(turn[-1]) * outward - np.sin(turn[-1]) * forward
             tip = np.array([along[-1], side, outward]).T
-            ends.append({"begin": (origin, frame), "end": (places[-1], tip)})
+            ends.append({"begin": (start, frame), "end": (places[-1], tip)})
         return Pose(np.concatenate([right, left]), axes, centres)
 
     def moves(self, pose: Pose, which: slice | NDArray[np.int_] = slice(None)) -> Array:

@@ -11,7 +11,7 @@ from analytic import GAITS, SURFACES, Friction, Robot, predict
 from analytic.scene.surface import from_ratios
 from analytic.scene.trapezoid import trapezoid
 from mjsim.commands import run
-from mjsim.results.cautions import cautions, tied
+from mjsim.results.cautions import near_end, tied
 from mjsim.results.measures import measure
 from mjsim.results.record import record
 from mjsim.scene import Numerics, Scene
@@ -76,8 +76,7 @@ def test_the_end_of_the_branch_is_announced_before_it_is_reached():
         scene = Scene(replace(Robot(), peak_pressure=float(pressure)))
         walk = predict(scene.robot, scene.gait, scene.ground)
         known.append(np.isfinite(walk.locomotion.per_cycle))
-        said = cautions(scene, None, walk, np.nan, 0.0)
-        warned.append(any("more pressure" in note for note in said))
+        warned.append(any("more pressure" in note for note in near_end(scene, walk)))
     last = int(np.flatnonzero(known)[-1])
     assert not known[last + 1]
     assert warned[last]

@@ -191,10 +191,11 @@ def test_controllers_sessions_and_environments_walk_as_the_gait_does(case):
     assert session.displacement == pytest.approx(measure(walk).displacement, abs=2e-3)
 
     settings = Settings(
-        surfaces=(scene.ground.name,), base=case.tables, control_period=0.04, numerics=numerics,
+        base=case.tables, control_period=0.04, numerics=numerics,
         contacts="all" if scene.between else "ends",
     )  # fmt: skip
-    walker = Walker(settings.scene({"ground.surface": scene.ground.name}), settings)
+    walker = Walker(settings.scene(settings.grounds[0]), settings)
+    assert walker.scene.ground.name == scene.ground.name
     begin = walker.place
     each = settings.steps
     for row in rows[each - 1 :: each]:

@@ -193,6 +193,7 @@ def test_without_dm_control_one_line_says_why(monkeypatch):
     ("settings", "words"),
     [
         ({"surfaces": ("sand",)}, "surface must be one of felt"),
+        ({"surfaces": ("felt",), "base": {"ground": {"tip_force": 0.02}}}, "surfaces felt would"),
         ({"surfaces": ()}, "surfaces must be one name at least"),
         ({"control_period": 0.015}, "control_period must be whole time steps"),
         ({"duration": -1.0}, "duration must be a positive"),
@@ -244,3 +245,11 @@ def test_a_trained_rhythm_beats_the_gait_of_the_paper_on_gelatin():
     # finer, and with friction in the middle too
     assert went(rhythm, "all") > 1.5 * paper
     assert trained.reward[-1] > trained.reward[0]
+
+
+def test_a_base_keeps_its_ground_and_its_numerics():
+    base = {"ground": {"tip_force": 0.02}, "numerics": {"links": 6, "timestep": 0.02}}
+    settings = Settings(base=base)
+    assert (settings.resolved.links, settings.resolved.timestep) == (6, 0.02)
+    assert settings.draw(np.random.default_rng(0)).ground.tip_force == 0.02
+    assert Settings().draw(np.random.default_rng(0)).ground.name == "gelatin"

@@ -1,5 +1,6 @@
 """What is free in a fit."""
 
+import math
 import re
 
 import pytest
@@ -30,6 +31,13 @@ def test_values_go_where_their_names_say():
     scene, _ = build(with_values(BASE, {"robot.modulus": 3e6, "surface.tip_force": 0.05}))
     assert scene.robot.modulus == 3e6
     assert (scene.ground.tip_force, scene.ground.shear_strength) == (0.05, 10.0)
+
+
+def test_a_slope_alone_leaves_the_ground_the_default_one():
+    scene, _ = build(with_values({"ground": {"slope_deg": 2.0}}, {"surface.tip_force": 0.05}))
+    assert scene.slope == pytest.approx(math.radians(2.0))
+    assert scene.ground.tip_force == 0.05
+    assert scene.ground.shear_strength == SURFACES["felt"].shear_strength
 
 
 def test_a_surfaces_parameter_changes_runs_on_it_alone():

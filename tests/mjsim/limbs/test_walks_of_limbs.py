@@ -14,7 +14,7 @@ from analytic.solvers.limbs.contacts import ripple
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.statics import Statics
 from analytic.solvers.limbs.walk import walk as quasi_static
-from mjsim.friction.in_plane import Grips
+from mjsim.friction.in_plane import LimbFooting
 from mjsim.model.limbs import longest_step
 from mjsim.results.status import Status
 from mjsim.scene import Numerics, Scene, resolved
@@ -88,16 +88,16 @@ def test_half_the_step_and_half_the_links_change_it_little(walks):
 
 def test_every_place_resists_by_its_bound_at_most(monkeypatch):
     excess = []
-    before = Grips.before_step
+    before = LimbFooting.before_step
 
     def watch(self, pressures):
         data = self._data
         for tendon, force in zip(data.efc_id[: data.nf], data.efc_force[: data.nf], strict=True):
-            rows, _ = self._by_tendon[int(tendon)]
-            excess.append(abs(force) - rows.bound)
+            point, _ = self._by_tendon[int(tendon)]
+            excess.append(abs(force) - point.bound)
         before(self, pressures)
 
-    monkeypatch.setattr(Grips, "before_step", watch)
+    monkeypatch.setattr(LimbFooting, "before_step", watch)
     simulate(scene("polyethylene", 2.0), Numerics(timestep=0.02, links=4))
     assert max(excess) < 1e-9
 

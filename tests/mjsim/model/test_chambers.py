@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from analytic import SURFACES
 from mjsim.commands.run import main
-from mjsim.model.chambers import Chambers
+from mjsim.model.chambers import ChamberPressures
 from mjsim.results.measures import measure
 from mjsim.results.record import record
 from mjsim.scene import Numerics, Scene, Valves
@@ -22,7 +22,7 @@ UNLIKE = Valves(fill_time=(0.1, 0.2, 0.3), vent_time=0.4, dead_time=0.1, flow_li
 
 def follow(valves, commands):
     commands = np.asarray(commands, dtype=float)
-    return Chambers(valves, commands.shape[1], DT).follow(commands)
+    return ChamberPressures(valves, commands.shape[1], DT).follow(commands)
 
 
 def test_filling_and_venting_are_exponentials_of_their_own():
@@ -54,7 +54,7 @@ def test_a_flow_limit_makes_a_straight_ramp():
 @given(st.lists(st.integers(1, 60), min_size=1, max_size=6), st.integers(0, 9))
 def test_what_follows_does_not_depend_on_how_commands_are_cut(cuts, seed):
     commands = np.random.default_rng(seed).uniform(0, PEAK, (sum(cuts), 3))
-    whole, parts = Chambers(UNLIKE, 3, DT), Chambers(UNLIKE, 3, DT)
+    whole, parts = ChamberPressures(UNLIKE, 3, DT), ChamberPressures(UNLIKE, 3, DT)
     pieces = np.split(commands, np.cumsum(cuts)[:-1])
     found = np.concatenate([parts.follow(piece) for piece in pieces])
     assert np.array_equal(found, whole.follow(commands))

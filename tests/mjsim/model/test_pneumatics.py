@@ -14,7 +14,7 @@ from analytic.scene import pneunet
 from analytic.scene.chain import joint_springs, segment_overlap
 from analytic.scene.surface import from_ratios
 from mjsim.model.builder import compile_model
-from mjsim.model.chambers import Chambers
+from mjsim.model.chambers import ChamberPressures
 from mjsim.model.pneumatics import controls
 from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene, Valves
@@ -65,7 +65,7 @@ def test_the_moment_of_gain_and_input_is_that_of_the_law(pressure, turn, chamber
 def test_chambers_follow_a_step_of_the_valve_exponentially():
     scene, numerics = replace(BASE, valves=Valves(0.3)), Numerics(timestep=0.01)
     step = np.ones((200, 3)) * 5e4
-    found = Chambers(scene.valves, 3, numerics.timestep).follow(step)
+    found = ChamberPressures(scene.valves, 3, numerics.timestep).follow(step)
     time = 0.01 * np.arange(1, 201)
     assert found[:, 0] == pytest.approx(5e4 * (1 - np.exp(-time / 0.3)), rel=1e-9)
 
@@ -77,7 +77,7 @@ def test_mujoco_s_filters_hold_the_pressure_and_its_square():
     data = mujoco.MjData(model)
     rest, time = np.zeros(3), np.arange(1, 401) * numerics.timestep
     command = scene.robot.peak_pressure * scene.gait.fractions(time)
-    pressure = Chambers(scene.valves, 3, numerics.timestep).follow(command)
+    pressure = ChamberPressures(scene.valves, 3, numerics.timestep).follow(command)
     for step, control in enumerate(controls(scene, numerics, command, rest, pressure)):
         data.ctrl[:] = control
         mujoco.mj_step(model, data)

@@ -13,7 +13,7 @@ from walks import walk
 
 from analytic import SURFACES
 from mjsim.pictures import gl, recording
-from mjsim.pictures.overlay import Overlay, font
+from mjsim.pictures.overlay import StripOverlay, font
 from mjsim.pictures.render import Camera
 
 pytestmark = pytest.mark.skipif(BACKEND is None, reason="no OpenGL backend on this machine")
@@ -82,7 +82,7 @@ def test_surfaces_look_different(before_and_after):
 def test_the_overlay_writes_pressures_and_displacement(before_and_after):
     frame = before_and_after["felt"][0]
     result = walk("felt")
-    overlay = Overlay(result, 0.5)
+    overlay = StripOverlay(result, 0.5)
     drawn = [overlay.draw(frame, i) for i in (0, len(result.time) // 2)]
     assert not np.array_equal(drawn[0], frame)
     assert not np.array_equal(drawn[0], drawn[1])

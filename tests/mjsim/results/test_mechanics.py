@@ -99,12 +99,12 @@ def test_energy_closes(surface, part):
     result = recorded(surface)
     bent, balanced = bending(result), balance(result)
     stored = bent.energy + balanced.potential + balanced.kinetic
-    lost = bent.damped + balanced.rubbed
+    lost = bent.damped + balanced.friction_loss
     left_over = bent.work - (stored - stored[0]) - lost
     exchanged = np.abs(np.diff(bent.work)).sum()
     assert np.abs(left_over).max() < part * exchanged
-    rubbed = np.diff(balanced.rubbed)
-    assert -rubbed[rubbed < 0].sum() < 1e-4 * rubbed.sum()
+    losses = np.diff(balanced.friction_loss)
+    assert -losses[losses < 0].sum() < 1e-4 * losses.sum()
     assert (np.diff(bent.damped) >= 0).all()
 
 

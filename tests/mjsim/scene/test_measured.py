@@ -88,6 +88,16 @@ def test_units_of_pressure_are_told_by_the_heads(tmp_path, unit, size, mark):
     assert read.pressure == pytest.approx(series.pressure, abs=1.0)
 
 
+def test_columns_that_name_chambers_may_be_in_any_order_and_others_are_refused(tmp_path):
+    path = tmp_path / "p.csv"
+    path.write_text("time [s],right [Pa],left [Pa],middle [Pa]\n0,3,1,2\n1,6,4,5\n")
+    read = read_series(path, ("left", "middle", "right"))
+    assert read.pressure.tolist() == [[1, 2, 3], [4, 5, 6]]
+    path.write_text("time [s],right [Pa],left [Pa],centre [Pa]\n0,3,1,2\n1,6,4,5\n")
+    with pytest.raises(ValueError, match="columns must be left, middle, right; got right, left, c"):
+        read_series(path, ("left", "middle", "right"))
+
+
 def test_decimal_commas_comments_and_time_in_ms_are_read(tmp_path):
     path = tmp_path / "p.csv"
     path.write_bytes(b"\xef\xbb\xbf# a sensor\r\nt_ms;p1_kPa\r\n1000;0,5\r\n\r\n1500;1,5\r\n")

@@ -16,7 +16,7 @@ from mjsim.scene import Numerics, Scene, Valves
 from mjsim.simulation.batch import Refused
 from mjsim.simulation.batch_layout import FIELDS, bare_model, field
 from mjsim.simulation.batch_simulate import simulate_batch
-from mjsim.simulation.batch_strips import Strips
+from mjsim.simulation.batch_strips import StripBatch
 from mjsim.simulation.simulation import simulate
 
 COARSE = Numerics(links=12, timestep=0.01)
@@ -97,12 +97,12 @@ def test_a_strip_that_falls_stops_there_and_the_others_walk_on():
 
 def test_a_row_can_be_given_another_scene():
     numerics = COARSE.resolved("chain", "constant")
-    strips = Strips([Scene(), Scene()], numerics)
+    strips = StripBatch([Scene(), Scene()], numerics)
     other = Scene(replace(Robot(), length=0.1), ground=SURFACES["gelatin"])
     strips.reset(np.array([1]), [other])
     valves = np.full((1, 50, 3), 0.5 * Robot().peak_pressure)
     again = strips.play(valves, np.array([1]))
-    fresh = Strips([other], numerics)
+    fresh = StripBatch([other], numerics)
     fresh.reset(np.array([0]))
     assert np.array_equal(again.coordinates, fresh.play(valves).coordinates)
 
@@ -110,6 +110,6 @@ def test_a_row_can_be_given_another_scene():
 def test_scenes_of_other_kinds_are_refused_in_one_line():
     numerics = COARSE.resolved("chain", "constant")
     with pytest.raises(ValueError, match="body, friction and actuation must be chain"):
-        Strips([Scene(friction="coulomb")], numerics)
+        StripBatch([Scene(friction="coulomb")], numerics)
     with pytest.raises(ValueError, match="one layout"):
-        Strips([Scene(), Scene(settle_time=1.0)], numerics)
+        StripBatch([Scene(), Scene(settle_time=1.0)], numerics)

@@ -8,7 +8,7 @@ import pytest
 from analytic import GAITS, SURFACES, Gait, Robot
 from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.checked import ladder, walk_checked
+from mjsim.simulation.checked import refinements, walk_checked
 from mjsim.simulation.simulation import simulate
 from studies.accuracy.benchmark_cases import GROUNDS, WALK, exact, scene_of
 
@@ -43,13 +43,13 @@ def test_a_robot_that_falls_is_said_to_fall_by_two_fine_walks():
 
 def test_each_walk_is_finer_than_the_one_before_and_steps_follow_the_ramps():
     for scene in (HIGH, FAST, FOUR):
-        steps = list(ladder(scene))
+        steps = list(refinements(scene))
         assert len(steps) > 2
         for one, two in itertools.pairwise(steps):
             assert two.links >= one.links
             assert two.timestep <= one.timestep
         assert steps[0].timestep <= min(scene.gait.ramp_times) / 40 + 1e-12
-    assert all(numerics.links % 4 == 0 for numerics in ladder(FOUR))
+    assert all(numerics.links % 4 == 0 for numerics in refinements(FOUR))
 
 
 @pytest.mark.slow

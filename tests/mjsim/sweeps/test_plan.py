@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from analytic.scene.surface import SURFACES
+from analytic.scene.surface import SURFACES, Surface
 from mjsim.sweeps.plan import EXAMPLE, make_plan, read_plan
 
 FULL = {
@@ -57,6 +57,12 @@ def test_scenes_are_built_from_the_base_and_their_fields():
     scene, _ = changed.scene(0)
     assert scene.ground.tip_force == 0.005
     assert scene.ground.shear_strength == SURFACES["felt"].shear_strength
+
+
+def test_a_ground_of_given_properties_keeps_them_when_other_fields_change():
+    base = {"ground": {"tip_force": 0.1}}
+    scene, _ = make_plan({"scene": base, "grid": {"robot.length": [0.1]}}).scene(0)
+    assert scene.ground == Surface(tip_force=0.1)
 
 
 def test_the_example_is_a_plan(tmp_path):

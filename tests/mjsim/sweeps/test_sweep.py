@@ -321,3 +321,10 @@ def test_jobs_of_a_sweep_that_was_stopped_are_what_is_left(tmp_path):
         store.add(rows_of(half), dict(half.points))
         left = [n for job in jobs(plan, store, template) for n, _ in job.points]
     assert sorted([*left, *(n for n, _ in half.points)]) == list(range(len(plan)))
+
+
+def test_auto_of_a_walk_whose_inertia_has_no_account_is_a_row_with_its_last_change():
+    base = {"ground": {"shear_strength": 20.0, "viscosity": 100.0}, "gait": {"ramp_time": 0.5}}
+    (row,) = rows_of(Job(base, "auto", [(0, {})], tolerance=0.5))
+    assert row["status"] == "ok"
+    assert row["uncertainty_over_L"] > 0

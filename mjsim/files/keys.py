@@ -1,0 +1,85 @@
+"""Keys of the tables of a scene, each with its meaning, unit and default below it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any
+
+from analytic.scene.robot import Robot
+from analytic.scene.surface import Surface
+from mjsim.files.limb_tables import KEYS as LIMB_KEYS
+from mjsim.scene.numerics import Numerics
+from mjsim.scene.scene import Scene
+from mjsim.scene.valves import Valves
+
+
+@dataclass(frozen=True)
+class GaitKeys:
+    """Keys of [gait]."""
+
+    name: str = "wave"
+    """of a known gait"""
+    stages: str | None = None
+    """segments inflated at each stage, the first again at the end, as in 000,100,110,011,001,000;
+    those of gait wave if not given"""
+    ramp_time: tuple[float, ...] | float = 2.0
+    """duration of the ramp between two stages, one for all or one each [s]"""
+    lag: float | None = None
+    """in place of stages: part of the cycle from one segment's inflation to the next one's [1]; 0.2
+    in gait wave"""
+    duty: float | None = None
+    """part of the cycle for which a segment has more than half the peak pressure [1]; 0.4 in gait
+    wave"""
+    ramp: float | None = None
+    """part of the cycle that a rise or a fall takes [1]; 0.2 in gait wave"""
+    period: float = 10.0
+    """of the cycle of a gait of lag, duty and ramp [s]"""
+    reverse: bool = False
+    """run the stages backwards"""
+    file: str | None = None
+    """a TOML table of these keys, or a CSV of measured pressures"""
+    repeats: bool = True
+    """the stages are a cycle"""
+    left: float = 1.0
+    """part of the pressure that the left legs of the quadruped get [1]"""
+    right: float = 1.0
+    """part of the pressure that the right legs of the quadruped get [1]"""
+
+
+@dataclass(frozen=True)
+class GroundKeys:
+    """Keys of [ground] beside the fields of a surface."""
+
+    slope_deg: float = 0.0
+    """the ground rises towards +x by this angle [deg]"""
+
+
+TRAPEZOID = ("lag", "duty", "ramp")
+SIDES = ("left", "right")  # of the quadruped
+SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation", "gravity",
+                "settle_time")  # fmt: skip
+SURFACE_FIELDS = tuple(field.name for field in fields(Surface) if field.name != "name")
+KINDS: Mapping[str, tuple[type, ...]] = {
+    "robot": (Robot,), "gait": (GaitKeys,), "valves": (Valves,), "ground": (Surface, GroundKeys),
+    "numerics": (Scene, Numerics),
+}  # fmt: skip
+"""Dataclasses that document the keys of each table."""
+KEYS: Mapping[str, tuple[str, ...]] = {
+    "robot": (*(field.name for field in fields(Robot)), *LIMB_KEYS),
+    "gait": tuple(field.name for field in fields(GaitKeys)),
+    "valves": tuple(field.name for field in fields(Valves)),
+    "ground": ("surface", *SURFACE_FIELDS, "slope_deg", "patches"),
+    "numerics": (*SCENE_FIELDS, *(field.name for field in fields(Numerics))),
+}
+NAMES = tuple(KEYS)
+_RENAMED = {("numerics", "elements"): "links"}  # keys of older files
+
+
+def check_keys(name: str, table: Mapping[str, Any], where: str = "") -> None:
+    """Raise ValueError for a key that a table does not have."""
+    for key in table:
+        if (name, key) in _RENAMED:
+            raise ValueError(f"{where}key {key!r} of [{name}] is now {_RENAMED[name, key]!r}")
+        if key not in KEYS[name]:
+            raise ValueError(
+                f"{where}key {key!r} of [{name}] is unknown; known are {', '.join(KEYS[name])}"
+            )

@@ -1,0 +1,53 @@
+"""Rigid links of a strip, end to end, joined by springs at the stiffness of rest."""
+
+import mujoco
+import numpy as np
+
+from analytic.scene.chain import joint_springs, link_lengths
+from analytic.scene.robot import Robot
+from mjsim.model.parts import ORIGIN, Node
+from mjsim.scene import Resolved, Scene
+
+UP = (0, -1, 0)  # axis about which a positive angle turns x towards z
+
+
+def add_links(
+    parent: mujoco.MjsBody,
+    strip: Robot,
+    scene: Scene,
+    numerics: Resolved,
+    names: tuple[str, str],
+    joint_type: mujoco.mjtJoint = mujoco.mjtJoint.mjJNT_HINGE,
+    width: float = 0.0,
+) -> list[Node]:
+    """Add a chain of links, straight along x, whose first one has no joint yet.
+
+    Args:
+        parent: body that carries the first link.
+        strip: what is made of links.
+        scene, numerics: gravity, number of links and damping.
+        names: of links and of joints, before their numbers.
+        joint_type: hinges about -y, or balls.
+        width: of the plates that links are; thin rods if 0 [m].
+
+    Returns:
+        Links + 2 nodes: where each link begins, and where the last one ends.
+    """
+    lengths = link_lengths(strip, numerics.links).tolist()
+    stiffness, rest = joint_springs(strip, numerics.links, np.zeros((1, len(strip.segments))))
+    nodes: list[Node] = []
+    body, begin = parent, 0.0
+    for i, length in enumerate(lengths):
+        body = body.add_body(name=f"{names[0]}{i}", pos=(begin, 0.0, 0.0))
+        if i:
+            joint = body.add_joint(name=f"{names[1]}{i}", type=joint_type, axis=UP)
+            joint.springref, joint.stiffness[0] = rest[0, i - 1], stiffness[0, i - 1]
+            joint.damping[0] = numerics.damping_time * stiffness[0, i - 1]
+        mass = strip.weight_per_length / scene.gravity * length
+        across, along = mass * width**2 / 12, mass * length**2 / 12
+        body.explicitinertial, body.mass, body.ipos = True, mass, (length / 2, 0.0, 0.0)
+        # a plate without thickness; or a rod that turns alike about all axes
+        body.inertia = (across, along, across + along) if width else [along] * 3
+        nodes.append((body, ORIGIN))
+        begin = length
+    return [*nodes, (body, (begin, 0.0, 0.0))]

@@ -1,0 +1,52 @@
+"""Words on the frames of a robot of limbs, with the robot from above."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from analytic.scene.limbs import chambers_by_limb, plan, rotation
+from mjsim.model.limbs import limbed
+from mjsim.pictures.frames import Frame
+from mjsim.pictures.overlay import BLUE, INK, Colour, Overlay, Pen, without_minus_zero
+from mjsim.results.shades import shade_of_pixels
+
+_BAND, _WHITE = 118, 0.75  # lines behind the words, and how white they are
+_CENTRE, _LENGTH = (520, 62), 190.0  # of the robot from above: its middle, and its L [pixels]
+
+
+class LimbOverlay(Overlay):
+    """Overlay of a robot of limbs: pressures in its limbs and which way it turned."""
+
+    def draw(self, frame: Frame, step: int) -> Frame:
+        """A copy of the frame with the state written on a white band."""
+        picture, lines = frame.copy(), round(_BAND * self.scale)
+        picture[:lines] = (_WHITE * 255 + (1 - _WHITE) * picture[:lines]).astype(np.uint8)
+        return super().draw(picture, step)
+
+    def _displacement(self, step: int) -> Sequence[tuple[str, Colour]]:
+        walk = self.walk
+        gone = walk.moved(walk.start, step) / walk.scene.robot.length
+        ahead, aside = (without_minus_zero(part, 5e-4) for part in gone.tolist())
+        turn = float(np.degrees(walk.heading[step] - walk.heading[walk.start]))
+        return (
+            (f"{ahead:+.3f} L ahead", INK), (f"{aside:+.3f} L to the left", BLUE),
+            (f"turned {without_minus_zero(turn, 5e-2):+.1f}° to the left", BLUE),
+        )  # fmt: skip
+
+    def _draw_state(self, pen: Pen, width: int, step: int) -> None:
+        """The robot from above, its trunk ahead, each limb in the colour that it has."""
+        robot, u = limbed(self.walk.scene), self.scale
+        trunk = robot.limbs[0].angle
+        begins = {name: ends[0] @ rotation(trunk) for name, ends in plan(robot).items()}
+        scale, middle = u * _LENGTH / robot.length, np.mean(list(begins.values()), axis=0)
+        for limb, part in zip(robot.limbs, chambers_by_limb(robot), strict=True):
+            pressure = float(np.abs(self.walk.pressure[step, part]).mean())
+            start = begins[limb.name] - middle
+            along = rotation(limb.angle - trunk)[:, 0]
+            side = 0.5 * limb.strip.width * np.array([-along[1], along[0]])
+            end = start + along * limb.strip.length
+            pen.polygon(
+                [(_CENTRE[0] * u + scale * x, _CENTRE[1] * u - scale * y)
+                 for x, y in (start + side, end + side, end - side, start - side)],
+                fill=shade_of_pixels(pressure / robot.peak_pressure), outline=INK,
+            )  # fmt: skip
