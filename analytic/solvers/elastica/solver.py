@@ -30,6 +30,7 @@ _LEAST_STEP = 1e-4  # of the way between two states, below which the branch is t
 _LEAST_PULLED = 1e-2  # where friction or adhesion may give way, and damped motion follows
 _CURLED = 0.02  # slope that an end in flat contact does not have, even where it lifts off [rad]
 _LOCATED = 1e-7  # motion over L within which a change of contacts is located; chosen
+_MOST_CHANGES = 8  # in an increment, beyond which they are a flicker and not looked for; chosen
 _NO_NUMBERS = Flag.BRANCH_END | Flag.ROLLED_UP
 _JUMP = 0.03  # change of a direction at one pressure that is flagged as a jump [rad]; chosen
 _LEAP = 0.3  # change of a direction in one step that may be a leap to another branch [rad]
@@ -167,9 +168,14 @@ class _Branch:
         """States at the rows of the path, and two more on either side of changes of contacts."""
         points = [_Point(-1.0, self._path[0], self._chain.flat())]
         for row in range(len(self._path) - 1):
+            changes = 0
             while points[-1].row < row:
                 after = self._after(points, float(row))
-                points += self._change(points, after) if self._change_in(points, after) else [after]
+                changes += 1
+                if changes <= _MOST_CHANGES and self._change_in(points, after):
+                    points += self._change(points, after)
+                else:
+                    points.append(after)
         return points[1:]
 
     def _change_in(self, points: list[_Point], after: _Point) -> float:

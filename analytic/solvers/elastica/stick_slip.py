@@ -84,7 +84,7 @@ class StickSlip:
         self._speed, self._slid = 0.0, np.zeros(0)
         self._take([], np.zeros(0), np.zeros(0))
         self._search: _FixedPoint | None = None
-        self._changes = 0
+        self._changes, self._settled = 0, True
 
     def begin(self, state: ChainState, duration: float = math.inf) -> None:
         """Begin an increment of so many seconds at a state, the chain being loaded for its end."""
@@ -143,6 +143,7 @@ class StickSlip:
             self._search = self._search or _FixedPoint(len(bounds))
             alike, bounds = self._search.next(self.bounds, bounds, near)
         self._take(contacts, bounds, drag)
+        self._settled = alike
         return alike
 
     def _resistance(self, contacts: list[StripContact], state: ChainState) -> tuple[Array, Array]:
@@ -188,7 +189,7 @@ class StickSlip:
         least = (1 + _ALIKE) * float(self.bounds.min(initial=np.inf))
         return Signature(
             kinds=tuple(
-                "between" if between else "side" if contact.length > 0 else "tip"
+                "between" if between or not self._settled else "side" if contact.length > 0 else "tip"
                 for contact, between in zip(self.contacts, held, strict=True)
             ),
             weakest=tuple(bound <= least for bound in self.bounds.tolist()),
@@ -249,6 +250,10 @@ class _FixedPoint:
     """
 
     def __init__(self, count: int) -> None:
+        self._doubted = False
+        self._forget(count)
+
+    def _forget(self, count: int) -> None:
         self._low, self._high = np.full(count, -np.inf), np.full(count, np.inf)
         self._before: tuple[Array, Array] | None = None
         self._tries = 0
@@ -267,6 +272,10 @@ class _FixedPoint:
         held = between & ~wide & (np.abs(gap) > near)
         self.between = held.tolist()
         solved = bool(((np.abs(gap) <= near) | held).all())
+        if solved and not self._doubted:
+            self._doubted = True  # early results are of shapes that are not yet in balance
+            self._forget(len(gap))
+            return False, results
         after, self._tries = results, self._tries + 1
         if self._before is not None and self._tries > _FREE_UPDATES:
             step, change = bounds - self._before[0], gap - self._before[1]
