@@ -19,6 +19,8 @@ from analytic.shapes import ContactShapes, Flag, Shapes
 
 Array = NDArray[np.float64]
 
+_LOCATED = 1e-7  # change of separation over L within which a change of anchor is located; chosen
+_PARTS, _ROUNDS = 8, 8  # into which an increment is divided, and how often at most
 
 class Solver(Protocol):
     """Finds equilibria along a path of pressures; its options are its fields.
@@ -148,6 +150,7 @@ class Prediction(NamedTuple):
 
     Attributes:
         pressures: states along the path, shape (B, S) [Pa], denser where the anchor changes.
+        times: of those states, shape (B,) [s]; places along the path in rows where it has no times.
         shapes: their equilibria.
         locomotion: displacements along them.
         flags: every flag that a state carries.
@@ -157,6 +160,7 @@ class Prediction(NamedTuple):
     """
 
     pressures: Array
+    times: Array
     shapes: Shapes
     locomotion: Locomotion
     flags: Flag
@@ -173,8 +177,7 @@ def predict(
     gait: Gait,
     ground: Ground,
     solver: Solver | str = REFERENCE,
-    states_per_ramp: int = 50,
-    refinement: int = 32,
+    states_per_ramp: int = 25,
     friction: Friction = WEAK,
     path: ArrayLike | None = None,
     cycles: int = 1,
@@ -182,15 +185,15 @@ def predict(
 ) -> Prediction:
     """Walk quasi-statically, one cycle or along a path.
 
-    The anchor rule is right but for the increments in which the anchor changes: those are found in
-    a first pass and divided into `refinement` parts in a second.
+    The anchor rule is right but for the increments in which the anchor changes. States are added
+    there until such an increment changes the separation by 1e-7 of the length; where friction bends
+    the strip the solver does so, see analytic.solvers.elastica.
 
     Args:
         robot, gait, ground: the scene.
         solver: a name of SOLVERS, or a solver with its options.
-        states_per_ramp: states in the first pass of a ramp from no pressure to the peak; fewer of
-            one that changes less, but where the ground resists by speed.
-        refinement: parts of an increment in which the anchor changes.
+        states_per_ramp: states in a ramp from no pressure to the peak; fewer in one that changes
+            less, but where the ground resists by speed.
         friction: law, tension and slope; "coulomb" needs a solver that knows forces, and elastica
             alone lets friction bend the strip.
         path: pressures to follow instead of the gait's, (B, S) [Pa].
@@ -224,7 +227,7 @@ def predict(
             f"ground {ground.name!r} resists by speed: friction must have a tension above 0, and a "
             "path its times"
         )
-    walk = _Walk(robot, solver, friction, refinement, cycles, timed=times is not None)
+    walk = _Walk(robot, solver, friction, cycles, timed=times is not None)
     return walk.on([ground], path, clock)[0]
 
 
@@ -234,13 +237,12 @@ def predict_grounds(
     grounds: Sequence[Surface],
     solver: Solver,
     states_per_ramp: int,
-    refinement: int = 32,
     friction: Friction = WEAK,
 ) -> list[Prediction]:
     """Walk on several grounds, whose friction bends nothing, with shapes that are solved for once.
 
     Args:
-        robot, gait, solver, states_per_ramp, refinement: see predict.
+        robot, gait, solver, states_per_ramp: see predict.
         grounds: uniform ones, which neither stick nor resist by speed.
         friction: law, slope and contacts; its tension is taken as 0.
 
@@ -249,7 +251,7 @@ def predict_grounds(
     """
     friction = replace(friction, tension=0.0)
     path = robot.peak_pressure * gait.path(states_per_ramp)[0]
-    walk = _Walk(robot, solver, friction, refinement, cycles=1, timed=False)
+    walk = _Walk(robot, solver, friction, cycles=1, timed=False)
     return walk.on(grounds, path, np.arange(float(len(path))))
 
 
@@ -259,21 +261,17 @@ class _Walk(NamedTuple):
     robot: Robot
     solver: Solver
     friction: Friction
-    refinement: int
     cycles: int
     timed: bool
 
     def on(self, grounds: Sequence[Ground], path: Array, clock: Array) -> list[Prediction]:
         """Predictions on grounds that shapes are alike on, at pressures (B, S) and times (B,)."""
-        shapes = self._shapes(grounds[0], path, clock)
-        changes = np.flatnonzero(
-            np.any([left_end(shapes, ground, self.friction)[1] for ground in grounds], axis=0)
-        )
-        if len(changes) and self.refinement > 1:
-            path, clock = (_refined(values, changes, self.refinement) for values in (path, clock))
-            shapes = self._shapes(grounds[0], path, clock)
+        times = clock if self.timed else None
+        shapes = self.solver.solve(self.robot, path, grounds[0], self.friction, times)
         if isinstance(shapes, ContactShapes) and shapes.rows is not None:
             path, clock = shapes.pressures, np.interp(shapes.rows, np.arange(len(clock)), clock)
+        if not self.friction.tension:
+            shapes, path, clock = self._located(grounds, shapes, path, clock)
         flags = Flag(int(np.bitwise_or.reduce(shapes.status)))
         ends = np.linspace(clock[0], clock[-1], self.cycles + 1)
         predictions = []
@@ -282,16 +280,31 @@ class _Walk(NamedTuple):
             by_cycle = np.diff(np.interp(ends, clock, locomotion.left))
             if isinstance(ground, Surface):
                 locomotion = locomotion._replace(per_cycle=float(by_cycle[-1]))
-            predictions.append(Prediction(path, shapes, locomotion, flags, by_cycle))
+            predictions.append(Prediction(path, clock, shapes, locomotion, flags, by_cycle))
         return predictions
 
-    def _shapes(self, ground: Ground, path: Array, clock: Array) -> Shapes:
-        times = clock if self.timed else None
-        return self.solver.solve(self.robot, path, ground, self.friction, times)
+    def _located(
+        self, grounds: Sequence[Ground], shapes: Shapes, path: Array, clock: Array
+    ) -> tuple[Shapes, Array, Array]:
+        """Shapes, path and times with states added where the anchor changes on any ground.
 
-
-def _refined(values: Array, changes: NDArray[np.int_], parts: int) -> Array:
-    """Rows with those increments divided."""
-    part = np.linspace(0, 1, parts + 1)[1:-1].reshape(-1, *[1] * (values.ndim - 1))
-    between = [values[i] + part * (values[i + 1] - values[i]) for i in changes]
-    return np.insert(values, np.repeat(changes + 1, parts - 1), np.concatenate(between), axis=0)
+        An increment is divided until it changes the separation by next to nothing.
+        """
+        for _ in range(_ROUNDS):
+            moved = np.abs(np.diff(shapes.separation)) > _LOCATED * self.robot.length
+            anchors = [left_end(shapes, ground, self.friction)[1] for ground in grounds]
+            changes = np.flatnonzero(np.any(anchors, axis=0) & moved)
+            if not len(changes):
+                break
+            part = np.tile(np.arange(1, _PARTS) / _PARTS, len(changes))
+            rows = np.repeat(changes, _PARTS - 1)
+            more = path[rows] + part[:, None] * (path[rows + 1] - path[rows])
+            between = self.solver.solve(self.robot, more, grounds[0], self.friction, None)
+            if not np.isfinite(between.separation).all():
+                break
+            order = np.argsort(np.concatenate([np.arange(len(path)), rows + part]), kind="stable")
+            shapes = shapes.with_states(between, order)
+            path = np.concatenate([path, more])[order]
+            later = clock[rows] + part * (clock[rows + 1] - clock[rows])
+            clock = np.concatenate([clock, later])[order]
+        return shapes, path, clock

@@ -1,8 +1,9 @@
 """Results of every quasi-static solver: the strip's shape and contact at a batch of states."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum, IntFlag
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,6 +70,26 @@ class Shapes:
 
     def __len__(self) -> int:
         return len(self.separation)
+
+    def with_states(self, other: Self, order: NDArray[np.int_]) -> Self:
+        """These states and others of the same solver and nodes.
+
+        Args:
+            other: more states.
+            order: places of all states among these followed by the others.
+        """
+        merged = {
+            name: np.concatenate([values, getattr(other, name)])[order]
+            for name, values in vars(self).items()
+            if isinstance(values, np.ndarray) and name != "nodes"
+        }
+
+        def curve(s: Array) -> tuple[Array, Array]:
+            x, y = (np.concatenate(pair)[order]
+                    for pair in zip(self.curve(s), other.curve(s), strict=True))  # fmt: skip
+            return x, y
+
+        return replace(self, curve=curve, **merged)
 
     @property
     def mode(self) -> NDArray[np.int_]:

@@ -19,7 +19,7 @@ from mjsim.simulation.simulation import simulate
 
 COUNT, WORST, SEED = 40, 8, 11
 BENT = Friction(tension=1.0)
-PER_RAMP, PARTS = 100, 8  # states of the reference; 50 leave up to 5 % of short distances
+PER_RAMP = 50  # states of the reference
 
 
 class Case(NamedTuple):
@@ -33,7 +33,7 @@ class Case(NamedTuple):
 
 
 def reference(robot: Robot, gait: Gait, surface: Surface) -> float:
-    walked = predict(robot, gait, surface, states_per_ramp=PER_RAMP, refinement=PARTS,
+    walked = predict(robot, gait, surface, states_per_ramp=PER_RAMP,
                      friction=BENT)  # fmt: skip
     return walked.locomotion.per_cycle / robot.length
 
@@ -49,10 +49,10 @@ def cases(seed: int = SEED, count: int = COUNT, sensitive: bool = True) -> list[
         robot = pneunet.with_load(robot, gamma)
         tip = float(3 * rng.uniform(0, 1))
         ground = from_ratios("any", tip, 1.0)
-        low = predict(robot, gait, ground, states_per_ramp=10, refinement=1)
+        low = predict(robot, gait, ground, states_per_ramp=10)
         if low.flags or not 0.05 < low.shapes.amplitude.max() / robot.length < 0.35:
             continue  # without friction, at a hundredth of the cost
-        walked = predict(robot, gait, ground, states_per_ramp=PER_RAMP, refinement=PARTS,
+        walked = predict(robot, gait, ground, states_per_ramp=PER_RAMP,
                          friction=BENT)  # fmt: skip
         height = walked.shapes.amplitude.max() / robot.length
         if walked.flags or not 0.05 < height < 0.35:

@@ -22,7 +22,7 @@ def main(folder: Path | None = None, links: int = 48) -> dict[str, float]:
         walker = replace(robot, peak_pressure=pressure * robot.peak_pressure)
         for name, surface in SURFACES.items():
             for where in ("ends", "all"):
-                walked = predict(walker, gait, surface, Elastica(links), refinement=8,
+                walked = predict(walker, gait, surface, Elastica(links),
                                  friction=Friction(tension=1.0, contacts=where))  # fmt: skip
                 shifts[f"{part}, {name}, {where}"] = walked.locomotion.per_cycle / robot.length
             numbers = measure(simulate(Scene(walker, gait, surface), Numerics(links=links)))

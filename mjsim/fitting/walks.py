@@ -89,14 +89,14 @@ def quasi_static(scene: Scene, numerics: Numerics, places: tuple[float, ...]) ->
     fractions, times = scene.gait.path(_STATES, scene.cycles)
     walk = predict(
         scene.strip, scene.gait, scene.ground, Elastica(60, scene.chamber),
-        refinement=1, friction=scene.reference_friction, cycles=scene.cycles,
+        friction=scene.reference_friction, cycles=scene.cycles,
         path=scene.robot.peak_pressure * fractions, times=times,
     )  # fmt: skip
     if not math.isfinite(walk.locomotion.per_cycle):
         return None
     x, z = walk.shapes.curve(np.array(places) * scene.robot.length)
     return Motion(
-        np.asarray(times), walk.locomotion.left[:, None] + x, z, places,
+        walk.times, walk.locomotion.left[:, None] + x, z, places,
         float(walk.by_cycle[-1]), float(walk.shapes.amplitude.max()), 0.0, scene.gait.period,
     )  # fmt: skip
 

@@ -20,8 +20,7 @@ STATES = 25  # of the reference in a ramp from no pressure to the peak
 WEAK = "weak friction"  # which bends nothing and only decides which end slides
 _RESOLVED = 2e-4  # error over L that no halving shows; with it 51 of 53 random scenes are within
 _LINKS, _LINKS_A_SEGMENT = 60, 24  # of the reference: contacts between the ends need finer links
-_PARTS, _PARTS_BETWEEN = 32, 8  # of increments in which contacts change, see analytic.prediction
-HALF = 0.5  # of links, states and parts, with which the error bar compares
+HALF = 0.5  # of links and states, with which the error bar compares
 QUASI_STATIC = "quasi-static"  # the reference of robots of limbs
 LIMB_STATES = 20  # of the quasi-static reference, in a change by the peak pressure
 
@@ -118,11 +117,6 @@ def links(scene: Scene) -> int:
     return max(_LINKS, _LINKS_A_SEGMENT * len(scene.strip.segments) * scene.gait.dips())
 
 
-def parts(scene: Scene) -> int:
-    """Parts of an increment in which contacts change."""
-    return _PARTS_BETWEEN if scene.between else _PARTS
-
-
 def prediction(
     scene: Scene,
     solver: str = REFERENCE,
@@ -140,7 +134,7 @@ def prediction(
     Args:
         scene: robot, gait, ground, friction and chambers; not what MuJoCo alone needs.
         solver: a name of analytic.prediction.SOLVERS.
-        finer: multiplies links, states and parts.
+        finer: multiplies links and states.
         states: of a ramp from no pressure to the peak; STATES if None.
         bent: whether friction bends the robot, which the elastica alone knows; else it is WEAK.
         path, times: pressures in the chambers to follow in place of the gait's, (B, S) [Pa], and
@@ -162,7 +156,7 @@ def prediction(
         cycles = 2 if scene.rise_time and scene.gait.repeats else 1
     return predict(
         scene.strip, scene.gait, scene.ground, model, round((states or STATES) * finer),
-        round(parts(scene) * finer), friction, path, cycles, times,
+        friction, path, cycles, times,
     )  # fmt: skip
 
 

@@ -60,7 +60,7 @@ def predicted(
     robot: Robot, gait: Gait, ground: Surface, friction: Friction = BENT, links: int = 36
 ) -> float:
     """Displacement per cycle over L by an elastica that is resolved to a part of a thousandth."""
-    walk = predict(robot, gait, ground, Elastica(links), 25, refinement=16, friction=friction)
+    walk = predict(robot, gait, ground, Elastica(links), 25, friction=friction)
     return walk.locomotion.per_cycle / robot.length
 
 

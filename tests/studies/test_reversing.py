@@ -58,7 +58,7 @@ def test_noise_of_a_good_gait_changes_it_rarely_and_a_bad_one_is_found_all_the_s
 def test_a_cycle_on_patches_is_the_prediction_of_the_same_states(cycles):
     for left in (0.0, 0.05, 0.1):
         ground = seam(1.15 - left)
-        alone = predict(Robot(), GAITS["wave"], ground, Elastica(48), 50, refinement=1)
+        alone = predict(Robot(), GAITS["wave"], ground, Elastica(48), 50)
         assert cycles.displacement(left * L, 0) == pytest.approx(
             alone.locomotion.per_cycle, abs=1e-12
         )
