@@ -2,12 +2,11 @@
 
 from collections.abc import Callable, Mapping
 from importlib import import_module
-from types import ModuleType
 from typing import Any
 
 
 def lazily(
-    package: ModuleType | str, homes: Mapping[str, tuple[str, ...]]
+    package: str, homes: Mapping[str, tuple[str, ...]]
 ) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
     """Functions for `__getattr__` and `__dir__` of a package, and its list `__all__`.
 
@@ -21,6 +20,8 @@ def lazily(
     def attribute(name: str) -> Any:
         if name not in home_of:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
-        return getattr(import_module(home_of[name]), name)
+        value = getattr(import_module(home_of[name]), name)
+        setattr(import_module(package), name, value)  # found there from now on
+        return value
 
     return attribute, lambda: public, public

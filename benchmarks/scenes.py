@@ -14,7 +14,7 @@ from analytic.friction.laws import neutral_ratio
 from analytic.scene import pneunet
 from analytic.scene.surface import from_ratios
 from mjsim.results.measures import measure
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Scene, resolved
 from mjsim.simulation.simulation import simulate
 
 COUNT, WORST, SEED = 40, 8, 11
@@ -76,7 +76,9 @@ def report(all_cases: list[Case], ramp: float, numerics: Numerics) -> np.ndarray
     rows = []
     for case in all_cases:
         gait = Gait(case.gait.name, case.gait.stages, ramp)
-        found = measure(simulate(Scene(case.robot, gait, case.surface), numerics))
+        scene = Scene(case.robot, gait, case.surface)
+        chosen = resolved(scene, numerics)
+        found = measure(simulate(scene, chosen))
         shift = found.displacement if found else float("nan")
         rows.append((abs(shift - case.reference), shift, found.unexplained if found else 0.0, case))
     error = np.array([row[0] for row in rows])
@@ -84,7 +86,7 @@ def report(all_cases: list[Case], ramp: float, numerics: Numerics) -> np.ndarray
     middle, high = spread(part)
     near, far = spread(error)
     print(
-        f"\n{numerics.links} links, {1e3 * numerics.timestep:g} ms, {ramp:g} s a ramp: error over "
+        f"\n{chosen.links} links, {1e3 * chosen.timestep:g} ms, {ramp:g} s a ramp: error over "
         f"|distance| median {middle:.1%}, 95 % {high:.1%}; over L median {near:.5f}, "
         f"95 % {far:.5f}"
     )

@@ -53,7 +53,7 @@ def rewards(envs: Any, rhythms: Array, seed: int) -> Array:
     envs.reset(seed=seed)
     total, alive = np.zeros(len(rhythms)), np.ones(len(rhythms), dtype=bool)
     for step in range(settings.length):
-        actions = press(rhythms, step * settings.control_period, settings.segments)
+        actions = press(rhythms, step * settings.control_period, settings.chambers)
         _, reward, fallen, _, _ = envs.step(actions.astype(np.float32))
         total += np.where(alive, reward, 0.0)
         alive &= ~fallen
@@ -68,7 +68,7 @@ def train(envs: Any, generations: int, seed: int) -> Trained:
         generations: number of them.
         seed: of the random numbers.
     """
-    rng, segments = np.random.default_rng(seed), envs.settings.segments
+    rng, segments = np.random.default_rng(seed), envs.settings.chambers
     mean = np.zeros(segments + 2)
     mean[0] = 0.5
     spread = np.concatenate([[0.3], np.full(segments - 1, 0.5), [0.5, 0.5]])

@@ -81,4 +81,4 @@ def test_the_robot_moves_and_a_slider_puts_it_on_other_ground(screen):
     finally:
         program.kill()
     assert program.returncode == 0, error
-    assert "frames a second" in out
+    assert "frames per second" in out
