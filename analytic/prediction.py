@@ -22,6 +22,7 @@ Array = NDArray[np.float64]
 _LOCATED = 1e-7  # change of separation over L within which a change of anchor is located; chosen
 _PARTS, _ROUNDS = 8, 8  # into which an increment is divided, and how often at most
 
+
 class Solver(Protocol):
     """Finds equilibria along a path of pressures; its options are its fields.
 

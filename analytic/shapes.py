@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import IntEnum, IntFlag
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -89,7 +89,8 @@ class Shapes:
                     for pair in zip(self.curve(s), other.curve(s), strict=True))  # fmt: skip
             return x, y
 
-        return replace(self, curve=curve, **merged)
+        states: dict[str, Any] = {"curve": curve, **merged}
+        return replace(self, **states)
 
     @property
     def mode(self) -> NDArray[np.int_]:

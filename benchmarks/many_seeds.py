@@ -116,11 +116,11 @@ def lifted(seed: int) -> list[Row]:
 
 def _bounded(solver: str, exact: str, seed: int, scene: Any, states: int) -> list[Row]:
     """A row where the solver says a bound, and the exact one has an answer."""
-    found = predict(*scene, solver, states, 16)
+    found = predict(*scene, solver, states)
     bound, length = modes_error(found), scene[0].length
     if math.isinf(bound):
         return []
-    shift = predict(*scene, exact, states, 16).locomotion.per_cycle
+    shift = predict(*scene, exact, states).locomotion.per_cycle
     if math.isnan(shift):
         return []
     error = abs(found.locomotion.per_cycle - shift)

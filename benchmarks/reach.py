@@ -85,7 +85,7 @@ def draw(seed: int) -> tuple[Scene, float]:
 def walked(seed: int) -> Result:
     scene, phi = draw(seed)
     links = LINKS_A_SEGMENT * len(scene.robot.segments)
-    theory = predict(scene.robot, scene.gait, scene.ground, Elastica(links), 50, 8,
+    theory = predict(scene.robot, scene.gait, scene.ground, Elastica(links), 50,
                      scene.reference_friction)  # fmt: skip
     exact = theory.locomotion.per_cycle / scene.robot.length
     flags = [flag.name or "" for flag in theory.flags]

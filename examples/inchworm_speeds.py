@@ -85,7 +85,7 @@ def distances(job):
     surface, found = Surface("any", friction=friction, tip_friction=friction), [0.0]
     for turn in TURNS[1:]:
         robot = Robot(peak_pressure=Robot().peak_pressure * turn / pneunet.turn_number(Robot()))
-        walk = predict(pneunet.with_load(robot, load), GAITS[gait], surface, Elastica(24), 15, 4,
+        walk = predict(pneunet.with_load(robot, load), GAITS[gait], surface, Elastica(24), 15,
                        Friction("coulomb", 1.0))  # fmt: skip
         far = -walk.locomotion.per_cycle / robot.length  # as the mirrored gait goes
         found.append(far if np.isfinite(far) else found[-1])  # past the end of the branch

@@ -22,7 +22,7 @@ _RAMPS = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5)
 _GAMMAS = (1, 2, 4, 6, 8.1, 12, 16, 24, 32, 40)
 _PRESSURES = np.linspace(2e3, 90e3, 45)
 _MOST_STAGES = 6
-_STATES, _REFINEMENT = 12, 16  # in a ramp
+_STATES = 12  # in a ramp
 _HIGHEST = 0.45  # amplitude over L at which a sweep ends
 _AT, _FROM, _TO = 0.25, 0.2, 0.3  # amplitude over L of the paper's peak, and what counts as such
 _LEAST = 0.005  # of the length: a robot that goes less has no peak
@@ -80,7 +80,7 @@ def sweep(gait: Gait, gamma: float, solver: str, pressures: Array) -> Array:
     rows = []
     for pressure in pressures:
         robot = pneunet.with_load(Robot(peak_pressure=float(pressure)), gamma)
-        walks = [predict(robot, gait, SURFACES[name], solver, _STATES, _REFINEMENT)
+        walks = [predict(robot, gait, SURFACES[name], solver, _STATES)
                  for name in _QUANTITIES[1:]]  # fmt: skip
         height = float(walks[0].shapes.amplitude.max()) / robot.length
         row = [height, *(walk.locomotion.per_cycle / robot.length for walk in walks)]

@@ -34,7 +34,7 @@ def test_flags_of_states_that_hardly_shorten_it_do_not_matter(weight):
 def test_modes_without_a_root_have_no_bound():
     middle = ((0.0, 0.5, 0.0), (0.0, 1.0, 0.5), (0.0, 1.0, 1.0))  # found by chance
     gait = Gait("middle", ((0.0,) * 3, *middle, (0.0,) * 3))
-    walk = predict(from_groups(25.4, 2.71, 0.0145), gait, SURFACES["felt"], "modes", 12, 1)
+    walk = predict(from_groups(25.4, 2.71, 0.0145), gait, SURFACES["felt"], "modes", 12)
     assert walk.flags & Flag.NO_ROOT
     assert math.isinf(modes_error(walk))
 

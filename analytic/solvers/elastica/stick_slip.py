@@ -185,12 +185,13 @@ class StickSlip:
 
     def signature(self) -> Signature:
         """Contacts of the state that was found last."""
-        held = self._search.between if self._search else [False] * len(self.contacts)
+        count = len(self.contacts)
+        held = self._search.between if self._search else [False] * count
+        kinds = ["side" if contact.length > 0 else "tip" for contact in self.contacts]
         least = (1 + _ALIKE) * float(self.bounds.min(initial=np.inf))
         return Signature(
             kinds=tuple(
-                "between" if between or not self._settled else "side" if contact.length > 0 else "tip"
-                for contact, between in zip(self.contacts, held, strict=True)
+                "between" if held[i] or not self._settled else kinds[i] for i in range(count)
             ),
             weakest=tuple(bound <= least for bound in self.bounds.tolist()),
             slips=tuple(self.slips.tolist()),

@@ -110,7 +110,7 @@ def test_forces_of_the_ground_are_those_of_the_tilted_weight():
     path = GAITS["wave"].pressures(20) * ROBOT.peak_pressure
     shapes = solve_elastica(ROBOT, path, ground=GROUND, friction=Friction("constant", 1.0, 0.05))
     weight = ROBOT.weight_per_length * ROBOT.length * np.cos(0.05)
-    assert shapes.force.sum(axis=1) == pytest.approx(np.full(len(path), weight))
+    assert shapes.force.sum(axis=1) == pytest.approx(np.full(len(shapes), weight))
     assert shapes.residual.max() < 1e-9
 
 

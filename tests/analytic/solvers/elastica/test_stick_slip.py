@@ -35,6 +35,11 @@ BENT = Friction(tension=1.0)
 PATH = GAITS["wave"].pressures(40) * ROBOT.peak_pressure
 
 
+def asked(shapes):
+    """Separation at the states that were asked for, without those added where contacts change."""
+    return shapes.separation[shapes.rows % 1 == 0]
+
+
 @pytest.fixture(scope="module")
 def free():
     return solve_elastica(ROBOT, PATH)
@@ -83,7 +88,7 @@ def test_sealed_chambers_need_links_that_fit_segments():
 @pytest.mark.parametrize("surface", list(SURFACES))
 def test_friction_that_bends_tends_to_the_paper_s_law_as_phi_goes_to_0(free, surface):
     ground = SURFACES[surface]
-    limit = displacements(free, ground).per_cycle / ROBOT.length
+    limit = predict(ROBOT, GAITS["wave"], ground).locomotion.per_cycle / ROBOT.length
     gaps, shifts = [], []
     for phi in (1.0, 0.1, 0.01):
         shapes = solve_elastica(
@@ -91,7 +96,7 @@ def test_friction_that_bends_tends_to_the_paper_s_law_as_phi_goes_to_0(free, sur
         )
         assert (shapes.status == 0).all()
         assert shapes.residual.max() < 1e-9
-        gaps.append(np.abs(shapes.separation - free.separation).max() / ROBOT.length)
+        gaps.append(np.abs(asked(shapes) - free.separation).max() / ROBOT.length)
         shifts.append(abs(displacements(shapes, ground).per_cycle / ROBOT.length - limit))
     assert max(shifts) < 0.002
     assert shifts[2] < 1e-4
@@ -105,7 +110,7 @@ def up_and_down(stage, ground):
     part = np.concatenate([np.linspace(0, 1, 40), np.linspace(1, 0.6, 40)[1:]])
     path = part[:, None] * np.array(stage) * ROBOT.peak_pressure
     bent = solve_elastica(ROBOT, path, ground=ground, friction=Friction(tension=1.0))
-    return bent.separation, solve_elastica(ROBOT, path).separation
+    return asked(bent), solve_elastica(ROBOT, path).separation
 
 
 def test_on_reversal_both_ends_stick_until_the_play_is_taken_up():
@@ -264,7 +269,7 @@ def test_the_work_of_the_pressure_in_a_cycle_is_what_friction_dissipates():
 @pytest.mark.slow
 def test_every_strength_has_an_answer_or_says_so(surface, phi):
     ground = SURFACES[surface].scaled(max(phi, 1e-6) / PHI)
-    walked = predict(ROBOT, GAITS["wave"], ground, Elastica(30), 25, 1, BENT)
+    walked = predict(ROBOT, GAITS["wave"], ground, Elastica(30), 25, BENT)
     assert np.isfinite(walked.locomotion.per_cycle) or Flag.BRANCH_END in walked.flags
     if phi <= 15:
         assert not walked.flags
