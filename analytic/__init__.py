@@ -15,8 +15,7 @@ __getattr__, __dir__, __all__ = lazily(
     {
         "analytic.friction.laws": ("LAWS", "Friction", "TractionLaw"),
         "analytic.locomotion": ("Direction", "Locomotion", "direction", "displacements"),
-        "analytic.prediction": ("REFERENCE", "SOLVERS", "Elastica", "Lifted", "Modes", "Obstacle",
-                                "Prediction", "Solver", "predict"),
+        "analytic.prediction": ("Prediction", "predict"),
         "analytic.scene.gait": ("GAITS", "Gait"),
         "analytic.scene.ground": ("Patches",),
         "analytic.scene.limbs": ("Limb", "LimbedRobot", "quadruped"),
@@ -26,6 +25,8 @@ __getattr__, __dir__, __all__ = lazily(
         "analytic.shapes": ("ContactShapes", "Mode", "Shapes", "Flag"),
         "analytic.solvers.elastica": ("solve_elastica",),
         "analytic.solvers.lifted": ("solve_lifted",),
+        "analytic.solvers.models": ("REFERENCE", "SOLVERS", "Elastica", "Lifted", "Modes",
+                                    "Obstacle", "Solver"),
         "analytic.solvers.modes": ("solve_modes",),
         "analytic.solvers.obstacle": ("solve_obstacle",),
     },

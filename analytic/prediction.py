@@ -1,9 +1,8 @@
 """Displacement of a robot in a cycle, by any solver, with the changes of anchor resolved."""
 
-from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import ClassVar, NamedTuple, Protocol
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,138 +11,16 @@ from analytic.checks import one_of
 from analytic.friction.laws import Friction
 from analytic.locomotion import WEAK, Locomotion, displacements, left_end
 from analytic.scene.gait import Gait
-from analytic.scene.ground import depends_on_speed, surfaces_of
+from analytic.scene.ground import depends_on_speed
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground, Surface
 from analytic.shapes import ContactShapes, Flag, Shapes
+from analytic.solvers.models import REFERENCE, SOLVERS, Solver
 
 Array = NDArray[np.float64]
 
 _LOCATED = 1e-7  # change of separation over L within which a change of anchor is located; chosen
 _PARTS, _ROUNDS = 8, 8  # into which an increment is divided, and how often at most
-
-
-class Solver(Protocol):
-    """Finds equilibria along a path of pressures; its options are its fields.
-
-    Attributes:
-        name: how commands call it.
-    """
-
-    name: ClassVar[str]
-
-    def solve(
-        self,
-        robot: Robot,
-        pressures: Array,
-        ground: Ground,
-        friction: Friction,
-        times: Array | None,
-    ) -> Shapes:
-        """Equilibria at pressures of shape (B, S) [Pa] at times (B,) [s].
-
-        Raises:
-            ValueError: the solver cannot do what the scene asks for.
-        """
-        ...
-
-
-class _Unbent(ABC):
-    """A solver whose shapes no friction bends: its `shapes` depend on pressures alone."""
-
-    name: ClassVar[str]
-
-    def solve(
-        self,
-        robot: Robot,
-        pressures: Array,
-        ground: Ground,
-        friction: Friction,
-        times: Array | None,
-    ) -> Shapes:
-        """See Solver.solve."""
-        if any(surface.adhesion for surface in surfaces_of(ground)):
-            raise ValueError(f"{REFERENCE} alone knows adhesive ground, got solver {self.name!r}")
-        if friction.tension:
-            raise ValueError(
-                f"{REFERENCE} alone lets friction bend the strip, got solver {self.name!r}"
-            )
-        return self.shapes(robot, pressures)
-
-    @abstractmethod
-    def shapes(self, robot: Robot, pressures: Array) -> Shapes:
-        """Equilibria at pressures of shape (B, S) [Pa]."""
-
-
-@dataclass(frozen=True)
-class Modes(_Unbent):
-    """The contact modes of [Majidi13], Appendix A: small slopes, one flat end, closed form."""
-
-    name: ClassVar[str] = "modes"
-
-    def shapes(self, robot: Robot, pressures: Array) -> Shapes:
-        """Equilibria at pressures of shape (B, S) [Pa]."""
-        from analytic.solvers.modes import solve_modes
-
-        return solve_modes(robot, pressures)
-
-
-@dataclass(frozen=True)
-class Lifted(_Unbent):
-    """The contact modes with finite rotations: one flat end or none, robots of any segments."""
-
-    name: ClassVar[str] = "lifted"
-
-    def shapes(self, robot: Robot, pressures: Array) -> Shapes:
-        """Equilibria at pressures of shape (B, S) [Pa]."""
-        from analytic.solvers.lifted import solve_lifted
-
-        return solve_lifted(robot, pressures)
-
-
-@dataclass(frozen=True)
-class Obstacle(_Unbent):
-    """Small slopes, exact contact."""
-
-    name: ClassVar[str] = "obstacle"
-    elements: int = 60
-
-    def shapes(self, robot: Robot, pressures: Array) -> Shapes:
-        """Equilibria at pressures of shape (B, S) [Pa]."""
-        from analytic.solvers.obstacle import solve_obstacle
-
-        return solve_obstacle(robot, pressures, self.elements)
-
-
-@dataclass(frozen=True)
-class Elastica:
-    """Finite rotations, exact contact: the reference.
-
-    Args:
-        links: of the chain.
-        chamber: law of the chambers, see analytic.scene.chain.
-    """
-
-    name: ClassVar[str] = "elastica"
-    links: int = 60
-    chamber: str = "linearized"
-
-    def solve(
-        self,
-        robot: Robot,
-        pressures: Array,
-        ground: Ground,
-        friction: Friction,
-        times: Array | None,
-    ) -> Shapes:
-        """See Solver.solve."""
-        from analytic.solvers.elastica import solve_elastica
-
-        return solve_elastica(robot, pressures, self.links, self.chamber, ground, friction, times)
-
-
-SOLVERS: dict[str, type[Solver]] = {kind.name: kind for kind in (Modes, Lifted, Obstacle, Elastica)}
-REFERENCE = Elastica.name
 
 
 class Prediction(NamedTuple):
@@ -289,9 +166,10 @@ class _Walk(NamedTuple):
     ) -> tuple[Shapes, Array, Array]:
         """Shapes, path and times with states added where the anchor changes on any ground.
 
-        An increment is divided until it changes the separation by next to nothing.
+        An increment is divided until it changes the separation by next to nothing. States without
+        a solution count, but where they are so few that its first parts do not meet them.
         """
-        for _ in range(_ROUNDS):
+        for number in range(_ROUNDS):
             moved = np.abs(np.diff(shapes.separation)) > _LOCATED * self.robot.length
             anchors = [left_end(shapes, ground, self.friction)[1] for ground in grounds]
             changes = np.flatnonzero(np.any(anchors, axis=0) & moved)
@@ -301,11 +179,13 @@ class _Walk(NamedTuple):
             rows = np.repeat(changes, _PARTS - 1)
             more = path[rows] + part[:, None] * (path[rows + 1] - path[rows])
             between = self.solver.solve(self.robot, more, grounds[0], self.friction, None)
-            if not np.isfinite(between.separation).all():
-                break
-            order = np.argsort(np.concatenate([np.arange(len(path)), rows + part]), kind="stable")
+            later = clock[rows] + part * (clock[rows + 1] - clock[rows])
+            places = np.concatenate([np.arange(len(path)), rows + part])
+            solved = np.isfinite(np.append(shapes.separation, between.separation)) | (number == 0)
+            solved[: len(path)] = True
+            order = np.argsort(places, kind="stable")
+            order = order[solved[order]]
             shapes = shapes.with_states(between, order)
             path = np.concatenate([path, more])[order]
-            later = clock[rows] + part * (clock[rows + 1] - clock[rows])
             clock = np.concatenate([clock, later])[order]
         return shapes, path, clock

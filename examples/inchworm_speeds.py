@@ -23,8 +23,8 @@ from scipy import optimize, stats
 from scipy.interpolate import RegularGridInterpolator
 
 from analytic import GAITS, Friction, Robot, Surface, predict
-from analytic.prediction import Elastica
 from analytic.scene import pneunet
+from analytic.solvers.models import Elastica
 
 LOADS = np.geomspace(1.4, 16.0, 7)
 TURNS = np.linspace(0.0, 6.0, 13)  # rad, of the whole strip

@@ -14,11 +14,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic.prediction import Elastica, predict
+from analytic.prediction import predict
 from analytic.scene import pneunet
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
+from analytic.solvers.models import Elastica
 from studies import Array
 
 AMPLITUDE = 0.25  # greatest height over L; [Majidi13], section 3

@@ -11,12 +11,12 @@ import tyro
 
 from analytic.checks import one_of
 from analytic.locomotion import direction
-from analytic.prediction import REFERENCE, SOLVERS
 from analytic.scene.gait import GAITS
 from analytic.scene.limbs import ORDER, AnyRobot, LimbedRobot
 from analytic.scene.quadruped_gaits import QUADRUPED_GAITS
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
+from analytic.solvers.models import REFERENCE, SOLVERS
 from analytic.uncertainty import modes_error
 from mjsim.files import plugins
 from mjsim.files.cli import ALL, Plugins, bar, choose, fail, parse, say, strict_json

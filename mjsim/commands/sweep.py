@@ -179,7 +179,7 @@ def _confirm(
 
 
 def _record(plan: "Plan", store: "Store", count: int, seconds: float) -> dict[str, Any]:
-    from analytic.prediction import SOLVERS
+    from analytic.solvers.models import SOLVERS
     from mjsim.results.prediction import WEAK
 
     statuses, directions = (

@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from analytic.prediction import Elastica, predict
+from analytic.prediction import predict
 from analytic.scene import pneunet
 from analytic.scene.chain import node_positions
 from analytic.scene.limbs import limbs_of
 from analytic.solvers.limbs.path import Path
+from analytic.solvers.models import Elastica
 from mjsim.files import plugins
 from mjsim.files.tables import Tables, build
 from mjsim.fitting.observations import RUN, Run, Series

@@ -11,11 +11,12 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from analytic.locomotion import STANDSTILL
-from analytic.prediction import SOLVERS, Elastica, predict_grounds
+from analytic.prediction import predict_grounds
 from analytic.scene.air import air_per_cycle
 from analytic.scene.gait import Gait
 from analytic.scene.limbs import AnyRobot, LimbedRobot
 from analytic.scene.surface import Surface
+from analytic.solvers.models import SOLVERS, Elastica
 from analytic.uncertainty import flagged_change
 from mjsim.scene import Numerics, Scene
 

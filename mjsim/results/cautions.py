@@ -8,10 +8,11 @@ import numpy as np
 
 from analytic.friction.laws import Friction
 from analytic.locomotion import undecided
-from analytic.prediction import Elastica, Prediction
+from analytic.prediction import Prediction
 from analytic.scene.limbs import limbs_of
 from analytic.scene.surface import Surface
 from analytic.shapes import Flag
+from analytic.solvers.models import Elastica
 from mjsim.model.limbs import longest_step
 from mjsim.results.prediction import Reference, displacement, prediction
 from mjsim.results.trajectory import Trajectory

@@ -7,11 +7,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.prediction import REFERENCE, SOLVERS, Elastica, Prediction, predict
+from analytic.prediction import Prediction, predict
 from analytic.scene.limbs import LimbedRobot
 from analytic.scene.surface import Surface
 from analytic.solvers.limbs.path import Path
 from analytic.solvers.limbs.walk import walk as walk_of_limbs
+from analytic.solvers.models import REFERENCE, SOLVERS, Elastica
 from mjsim.scene import Numerics, Resolved, Scene, resolved
 
 Array = NDArray[np.float64]

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from analytic.friction.laws import Friction
 from analytic.locomotion import displacements
-from analytic.prediction import Elastica
 from analytic.scene.gait import Gait
 from analytic.scene.ground import Patches
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Surface
+from analytic.solvers.models import Elastica
 from studies import Array
 from studies.control.reversing import REPERTOIRE, Chooser, check_gaits
 

@@ -76,11 +76,9 @@ def turned(walk: Trajectory) -> float:
     return float(walk.heading[two] - walk.heading[one])
 
 
-def coarsen(
-    monkeypatch: pytest.MonkeyPatch, links: int = 18, states: int = 10, parts: int = 4
-) -> None:
+def coarsen(monkeypatch: pytest.MonkeyPatch, links: int = 18, states: int = 10) -> None:
     """Make the references of records coarse: few links and states."""
-    values = {"_LINKS": links, "STATES": states, "_PARTS": parts, "LIMB_STATES": 8}
+    values = {"_LINKS": links, "STATES": states, "LIMB_STATES": 8}
     for name, value in values.items():
         monkeypatch.setattr(prediction, name, value)
 

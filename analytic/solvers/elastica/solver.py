@@ -1,12 +1,4 @@
-"""The strip with finite rotations and unilateral contact, followed quasi-statically.
-
-States are a path: each starts from the last, in smaller steps of pressure where a step fails, and
-every one is tested for stability. So the branch of equilibria that begins with the strip lying flat
-is followed as far as it is stable, and no other is ever returned.
-"""
-
-import math
-from typing import NamedTuple
+"""The strip with finite rotations and unilateral contact, followed quasi-statically."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,25 +10,12 @@ from analytic.scene.ground import check_adhesion
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground
-from analytic.shapes import ContactShapes, Flag
-from analytic.solvers.elastica.continuation import follow
+from analytic.shapes import ContactShapes
+from analytic.solvers.elastica.branch import NO_NUMBERS, Branch
 from analytic.solvers.elastica.newton import Chain
-from analytic.solvers.elastica.state import ChainState
-from analytic.solvers.elastica.stick_slip import Signature, StickSlip
+from analytic.solvers.elastica.stick_slip import StickSlip
 
 Array = NDArray[np.float64]
-
-_LEAST_STEP = 1e-4  # of the way between two states, below which the branch is taken to end
-_LEAST_PULLED = 1e-2  # where friction or adhesion may give way, and damped motion follows
-_CURLED = 0.02  # slope that an end in flat contact does not have, even where it lifts off [rad]
-_LOCATED = 1e-7  # motion over L within which a change of contacts is located; chosen
-_MOST_CHANGES = 8  # in an increment, beyond which they are a flicker and not looked for; chosen
-_NO_NUMBERS = Flag.BRANCH_END | Flag.ROLLED_UP
-_JUMP = 0.03  # change of a direction at one pressure that is flagged as a jump [rad]; chosen
-_LEAP = 0.3  # change of a direction in one step that may be a leap to another branch [rad]
-
-_FIRST_DRAG, _LEAST_DRAG, _MOST_DRAG = 10.0, 1e-3, 1e6  # over the hinges' stiffness; chosen
-_FLOW_STEPS = 200
 
 LINKS = 60  # of the chain, unless told otherwise; chosen
 
@@ -49,6 +28,7 @@ def solve_elastica(
     ground: Ground | None = None,
     friction: Friction | None = None,
     times: ArrayLike | None = None,
+    added: bool = False,
 ) -> ContactShapes:
     """Equilibria along a path of pressures that starts with the strip flat and without pressure.
 
@@ -61,6 +41,8 @@ def solve_elastica(
             analytic.solvers.elastica.stick_slip. Without them no shear acts, the limit of section
             2.2.
         times: of the states, (B,) [s]; what resists by speed acts as at rest without them.
+        added: whether to return, besides the states at the pressures, those between that were found
+            where contacts change while friction bends the strip.
 
     Returns:
         Shapes of B states. From where the stable branch ends (the strip rolls up, topples, snaps,
@@ -83,9 +65,9 @@ def solve_elastica(
         surface = ground.at(0.0)
     chain = Chain(robot, links, chamber, slope=friction.slope, surface=surface)
     traction = StickSlip(chain, ground, friction) if ground and friction.tension else None
-    branch = _Branch(chain, traction, friction.contacts == "all", p, times)
-    points = branch.points()
-    states = [branch.missing if point.status & _NO_NUMBERS else point.state for point in points]
+    branch = Branch(chain, traction, friction.contacts == "all", p, times)
+    points = [point for point in branch.points() if added or point.row % 1 == 0]
+    states = [branch.missing if point.status & NO_NUMBERS else point.state for point in points]
     theta = np.array([state.theta for state in states])
     height = np.array([state.y for state in states]) * robot.length
     force = np.array([chain.ground_force(state) for state in states]) * chain.force_unit
@@ -110,218 +92,6 @@ def solve_elastica(
         iterations=np.array([point.iterations for point in points]),
         left=place - place[0] if traction else None,
     )
-
-
-class _Point(NamedTuple):
-    """A state of the branch.
-
-    Attributes:
-        row: place along the path of pressures, in its rows.
-        pressure: of the segments, (S,) [Pa].
-        state: shape and forces.
-        status: flag of it.
-        iterations: Newton steps to it.
-        residual: see ContactShapes.
-        contacts: tips and sides, and which of them slide, see StickSlip.signature.
-    """
-
-    row: float
-    pressure: Array
-    state: ChainState
-    status: Flag = Flag.OK
-    iterations: int = 0
-    residual: float = np.nan
-    contacts: Signature | None = None
-
-
-class _Branch:
-    """The stable branch of equilibria that begins with the strip flat and without pressure.
-
-    Args:
-        chain: of the strip.
-        traction: friction that bends it, if any does.
-        may_curl: follow states with an end off the ground too, as far as they are wanted.
-        pressures: the path, (B, S) [Pa].
-        times: of its rows, (B,) [s]; None where time does not matter.
-    """
-
-    def __init__(
-        self,
-        chain: Chain,
-        traction: StickSlip | None,
-        may_curl: bool,
-        pressures: Array,
-        times: ArrayLike | None,
-    ) -> None:
-        self._chain, self._traction, self._may_curl = chain, traction, may_curl
-        # row -1 is the strip without pressure, long ago
-        self._path = np.concatenate([np.zeros((1, pressures.shape[1])), pressures])
-        self._duration = np.full(len(pressures), np.inf)
-        if times is not None:
-            self._duration[1:] = np.diff(np.asarray(times, dtype=float))
-        blank = np.full(chain.links + 2, np.nan)
-        self.missing = chain.flat()._replace(
-            y=blank, theta=blank[1:], shear=blank[1:], left=math.nan
-        )
-
-    def points(self) -> list[_Point]:
-        """States at the rows of the path, and two more on either side of changes of contacts."""
-        points = [_Point(-1.0, self._path[0], self._chain.flat())]
-        for row in range(len(self._path) - 1):
-            changes = 0
-            while points[-1].row < row:
-                after = self._after(points, float(row))
-                changes += 1
-                if changes <= _MOST_CHANGES and self._change_in(points, after):
-                    points += self._change(points, after)
-                else:
-                    points.append(after)
-        return points[1:]
-
-    def _change_in(self, points: list[_Point], after: _Point) -> float:
-        """Part of an error in the motion that half an increment has; 0 if it need not be halved.
-
-        A contact that begins to slide alone does so within an increment. One that comes to a stop
-        does so at the end of a ramp, or where what it took up is greatest: to second order.
-        """
-        before = points[-1]
-        if before.contacts is None or after.contacts is None:
-            return 0.0
-        if after.contacts.differs(before.contacts):
-            return 0.5
-        straight = len(points) > 2 and _ratio(points, after.pressure) > 0
-        return 0.25 * (straight and after.contacts.turned(before.contacts))
-
-    def _change(self, points: list[_Point], after: _Point) -> list[_Point]:
-        """States on either side of the first change of contacts before a point, by bisection.
-
-        Which contact slides is told wrongly on the way from one to the other alone.
-        """
-        known = [*points]
-        error = self._moved(points[-1].state, after.state)
-        while error > _LOCATED:
-            middle = self._after(known, 0.5 * (known[-1].row + after.row), after)
-            part = self._change_in(known, middle)
-            if part:
-                after = middle
-            else:
-                known = [*points, middle]
-            error *= part or 0.5
-        if len(known) == len(points):
-            return [after]
-        return [known[-1], self._after(known, after.row, after)]
-
-    def _after(self, points: list[_Point], row: float, beyond: _Point | None = None) -> _Point:
-        """The state that follows on those before it, at a row and perhaps before a known state."""
-        before = points[-1]
-        place = math.ceil(row)
-        part = row - (place - 1)
-        pressure = self._path[place] + part * (self._path[place + 1] - self._path[place])
-        if Flag.BRANCH_END in before.status:
-            return before._replace(row=row, pressure=pressure, iterations=0)
-        chain, duration = self._chain, (row - before.row) * float(self._duration[place])
-        steps, status = chain.iterations, Flag.OK
-        chain.load_at(pressure)
-        state = self._near(before.state, duration, _guess(points, pressure, row, beyond))
-        state = state or self._in_smaller_steps(before, pressure, duration)
-        if state is None and (self._traction or chain.reach):
-            chain.load_at(pressure)
-            state = self._damped(before.state)
-            if state and _apart(state, before.state) > _JUMP:
-                status = Flag.JUMPED
-        steps = chain.iterations - steps
-        if state is None:
-            return _Point(row, pressure, self.missing, Flag.BRANCH_END, steps)
-        if _rolled_up(state) and not self._may_curl:
-            return _Point(row, pressure, state, Flag.ROLLED_UP, steps)
-        contacts = self._traction.signature() if self._traction else None
-        return _Point(row, pressure, state, status, steps, chain.residual(state), contacts)
-
-    def _moved(self, before: ChainState, after: ChainState) -> float:
-        """Greatest motion of a node along x, over L."""
-        links = self._chain.length * (np.cos(after.theta) - np.cos(before.theta))
-        return abs(after.left - before.left) + float(np.abs(np.cumsum(links)).max())
-
-    def _near(
-        self, state: ChainState, duration: float = math.inf, guess: ChainState | None = None
-    ) -> ChainState | None:
-        """The equilibrium that follows a state; None far away, where another branch may be."""
-        if self._traction:
-            self._traction.begin(state, duration)
-        candidate = self._chain.equilibrium(guess or state, self._traction)
-        return None if candidate is None or _apart(candidate, state) > _LEAP else candidate
-
-    def _in_smaller_steps(
-        self, before: _Point, pressure: Array, duration: float
-    ) -> ChainState | None:
-        """The next state by continuation; None if the branch ends on the way."""
-
-        def solve(begin: float, end: float, near: ChainState) -> ChainState | None:
-            self._chain.load_at(before.pressure + end * (pressure - before.pressure))
-            return self._near(near, (end - begin) * duration)
-
-        least = _LEAST_PULLED if self._traction or self._chain.reach else _LEAST_STEP
-        part, state = follow(before.state, solve, first=0.25, least=least)
-        return state if part >= 1.0 else None
-
-    def _damped(self, state: ChainState) -> ChainState | None:
-        """The state that hinges lead to that resist turning, ever less; None if they reach none."""
-        drag = _FIRST_DRAG
-        for _ in range(_FLOW_STEPS):
-            self._chain.damp(drag, state)
-            candidate = self._near(state)
-            self._chain.damp(0.0)
-            if candidate is None:
-                drag *= 4.0
-                if drag >= _MOST_DRAG:
-                    return None
-                continue
-            if _apart(candidate, state) < _LEAP / 3:
-                drag *= 0.5
-            state = candidate
-            if drag < _LEAST_DRAG:
-                return self._near(state)
-        return None
-
-
-def _ratio(points: list[_Point], pressure: Array) -> float:
-    """Length of a step to a pressure over that of the one before it; 0 if not straight on."""
-    step, previous = pressure - points[-1].pressure, points[-1].pressure - points[-2].pressure
-    size = float(previous @ previous)
-    ratio = float(step @ previous) / size if size else 0.0
-    bend = np.abs(step - ratio * previous).max()
-    return ratio if bend <= 1e-6 * np.abs(step).max() else 0.0
-
-
-def _guess(points: list[_Point], pressure: Array, row: float, beyond: _Point | None) -> ChainState:
-    """First guess of a state: between two known ones, or beyond where the path goes on straight."""
-    middle = points[-1]
-    if beyond is not None and math.isfinite(beyond.state.left):
-        part = (row - middle.row) / (beyond.row - middle.row)
-        return _along(middle.state, beyond.state, part)
-    ratio = _ratio(points, pressure) if len(points) > 2 else 0.0
-    if not 0 < ratio <= 2:
-        return middle.state
-    return _along(middle.state, points[-2].state, -ratio)
-
-
-def _along(state: ChainState, toward: ChainState, part: float) -> ChainState:
-    """A shape part of the way from one towards another."""
-    return state._replace(
-        theta=state.theta + part * (toward.theta - state.theta),
-        shear=state.shear + part * (toward.shear - state.shear),
-    )
-
-
-def _rolled_up(state: ChainState) -> bool:
-    """Tell whether an end is off the ground and not for lying nearly flat."""
-    ends = ((state.y[0], state.theta[0]), (state.y[-1], state.theta[-1]))
-    return any(y > 1e-9 and abs(theta) > _CURLED for y, theta in ends)
-
-
-def _apart(state: ChainState, reference: ChainState) -> float:
-    """Greatest difference of a direction [rad]."""
-    return float(np.abs(state.theta - reference.theta).max())
 
 
 class _Curve:

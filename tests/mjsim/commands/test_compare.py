@@ -15,7 +15,7 @@ from mjsim.scene import Scene
 @pytest.fixture
 def resolved_to_a_thousandth(monkeypatch):
     """A reference that is resolved to a part of what is claimed of it."""
-    coarsen(monkeypatch, links=24, states=12, parts=4)
+    coarsen(monkeypatch, links=24, states=12)
 
 
 STANDSTILL = 0.002  # of L; less is no travel, see analytic.locomotion

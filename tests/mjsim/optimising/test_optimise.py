@@ -9,13 +9,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from analytic.locomotion import WEAK
-from analytic.prediction import Elastica, Lifted, predict, predict_grounds
+from analytic.prediction import predict, predict_grounds
 from analytic.scene import pneunet
 from analytic.scene.air import ATMOSPHERE, air_per_cycle
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
 from analytic.scene.trapezoid import staggered, trapezoid
+from analytic.solvers.models import Elastica, Lifted
 from analytic.uncertainty import flagged_change
 from mjsim.commands.optimise import main
 from mjsim.files.tables import build

@@ -8,13 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from analytic.locomotion import WEAK
-from analytic.prediction import Elastica
 from analytic.scene.gait import GAITS
 from analytic.scene.limbs import MASS, Limb, LimbedRobot, as_strip, quadruped
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
 from analytic.solvers.limbs.kinematics import WHOLE, Tree
 from analytic.solvers.limbs.statics import Statics
+from analytic.solvers.models import Elastica
 
 QUADRUPED = quadruped()
 

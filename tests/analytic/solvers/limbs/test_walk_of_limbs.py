@@ -5,7 +5,7 @@ import pytest
 
 from analytic.friction.laws import Friction
 from analytic.locomotion import displacements
-from analytic.prediction import Elastica, predict
+from analytic.prediction import predict
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.limbs import LENGTH, Limb, LimbedRobot, as_strip, quadruped
 from analytic.scene.quadruped_gaits import undulation
@@ -13,6 +13,7 @@ from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
 from analytic.solvers.elastica import solve_elastica
 from analytic.solvers.limbs.walk import follow, shapes, walk
+from analytic.solvers.models import Elastica
 
 QUADRUPED = quadruped()
 
