@@ -92,9 +92,10 @@ class Branch:
         for row in range(len(self._path) - 1):
             changes = 0
             while points[-1].row < row:
-                after = self._after(points, float(row))
                 changes += 1
-                if changes <= _MOST_CHANGES and self._change_in(points, after):
+                search = changes <= _MOST_CHANGES
+                after = self._after(points, float(row), trial=search)
+                if search and self._change_in(points, after):
                     points += self._change(points, after)
                 else:
                     points.append(after)
@@ -122,19 +123,26 @@ class Branch:
         known = [*points]
         error = self._moved(points[-1].state, after.state)
         while error > _LOCATED:
-            middle = self._after(known, 0.5 * (known[-1].row + after.row), after)
+            middle = self._after(known, 0.5 * (known[-1].row + after.row), after, trial=True)
             part = self._change_in(known, middle)
             if part:
                 after = middle
             else:
                 known = [*points, middle]
             error *= part or 0.5
-        if len(known) == len(points):
-            return [after]
-        return [known[-1], self._after(known, after.row, after)]
+        return [*known[len(points) :], self._after(known, after.row, after)]
 
-    def _after(self, points: list[Point], row: float, beyond: Point | None = None) -> Point:
-        """The state that follows on those before it, at a row and perhaps before a known state."""
+    def _after(
+        self, points: list[Point], row: float, beyond: Point | None = None, trial: bool = False
+    ) -> Point:
+        """The state that follows on those before it at a row.
+
+        Args:
+            points: all so far.
+            row: place along the path.
+            beyond: a state at that row or after it, to guess by.
+            trial: whether it is enough to know that contacts change, see StickSlip.begin.
+        """
         before = points[-1]
         place = math.ceil(row)
         part = row - (place - 1)
@@ -144,7 +152,8 @@ class Branch:
         chain, duration = self._chain, (row - before.row) * float(self._duration[place])
         steps, status = chain.iterations, Flag.OK
         chain.load_at(pressure)
-        state = self._near(before.state, duration, _guess(points, pressure, row, beyond))
+        guess = _guess(points, pressure, row, beyond)
+        state = self._near(before.state, duration, guess, trial)
         state = state or self._in_smaller_steps(before, pressure, duration)
         if state is None and (self._traction or chain.reach):
             chain.load_at(pressure)
@@ -165,11 +174,15 @@ class Branch:
         return abs(after.left - before.left) + float(np.abs(np.cumsum(links)).max())
 
     def _near(
-        self, state: ChainState, duration: float = math.inf, guess: ChainState | None = None
+        self,
+        state: ChainState,
+        duration: float = math.inf,
+        guess: ChainState | None = None,
+        trial: bool = False,
     ) -> ChainState | None:
         """The equilibrium that follows a state; None far away, where another branch may be."""
         if self._traction:
-            self._traction.begin(state, duration)
+            self._traction.begin(state, duration, trial)
         candidate = self._chain.equilibrium(guess or state, self._traction)
         return None if candidate is None or _apart(candidate, state) > _LEAP else candidate
 

@@ -86,8 +86,16 @@ class StickSlip:
         self._search: _FixedPoint | None = None
         self._changes, self._settled = 0, True
 
-    def begin(self, state: ChainState, duration: float = math.inf) -> None:
-        """Begin an increment of so many seconds at a state, the chain being loaded for its end."""
+    def begin(self, state: ChainState, duration: float = math.inf, trial: bool = False) -> None:
+        """Begin an increment at a state, the chain being loaded for its end.
+
+        Args:
+            state: equilibrium before.
+            duration: of the increment [s].
+            trial: whether to leave off where a bound would jump, since the increment will be
+                divided there; the state is then in no balance with its bounds.
+        """
+        self._trial = trial
         self._before, self._search, self._changes = self._places(state), None, 0
         self._speed = self._chain.robot.length / duration  # of a slip of 1
         self.update(state)
@@ -144,7 +152,7 @@ class StickSlip:
             alike, bounds = self._search.next(self.bounds, bounds, near)
         self._take(contacts, bounds, drag)
         self._settled = alike
-        return alike
+        return alike or (self._trial and self._search is not None and self._search.at_a_jump)
 
     def _resistance(self, contacts: list[StripContact], state: ChainState) -> tuple[Array, Array]:
         """Dry bounds of contacts and their viscous resistance to a slip of 1, (C,) each."""
@@ -259,6 +267,12 @@ class _FixedPoint:
         self._before: tuple[Array, Array] | None = None
         self._tries = 0
         self.between = [False] * count
+
+    @property
+    def at_a_jump(self) -> bool:
+        """Whether bounds are known that result in greater and in smaller ones, and no others."""
+        bounded = np.isfinite(self._low) & np.isfinite(self._high) & (self._low < self._high)
+        return self._tries > 2 * _FREE_UPDATES and bool(bounded.any())
 
     def next(self, bounds: Array, results: Array, near: float) -> tuple[bool, Array]:
         """Tell whether bounds nearly result in themselves, and which to try next."""
