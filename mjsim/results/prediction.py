@@ -17,7 +17,7 @@ from mjsim.scene import Numerics, Resolved, Scene, resolved
 
 Array = NDArray[np.float64]
 
-STATES = 25  # of the reference in a ramp from no pressure to the peak
+STATES = 16  # of the reference in a ramp from no pressure to the peak
 WEAK = "weak friction"  # which bends nothing and only decides which end slides
 _RESOLVED = 2e-4  # error over L that no halving shows; with it 51 of 53 random scenes are within
 _LINKS, _LINKS_A_SEGMENT = 60, 24  # of the reference: contacts between the ends need finer links

@@ -17,7 +17,7 @@ from analytic.shapes import Flag
 from analytic.solvers.elastica.continuation import follow
 from analytic.solvers.elastica.newton import Chain
 from analytic.solvers.elastica.state import ChainState
-from analytic.solvers.elastica.stick_slip import Signature, StickSlip
+from analytic.solvers.elastica.stick_slip import UNSETTLED, Signature, StickSlip
 
 Array = NDArray[np.float64]
 
@@ -25,6 +25,7 @@ _LEAST_STEP = 1e-4  # of the way between two states, below which the branch is t
 _LEAST_PULLED = 1e-2  # where friction or adhesion may give way, and damped motion follows
 _CURLED = 0.02  # slope that an end in flat contact does not have, even where it lifts off [rad]
 _LOCATED = 1e-7  # motion over L within which a change of contacts is located; chosen
+_FAR = 0.01  # motion over L in an increment whose end is not known; chosen
 _MOST_CHANGES = 8  # in an increment, beyond which they are a flicker and not looked for; chosen
 NO_NUMBERS = Flag.BRANCH_END | Flag.ROLLED_UP
 _JUMP = 0.03  # change of a direction at one pressure that is flagged as a jump [rad]; chosen
@@ -93,7 +94,7 @@ class Branch:
             changes = 0
             while points[-1].row < row:
                 changes += 1
-                search = changes <= _MOST_CHANGES
+                search = changes <= _MOST_CHANGES and points[-1].contacts is not None
                 after = self._after(points, float(row), trial=search)
                 if search and self._change_in(points, after):
                     points += self._change(points, after)
@@ -122,6 +123,7 @@ class Branch:
         """
         known = [*points]
         error = self._moved(points[-1].state, after.state)
+        error = error if math.isfinite(error) else _FAR
         while error > _LOCATED:
             middle = self._after(known, 0.5 * (known[-1].row + after.row), after, trial=True)
             part = self._change_in(known, middle)
@@ -154,6 +156,8 @@ class Branch:
         chain.load_at(pressure)
         guess = _guess(points, pressure, row, beyond)
         state = self._near(before.state, duration, guess, trial)
+        if state is None and trial:
+            return Point(row, pressure, self.missing, contacts=UNSETTLED)
         state = state or self._in_smaller_steps(before, pressure, duration)
         if state is None and (self._traction or chain.reach):
             chain.load_at(pressure)

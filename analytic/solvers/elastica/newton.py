@@ -32,7 +32,6 @@ Array = NDArray[np.float64]
 _CONVERGED = 1e-10  # change of an angle in the last Newton step [rad]
 _SETTLED = 0.05  # change below which the contact set may be revised [rad]
 _ITERATIONS = 40
-_UPDATES = 50  # most times that contacts are read anew for one equilibrium
 _ROUNDING = 1e-11  # of heights over L
 
 
@@ -129,7 +128,8 @@ class Chain:
             traction: of the ground, which then decides tension and place.
         """
         state, revisions, updates = guess, 0, 0
-        for _ in range(_ITERATIONS + _UPDATES * (traction is not None)):
+        most = traction.updates if traction else 0
+        for _ in range(_ITERATIONS + most):
             new = self._newton(state, traction)
             if new is None:
                 return None
@@ -144,7 +144,7 @@ class Chain:
                 revisions += 1
                 state = revised
                 continue
-            if traction is not None and updates < _UPDATES and not traction.update(state):
+            if traction is not None and updates < most and not traction.update(state):
                 updates += 1
             elif change < _CONVERGED:
                 return state if stable(self, state, traction) else None

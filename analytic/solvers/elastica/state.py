@@ -31,7 +31,13 @@ class ChainState(NamedTuple):
 
 
 class GroundTraction(Protocol):
-    """Additions of the ground's traction to Newton's method, see solvers.elastica.stick_slip."""
+    """Additions of the ground's traction to Newton's method, see solvers.elastica.stick_slip.
+
+    Attributes:
+        updates: most times that contacts are read anew for one equilibrium.
+    """
+
+    updates: int
 
     def tensions(self) -> Array:
         """Tension in the links by a unit of traction at each contact that pulls any, (N + 1, C)."""

@@ -24,6 +24,7 @@ from analytic.solvers.elastica.tractions import tractions
 
 Array = NDArray[np.float64]
 
+_UPDATES, _FEW_UPDATES = 50, 15  # most for one equilibrium, and in a trial; chosen
 _FREE_UPDATES = 6  # before the change of bounds is extrapolated
 _MOST_CHANGES = 8  # of which contacts there are, in one increment
 _ALIKE = 1e-7  # part of the greatest bound by which bounds may change and count as the same
@@ -51,7 +52,10 @@ class Signature(NamedTuple):
 
     def turned(self, before: "Signature") -> bool:
         """Whether a contact that slid before has come to a stop, from where it may slide back."""
-        return any(was and now != was for now, was in zip(self.slips, before.slips, strict=True))
+        return any(was and now != was for now, was in zip(self.slips, before.slips, strict=False))
+
+
+UNSETTLED = Signature((), (), ())  # of a state that was not found
 
 
 class StickSlip:
@@ -66,6 +70,7 @@ class StickSlip:
         slips: of each contact in the last increment, see analytic.solvers.elastica.tractions.
         contacts: in that increment.
         bounds: of the contacts [D0 / L^2].
+        updates: see GroundTraction.
     """
 
     def __init__(self, chain: Chain, ground: Ground, friction: Friction) -> None:
@@ -85,6 +90,7 @@ class StickSlip:
         self._take([], np.zeros(0), np.zeros(0))
         self._search: _FixedPoint | None = None
         self._changes, self._settled = 0, True
+        self._trial, self.updates = False, _UPDATES
 
     def begin(self, state: ChainState, duration: float = math.inf, trial: bool = False) -> None:
         """Begin an increment at a state, the chain being loaded for its end.
@@ -95,7 +101,7 @@ class StickSlip:
             trial: whether to leave off where a bound would jump, since the increment will be
                 divided there; the state is then in no balance with its bounds.
         """
-        self._trial = trial
+        self._trial, self.updates = trial, _FEW_UPDATES if trial else _UPDATES
         self._before, self._search, self._changes = self._places(state), None, 0
         self._speed = self._chain.robot.length / duration  # of a slip of 1
         self.update(state)
