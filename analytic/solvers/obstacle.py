@@ -17,7 +17,7 @@ from scipy.linalg.blas import dsbmv
 
 from analytic.friction.contact_length import side_contact
 from analytic.scene import pneunet
-from analytic.scene.chain import segment_overlap, segments_fit
+from analytic.scene.chain import overlaps, segments_fit
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
 from analytic.shapes import ContactShapes, Flag
@@ -45,7 +45,7 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
     p = check_pressures(robot, pressures_pa)
     if elements < 1 or not segments_fit(robot, elements):
         raise ValueError(f"elements must be so many that segments end at nodes, got {elements}")
-    overlap = segment_overlap(robot.borders, elements)
+    overlap = overlaps(np.linspace(0.0, 1.0, elements + 1), robot.borders)
     d0 = pneunet.base_rigidity(robot)
     rigidity = pneunet.rigidity(robot, p) / d0 @ overlap.T
     curvature = pneunet.natural_curvature(robot, p) * robot.length

@@ -16,7 +16,7 @@ from analytic.scene.chain import (
     check_chamber,
     joint_springs,
     sealed_springs,
-    segments_fit,
+    whole_elements,
 )
 from mjsim.model import parts
 from mjsim.model.body import Joints
@@ -41,7 +41,7 @@ class Chain:
             return
         if scene.chamber == "sealed":
             raise ValueError("chamber sealed needs actuation rest-angles, got actuators")
-        if not segments_fit(scene.strip, numerics.links):
+        if not whole_elements(scene.strip, numerics.links):
             raise ValueError(
                 f"links must make every segment whole elements for actuators, got {numerics.links}"
             )

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene import pneunet
-from analytic.scene.chain import segment_overlap
+from analytic.scene.chain import element_lengths, segment_overlap
 from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
@@ -60,8 +60,8 @@ def add_actuators(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None
     by_segment = scene.chamber == "constant-pressure"
     limit = robot.peak_pressure
     if not by_segment:
-        slope = -stiffen * numerics.links / robot.length
-        for hinge in range(1, numerics.links + 1):
+        slopes = -stiffen / element_lengths(robot, numerics.links)
+        for hinge, slope in enumerate(slopes.tolist(), start=1):
             chamber = _actuator(spec, scene, f"chamber_{hinge}", limit)
             chamber.trntype, chamber.target = mujoco.mjtTrn.mjTRN_JOINT, f"hinge_{hinge}"
             chamber.gaintype = mujoco.mjtGain.mjGAIN_AFFINE

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.scene.chain import joint_springs, link_lengths, sealed_springs
+from analytic.scene.chain import element_lengths, joint_springs, link_lengths, sealed_springs
 
 if TYPE_CHECKING:
     from mjsim.results.trajectory import Trajectory
@@ -53,7 +53,7 @@ class Balance(NamedTuple):
 def bending(walk: "Trajectory") -> Bending:
     """Bending in every state, from the directions of the links."""
     robot, links = walk.scene.strip, walk.numerics.links
-    element = robot.length / links
+    element = element_lengths(robot, links)
     turn = turns(walk)
     stiffness, rest = _springs(walk, turn)
     energy = 0.5 * (stiffness * (turn - rest) ** 2).sum(axis=1)
