@@ -65,8 +65,9 @@ class Tree:
         self.hinges = [slice(WHOLE + elements * i, WHOLE + elements * (i + 1)) for i in limbs]
         self.vertices = [slice(per_limb * i, per_limb * (i + 1)) for i in limbs]
         self.parent = np.arange(-1, count - 1)
-        self._lengths = [link_lengths(limb.strip, elements) for limb in robot.limbs]
-        self.starts = [np.append(0.0, np.cumsum(lengths)[:-1]) for lengths in self._lengths]
+        self._links = np.array([link_lengths(limb.strip, elements) for limb in robot.limbs])
+        self._half_widths = np.array([0.5 * limb.strip.width for limb in robot.limbs])
+        self.starts = [np.append(0.0, np.cumsum(lengths)[:-1]) for lengths in self._links]
         self._carriers = [0 if limb.on is None else robot.place(limb.on) for limb in robot.limbs]
         self._turns = [
             _turn(_UP, limb.angle - robot.limbs[carrier].angle)
@@ -75,9 +76,9 @@ class Tree:
         weight, arclength, movers = [], [], []
         roots: list[int] = []  # the joint that moves the beginning of each limb
         for i, limb in enumerate(robot.limbs):
-            quarter = 0.25 * self._lengths[i] * limb.strip.weight_per_length  # an end, an edge
+            quarter = 0.25 * self._links[i] * limb.strip.weight_per_length  # an end, an edge
             weight += [np.append(quarter, 0.0) + np.append(0.0, quarter)]
-            along = np.append(0.0, np.cumsum(self._lengths[i]))
+            along = np.append(0.0, np.cumsum(self._links[i]))
             along[-1] = limb.strip.length  # to the last digit: a tip is at no distance from its end
             arclength += [along]
             if limb.on is None:
@@ -107,27 +108,32 @@ class Tree:
         axes[5] = pitched[:, 0]
         centres[:WHOLE] = base
         trunk = base, _turn(axes[5], q[5]) @ pitched
-        right, left = np.empty((2, len(self.weight) // 2, 3))
-        ends: list[dict[str, tuple[Array, Array]]] = []  # places and frames of each limb's ends
+        # each limb in its plane, forward and outward: directions of links are sums of the hinges
+        hinges = q[WHOLE:].reshape(-1, self.elements)
+        turn = np.zeros((len(hinges), self.elements + 1))
+        np.cumsum(hinges, axis=1, out=turn[:, 1:])
+        along = np.stack([np.cos(turn), np.sin(turn)], axis=2)
+        plane = np.zeros((len(hinges), self.elements + 2, 2))
+        np.cumsum(self._links[..., None] * along, axis=1, out=plane[:, 1:])
+        starts, frames = np.empty((len(hinges), 3)), np.empty((len(hinges), 3, 3))
         for i, limb in enumerate(self.robot.limbs):
-            origin, frame = trunk if limb.on is None else ends[self._carriers[i]][limb.at]
-            start = origin + limb.offset * frame[:, 1]
-            frame = frame @ self._turns[i]
-            forward, side, outward = frame.T
-            # in its plane: directions of the links from the sum of the hinges
-            turn = np.zeros(self.elements + 1)
-            np.cumsum(q[self.hinges[i]], out=turn[1:])
-            along = np.stack([np.cos(turn), np.sin(turn)], axis=1) @ frame[:, ::2].T
-            places = np.zeros((self.elements + 2, 3))
-            np.cumsum(self._lengths[i][:, None] * along, axis=0, out=places[1:])
-            places += start
-            edge = 0.5 * limb.strip.width * side
-            right[self.vertices[i]], left[self.vertices[i]] = places - edge, places + edge
-            axes[self.hinges[i]], centres[self.hinges[i]] = -side, places[1:-1]
-            outward = np.cos(turn[-1]) * outward - np.sin(turn[-1]) * forward
-            tip = np.array([along[-1], side, outward]).T
-            ends.append({"begin": (start, frame), "end": (places[-1], tip)})
-        return Pose(np.concatenate([right, left]), axes, centres)
+            carrier = self._carriers[i]
+            if limb.on is None:
+                origin, frame = trunk
+            elif limb.at == "begin":
+                origin, frame = starts[carrier], frames[carrier]
+            else:
+                frame, (cos, sin) = frames[carrier], along[carrier, -1]
+                origin = starts[carrier] + frame[:, ::2] @ plane[carrier, -1]
+                frame = frame @ np.array([[cos, 0.0, -sin], [0.0, 1.0, 0.0], [sin, 0.0, cos]])
+            starts[i] = origin + limb.offset * frame[:, 1]
+            frames[i] = frame @ self._turns[i]
+        places = starts[:, None] + plane @ frames[:, :, ::2].transpose(0, 2, 1)
+        edge = self._half_widths[:, None] * frames[:, :, 1]
+        nodes = np.concatenate([places - edge[:, None], places + edge[:, None]]).reshape(-1, 3)
+        axes[WHOLE:] = np.repeat(-frames[:, :, 1], self.elements, axis=0)
+        centres[WHOLE:] = places[:, 1:-1].reshape(-1, 3)
+        return Pose(nodes, axes, centres)
 
     def moves(self, pose: Pose, which: slice | NDArray[np.int_] = slice(None)) -> Array:
         """Slopes of the places of nodes, all or some, by the coordinates, (P, 3, Q)."""

@@ -14,6 +14,7 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve, eigh
 
 from analytic.scene.chain import joint_springs
 from analytic.scene.limbs import chambers_by_limb, rotation
+from analytic.solvers.limbs.active_set import Problem, Renewed, Rest, on_contacts
 from analytic.solvers.limbs.friction import ContactFriction
 from analytic.solvers.limbs.kinematics import HEIGHT, IN_PLAN, WHOLE, Tree
 
@@ -27,23 +28,8 @@ _SETTLED, _SETTLED_SHARP = 1e-8, 1e-5  # of forces: weight
 _GAIN_SHARP = 1e-16  # of energy, weight times length: less is none
 _SHORTEST = 1e-9
 _LONGEST = 0.5  # change of an angle in a step [rad]
+_TRIES = 4  # to find the contacts of a state that rest on its own forces
 _SMOOTH, _SHARP, _SHARPER = 1e-3, 1e-7, 0.2  # slips that count beside 0, over the length
-
-
-class Rest(NamedTuple):
-    """A tree at rest.
-
-    Attributes:
-        q: its coordinates, see analytic.solvers.limbs.kinematics.
-        nodes: places, (P, 3) [m].
-        force: of the ground on each, (P,) [N].
-        converged: whether forces and heights are those of an equilibrium.
-    """
-
-    q: Array
-    nodes: Array
-    force: Array
-    converged: bool
 
 
 class Statics:
@@ -81,20 +67,50 @@ class Statics:
         stiffness, rest = (np.concatenate([part[i][0] for part in parts]) for i in (0, 1))
         return stiffness, rest
 
-    def equilibrium(
-        self, pressures: Array, guess: Rest, friction: ContactFriction | None = None
-    ) -> Rest:
-        """The equilibrium near a guess.
+    def equilibrium(self, pressures: Array, guess: Rest) -> Rest:
+        """The equilibrium without friction near a guess.
 
         Args:
             pressures: of the chambers, (S,) [Pa].
             guess: of a neighbouring state.
-            friction: on the way there; none if None.
         """
-        stiffness, rest = self.springs(pressures)
+        return self.equilibrium_with_friction(pressures, guess, None)[0]
+
+    def equilibrium_with_friction(
+        self, pressures: Array, guess: Rest, renewed: Renewed | None
+    ) -> tuple[Rest, ContactFriction | None]:
+        """The equilibrium near a guess, and the friction there.
+
+        Args:
+            pressures: of the chambers, (S,) [Pa].
+            guess: of a neighbouring state.
+            renewed: friction by the contacts of a state, from the friction so far, None at first;
+                no friction if None.
+        """
+        stiffness, bent = self.springs(pressures)
+        problem = Problem(self.tree, self._scale, self._ground, stiffness, bent, renewed)
+        found = on_contacts(problem, guess.q, guess.force)
+        if found:
+            q, force, friction = found
+            return Rest(q, self.tree.pose(q).nodes, force, True), friction
+        rest, friction = guess, renewed(guess, None) if renewed else None
+        for _ in range(_TRIES):
+            rest = self._least(stiffness, bent, rest, friction)
+            if friction is None or renewed is None:
+                break
+            before = friction
+            friction = renewed(rest, friction.least(rest.nodes, _SHARP * self.length))
+            if len(friction.bounds) == len(before.bounds):
+                break
+        return rest, friction
+
+    def _least(
+        self, stiffness: Array, bent: Array, guess: Rest, friction: ContactFriction | None
+    ) -> Rest:
+        """The state of least energy and dissipation near a guess, from springs and friction."""
         q, sharpness = guess.q.copy(), _SMOOTH * self.length
         lagrangian = _Lagrangian(
-            self.tree, self._ground, stiffness, rest, friction, guess.force, sharpness
+            self.tree, self._ground, stiffness, bent, friction, guess.force, sharpness
         )
         settled = (_SETTLED if friction is None else _SETTLED_SHARP) * self._weight
         for _ in range(_OUTER):

@@ -9,12 +9,11 @@ minimisation of a rate-independent system (Mielke), as analytic.solvers.elastica
 a plane. Weak friction is its limit (analytic.solvers.limbs.walk). First order in the increments.
 """
 
-from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.dissipation_in_plane import SmoothFriction
 from analytic.scene.surface import Ground
 from analytic.solvers.limbs.contacts import Contact, Contacts, durations
 from analytic.solvers.limbs.friction import ContactFriction
@@ -25,9 +24,13 @@ Array = NDArray[np.float64]
 
 _VISCOSITY = 1e-3  # of all contacts alike: weight over length; decides what bounds leave open
 _WEAK = 1e-3  # of a film's resistance, that it is at most, however slow the gait; chosen
-_HALVINGS = 3  # of increments in which contacts change
 _RISE = 8  # states on the way to a first one that is inflated; chosen
-_TRIES = 4  # to find the contacts of a state that rest on its own forces
+_SLIP = 1e-7  # over the length, by which a contact that holds gives way; chosen
+_JUMP = 0.03  # of the strongest limb's bound, by which that of another changes at once; chosen
+_LOCATED = 1e-5  # move over the length within which an event is located; chosen
+_SHORTEST = 1e-7  # part of an increment
+_ON = 3.0  # increments over the one before, that a guess goes on by
+_TINY = 1e-100
 
 
 def stick_slip_path(
@@ -39,8 +42,8 @@ def stick_slip_path(
 ) -> Path:
     """The path along pressures on a ground that bends the robot.
 
-    Increments in which a contact begins or ends are halved three times: what changes there does so
-    at once.
+    Increments in which what resists jumps are halved until the jump is located within 1e-5 of the
+    length.
 
     Args:
         statics: of the tree.
@@ -55,6 +58,75 @@ def stick_slip_path(
     return _StickSlip(statics, ground, law).along(pressures, when.tolist(), spans.tolist())
 
 
+class _State(NamedTuple):
+    """One state of a walk.
+
+    Attributes:
+        row: pressures of the chambers, (S,) [Pa].
+        time: [s].
+        rest: the tree.
+        contacts: what resists.
+        weights: of the nodes in the points that resist, (C, P).
+        bounds, viscous: of these points, (C,) [N, N s/m].
+        held: their tractions, (C, 2) [N].
+        holds: which of them hold, (C,).
+    """
+
+    row: Array
+    time: float
+    rest: Rest
+    contacts: list[Contact]
+    weights: Array
+    bounds: Array
+    viscous: Array
+    held: Array
+    holds: NDArray[np.bool_]
+
+    def by_limb(self, limbs: int) -> Array:
+        """Bound [N] and viscous resistance [N/m] of each of so many limbs, (2, limbs)."""
+        limb = np.array([contact.limb for contact in self.contacts for _ in contact.at], dtype=int)
+        return np.array([np.bincount(limb, part, limbs) for part in (self.bounds, self.viscous)])
+
+
+class _Increment:
+    """Friction from one state to another, by the contacts of the other's own forces."""
+
+    def __init__(
+        self, finder: Contacts, ground: Ground, before: _State, row: Array, span: float,
+        viscosity: float, slip: float,
+    ) -> None:  # fmt: skip
+        self._finder, self._ground, self._before = finder, ground, before
+        self._row, self._span = row, span
+        self._viscosity, self._slip = viscosity, slip
+        self.contacts, self.weights = before.contacts, before.weights
+        self.viscous = before.viscous
+
+    def __call__(self, rest: Rest, friction: ContactFriction | None) -> ContactFriction:
+        """Friction at a state, from the friction so far; from the state before at first."""
+        before = self._before
+        if friction is None:
+            self.contacts, self.weights = before.contacts, before.weights
+            held, holds = before.held, before.holds
+        else:
+            contacts = self._finder.find(rest, self._row)
+            held, holds = _carried(friction, self.contacts, contacts)
+            self.contacts, self.weights = contacts, self._finder.weights(contacts)
+        # a side that grows or shrinks slips at points that are those of neither state
+        alike = _kinds(self.contacts) == _kinds(before.contacts)
+        weights = 0.5 * (self.weights + before.weights) if alike else self.weights
+        bounds, viscous = self._finder.resistances(
+            self.contacts, self._ground, self.weights @ rest.nodes[:, 0]
+        )
+        self.viscous, film = viscous, viscous / self._span
+        least = min(self._viscosity, _WEAK * float(film.sum())) if film.any() else self._viscosity
+        part = bounds / np.maximum(np.sqrt((held**2).sum(axis=1)), _TINY)
+        part = np.where(holds, np.minimum(1.0, part), part)
+        return ContactFriction(
+            weights, weights @ before.rest.nodes[:, :2], bounds, film + least, bounds / self._slip,
+            part[:, None] * held, holds,
+        )  # fmt: skip
+
+
 class _StickSlip:
     """One walk: its states so far."""
 
@@ -62,59 +134,111 @@ class _StickSlip:
         self._statics, self._ground = statics, ground
         self._finder = Contacts(statics.tree, law)
         self._viscosity = _VISCOSITY * statics.tree.robot.weight / statics.length
-        self._rests: list[Rest] = []
-        self._contacts: list[list[Contact]] = []
-        self._rows: list[Array] = []
-        self._times: list[float] = []
+        self._states: list[_State] = []
+        self._steady = False  # whether the last two states have the same contacts
 
     def along(self, pressures: Array, times: list[float], spans: list[float]) -> Path:
         first = self._statics.flat()
         for part in np.linspace(0.0, 1.0, _RISE + 1)[1:] if pressures[0].any() else (0.0,):
             first = self._statics.equilibrium(part * pressures[0], first)
-        self._keep(pressures[0], times[0], first, self._finder.find(first, pressures[0]))
-        for (begin, end), when, span in zip(pairwise(pressures), pairwise(times), spans,
-                                            strict=True):  # fmt: skip
-            self._go(begin, end, when, span, 0)
-        q = np.array([rest.q for rest in self._rests])
-        place, heading = q[:, :2] - q[0, :2], q[:, 3] - q[0, 3]
-        return Path(self._statics.tree.robot, np.array(self._rows), np.array(self._times),
-                    self._rests, self._contacts, place, heading)  # fmt: skip
-
-    def _go(
-        self, begin: Array, end: Array, when: tuple[float, float], span: float, depth: int
-    ) -> None:
-        rest, contacts = self._step(end, span)
-        if _kinds(contacts) != _kinds(self._contacts[-1]) and depth < _HALVINGS:
-            middle, halfway = 0.5 * (begin + end), 0.5 * sum(when)
-            self._go(begin, middle, (when[0], halfway), 0.5 * span, depth + 1)
-            self._go(middle, end, (halfway, when[1]), 0.5 * span, depth + 1)
-        else:
-            self._keep(end, when[1], rest, contacts)
-
-    def _step(self, row: Array, span: float) -> tuple[Rest, list[Contact]]:
-        """The next state, on contacts that rest on its own forces."""
-        before, contacts = self._rests[-1], self._contacts[-1]
-        for _ in range(_TRIES):
-            rest = self._statics.equilibrium(row, before, self._friction(contacts, before, span))
-            guess, contacts = contacts, self._finder.find(rest, row)
-            if _kinds(contacts) == _kinds(guess):
-                break
-        return rest, contacts
-
-    def _keep(self, row: Array, time: float, rest: Rest, contacts: list[Contact]) -> None:
-        self._rows.append(row)
-        self._times.append(time)
-        self._rests.append(rest)
-        self._contacts.append(contacts)
-
-    def _friction(self, contacts: list[Contact], rest: Rest, span: float) -> ContactFriction:
+        contacts = self._finder.find(first, pressures[0])
         weights = self._finder.weights(contacts)
-        places = weights @ rest.nodes[:, :2]
-        bounds, viscous = self._finder.resistances(contacts, self._ground, places[:, 0])
-        film = viscous / span
-        least = min(self._viscosity, _WEAK * float(film.sum())) if film.any() else self._viscosity
-        return ContactFriction(weights, places, SmoothFriction(bounds, film + least))
+        bounds, viscous = self._finder.resistances(
+            contacts, self._ground, weights @ first.nodes[:, 0]
+        )
+        self._states.append(
+            _State(pressures[0], times[0], first, contacts, weights, bounds,
+                   viscous, np.zeros((len(bounds), 2)), bounds > 0)
+        )  # fmt: skip
+        for end, time, span in zip(pressures[1:], times[1:], spans, strict=True):
+            self._go(end, time, span)
+        q = np.array([state.rest.q for state in self._states])
+        place, heading = q[:, :2] - q[0, :2], q[:, 3] - q[0, 3]
+        return Path(
+            self._statics.tree.robot, np.array([state.row for state in self._states]),
+            np.array([state.time for state in self._states]),
+            [state.rest for state in self._states], [state.contacts for state in self._states],
+            place, heading,
+        )  # fmt: skip
+
+    def _go(self, row: Array, time: float, span: float) -> None:
+        """Go on to pressures (S,) [Pa] in a span of time [s]; locate events on the way."""
+        begin = self._states[-1]
+        done, goal, event = 0.0, 1.0, 1.0  # parts of the increment; an event lies before the last
+        while done < 1.0:
+            before = self._states[-1]
+            state = self._step(
+                begin.row + goal * (row - begin.row), begin.time + goal * (time - begin.time),
+                (goal - done) * span,
+            )  # fmt: skip
+            moved = float(np.abs(state.rest.nodes - before.rest.nodes).max())
+            near = moved < _LOCATED * self._statics.length or goal - done < _SHORTEST
+            jumps = self._jumps(before, state)
+            if jumps and not near:
+                event, goal = goal, 0.5 * (done + goal)
+                continue
+            self._states.append(state)
+            self._steady = _kinds(before.contacts) == _kinds(state.contacts)
+            done = goal
+            if jumps or done == event:
+                goal = event = 1.0
+            else:
+                goal = event if near else 0.5 * (done + event)
+
+    def _step(self, row: Array, time: float, span: float) -> _State:
+        """The next state, at pressures (S,) [Pa] and a time [s]."""
+        before = self._states[-1]
+        increment = _Increment(
+            self._finder, self._ground, before, row, span, self._viscosity,
+            _SLIP * self._statics.length,
+        )  # fmt: skip
+        rest, friction = self._statics.equilibrium_with_friction(row, self._ahead(row), increment)
+        assert friction is not None  # since an increment was given
+        return _State(row, time, rest, increment.contacts, increment.weights, friction.bounds,
+                      increment.viscous, friction.held, friction.holds)  # fmt: skip
+
+    def _ahead(self, row: Array) -> Rest:
+        """A guess at pressures (S,) [Pa]: on from the last two states if pressures go on so."""
+        state = self._states[-1]
+        if not self._steady:
+            return state.rest
+        before = self._states[-2]
+        was, now = state.row - before.row, row - state.row
+        part = float(was @ now) / max(float(was @ was), _TINY)
+        if not 0 < part < _ON or np.abs(now - part * was).max() > _SHORTEST * np.abs(now).max():
+            return state.rest
+        q = state.rest.q + part * (state.rest.q - before.rest.q)
+        return Rest(q, self._statics.tree.pose(q).nodes, state.rest.force, True)
+
+    def _jumps(self, before: _State, after: _State) -> bool:
+        """Whether what resists changes at once, or others slide than did."""
+        if _kinds(before.contacts) == _kinds(after.contacts):
+            was, now = (~state.holds & (state.bounds > 0) for state in (before, after))
+            return bool((was & ~now).any() and (now & ~was).any())
+        limbs = len(self._statics.tree.vertices)
+        was, now = before.by_limb(limbs), after.by_limb(limbs)
+        greatest = np.maximum(was, now).max(axis=1, keepdims=True)
+        return bool((np.abs(now - was) > _JUMP * greatest).any())
+
+
+def _carried(
+    friction: ContactFriction, contacts: list[Contact], now: list[Contact]
+) -> tuple[Array, NDArray[np.bool_]]:
+    """Tractions and whether they hold of contacts that stay; new ones hold, by nothing."""
+    kinds, others = _kinds(contacts), _kinds(now)
+    if kinds == others:
+        return friction.held, friction.holds
+    ends = np.cumsum([count for _, count in kinds])
+    parts = {kind: slice(end - kind[1], end) for kind, end in zip(kinds, ends, strict=True)}
+    points = [
+        (friction.held[parts[kind]], friction.holds[parts[kind]]) if kind in parts
+        else (np.zeros((kind[1], 2)), np.ones(kind[1], dtype=bool))
+        for kind in others
+    ]  # fmt: skip
+    held = np.concatenate([np.zeros((0, 2)), *(point[0] for point in points)])
+    return held, np.concatenate([np.zeros(0, dtype=bool), *(point[1] for point in points)])
 
 
 def _kinds(contacts: list[Contact]) -> list[tuple[int, int]]:
+    """Limb and number of points of each contact."""
     return [(contact.limb, len(contact.at)) for contact in contacts]
