@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from analytic.scene.chain import link_lengths
 from analytic.solvers.limbs.contacts import Contact, Contacts
 from analytic.solvers.limbs.kinematics import Tree
-from analytic.solvers.limbs.statics import Rest
+from analytic.solvers.limbs.rest import Rest
 from mjsim.friction.point_friction import STANDS, PointFriction
 from mjsim.model.limbs import joints_to, limbed, link_prefix, points_of
 from mjsim.model.pads import edges, pads_of

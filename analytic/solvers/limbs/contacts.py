@@ -22,7 +22,7 @@ from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground, Surface
 from analytic.solvers.limbs.kinematics import Tree
-from analytic.solvers.limbs.statics import Rest
+from analytic.solvers.limbs.rest import Rest
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ Flags = NDArray[np.bool_]
 
 _TINY = 1e-100
 _FAR = 2.0  # slips within which a spring holds, that are no direction yet
-_WORST = 0.9  # of the greatest excess: what gives way at once
+_WORST = 0.99  # of the greatest excess: what gives way at once
 
 
 class ContactFriction(NamedTuple):

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from analytic.scene.limbs import LimbedRobot, rotation
 from analytic.solvers.limbs.contacts import Contact
-from analytic.solvers.limbs.statics import Rest
+from analytic.solvers.limbs.rest import Rest
 
 Array = NDArray[np.float64]
 

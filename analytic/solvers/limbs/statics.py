@@ -14,9 +14,10 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve, eigh
 
 from analytic.scene.chain import joint_springs
 from analytic.scene.limbs import chambers_by_limb, rotation
-from analytic.solvers.limbs.active_set import Problem, Renewed, Rest, on_contacts
+from analytic.solvers.limbs.active_set import Problem, Renewed, on_contacts
 from analytic.solvers.limbs.friction import ContactFriction
 from analytic.solvers.limbs.kinematics import HEIGHT, IN_PLAN, WHOLE, Tree
+from analytic.solvers.limbs.rest import Rest
 
 Array = NDArray[np.float64]
 
@@ -29,7 +30,7 @@ _GAIN_SHARP = 1e-16  # of energy, weight times length: less is none
 _SHORTEST = 1e-9
 _LONGEST = 0.5  # change of an angle in a step [rad]
 _TRIES = 4  # to find the contacts of a state that rest on its own forces
-_SMOOTH, _SHARP, _SHARPER = 1e-3, 1e-7, 0.2  # slips that count beside 0, over the length
+_SMOOTH, _SHARP, _SHARPER = 1e-3, 1e-7, 0.05  # slips that count beside 0, over the length
 
 
 class Statics:

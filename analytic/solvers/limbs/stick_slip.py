@@ -9,16 +9,19 @@ minimisation of a rate-independent system (Mielke), as analytic.solvers.elastica
 a plane. Weak friction is its limit (analytic.solvers.limbs.walk). First order in the increments.
 """
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.friction.contact_length import PASSIVE
 from analytic.scene.surface import Ground
 from analytic.solvers.limbs.contacts import Contact, Contacts, durations
 from analytic.solvers.limbs.friction import ContactFriction
 from analytic.solvers.limbs.path import Path
-from analytic.solvers.limbs.statics import Rest, Statics
+from analytic.solvers.limbs.rest import Rest
+from analytic.solvers.limbs.statics import Statics
 
 Array = NDArray[np.float64]
 
@@ -28,7 +31,8 @@ _RISE = 8  # states on the way to a first one that is inflated; chosen
 _SLIP = 1e-7  # over the length, by which a contact that holds gives way; chosen
 _JUMP = 0.03  # of the strongest limb's bound, by which that of another changes at once; chosen
 _LOCATED = 1e-5  # move over the length within which an event is located; chosen
-_SHORTEST = 1e-7  # part of an increment
+_SHORTEST = 1e-7  # change of pressure over the peak's, and part of an increment
+_BESIDE = 1e-8  # part of an increment
 _ON = 3.0  # increments over the one before, that a guess goes on by
 _TINY = 1e-100
 
@@ -150,8 +154,14 @@ class _StickSlip:
             _State(pressures[0], times[0], first, contacts, weights, bounds,
                    viscous, np.zeros((len(bounds), 2)), bounds > 0)
         )  # fmt: skip
-        for end, time, span in zip(pressures[1:], times[1:], spans, strict=True):
-            self._go(end, time, span)
+        for begin, end, when, span in zip(
+            pressures[:-1], pressures[1:], pairwise(times), spans, strict=True
+        ):
+            done = 0.0
+            for part in (*self._thresholds(begin, end), 1.0):
+                row, time = (1 - part) * begin + part * end, (1 - part) * when[0] + part * when[1]
+                self._go(row, time, (part - done) * span)
+                done = part
         q = np.array([state.rest.q for state in self._states])
         place, heading = q[:, :2] - q[0, :2], q[:, 3] - q[0, 3]
         return Path(
@@ -161,9 +171,17 @@ class _StickSlip:
             place, heading,
         )  # fmt: skip
 
+    def _thresholds(self, begin: Array, end: Array) -> list[float]:
+        """Parts of an increment either side of where a limb's end may begin to lie on its side."""
+        at = PASSIVE * self._statics.tree.robot.peak_pressure
+        with np.errstate(divide="ignore", invalid="ignore"):
+            parts = (at - begin) / (end - begin)
+        inside = np.unique(parts[(parts > _SHORTEST) & (parts < 1 - _SHORTEST)])
+        return [float(part + side) for part in inside for side in (-_BESIDE, _BESIDE)]
+
     def _go(self, row: Array, time: float, span: float) -> None:
         """Go on to pressures (S,) [Pa] in a span of time [s]; locate events on the way."""
-        begin = self._states[-1]
+        begin, peak = self._states[-1], self._statics.tree.robot.peak_pressure
         done, goal, event = 0.0, 1.0, 1.0  # parts of the increment; an event lies before the last
         while done < 1.0:
             before = self._states[-1]
@@ -172,7 +190,8 @@ class _StickSlip:
                 (goal - done) * span,
             )  # fmt: skip
             moved = float(np.abs(state.rest.nodes - before.rest.nodes).max())
-            near = moved < _LOCATED * self._statics.length or goal - done < _SHORTEST
+            change = (goal - done) * float(np.abs(row - begin.row).max())
+            near = moved < _LOCATED * self._statics.length or change < _SHORTEST * peak
             jumps = self._jumps(before, state)
             if jumps and not near:
                 event, goal = goal, 0.5 * (done + goal)
@@ -213,8 +232,8 @@ class _StickSlip:
     def _jumps(self, before: _State, after: _State) -> bool:
         """Whether what resists changes at once, or others slide than did."""
         if _kinds(before.contacts) == _kinds(after.contacts):
-            was, now = (~state.holds & (state.bounds > 0) for state in (before, after))
-            return bool((was & ~now).any() and (now & ~was).any())
+            slid, slides = (~state.holds & (state.bounds > 0) for state in (before, after))
+            return bool((slid & ~slides).any() and (slides & ~slid).any())
         limbs = len(self._statics.tree.vertices)
         was, now = before.by_limb(limbs), after.by_limb(limbs)
         greatest = np.maximum(was, now).max(axis=1, keepdims=True)

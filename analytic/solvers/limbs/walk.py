@@ -16,7 +16,8 @@ from analytic.scene.surface import Ground
 from analytic.solvers.limbs.contacts import Contacts, durations
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.path import Path
-from analytic.solvers.limbs.statics import Rest, Statics
+from analytic.solvers.limbs.rest import Rest
+from analytic.solvers.limbs.statics import Statics
 from analytic.solvers.limbs.stick_slip import stick_slip_path
 
 Array = NDArray[np.float64]
