@@ -43,6 +43,28 @@ def test_plain_data_needs_neither_scipy_nor_mujoco():
     assert not {"scipy", "mujoco", "dm_control", "xarray", "matplotlib"} & set(run.stdout.split())
 
 
+def modules_of_run(*words):
+    code = ("import sys; from mjsim.commands.run import main\n"
+            "try: main()\n"
+            "finally: print('modules:', *sys.modules)")  # fmt: skip
+    run = subprocess.run([sys.executable, "-c", code, *words], capture_output=True, text=True,
+                         check=True)  # fmt: skip
+    return set(run.stdout.rpartition("modules:")[2].split())
+
+
+def test_a_run_without_video_imports_only_what_it_uses(tmp_path):
+    unused = {"xarray", "pandas", "matplotlib", "PIL", "mediapy", "dm_control", "pint", "plotly",
+              "typeguard", "asyncio", "scipy.stats", "scipy.optimize", "scipy.interpolate",
+              "scipy.sparse", "scipy.integrate", "scipy.special"}  # fmt: skip
+    modules = modules_of_run("--no-video", "--out", str(tmp_path))
+    assert {"mujoco", "mjsim.results.netcdf"} <= modules
+    assert not unused & modules
+
+
+def test_the_help_of_a_run_needs_no_scipy():
+    assert not {"scipy", "h5py", "xarray", "matplotlib", "typeguard"} & modules_of_run("--help")
+
+
 def test_importing_the_package_leaves_the_environment_alone():
     code = ("import os; before = dict(os.environ); import mjsim; mjsim.Scene; mjsim.simulate; "
             "print(before == dict(os.environ))")  # fmt: skip

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Optional
 
 from analytic.scene.gait import GAITS
 from analytic.scene.limbs import ORDER, quadruped
@@ -45,7 +45,7 @@ class Options(SceneOptions):
     column and each key of --json. Exit code 0: done; 2: bad input; 3: the simulation failed.
     """
 
-    tolerance: float | None = None
+    tolerance: Optional[float] = None  # noqa: UP045
     """of body auto, which walks body chain ever finer until two walks agree: relative error of the
     displacement by links and time step, or 0.001 L; from 0.005; 0.02 if not given"""
     out: Path = Path("videos")

@@ -13,7 +13,8 @@ import tyro
 
 Options = TypeVar("Options")
 Plugins = Annotated[
-    tyro.conf.UseAppendAction[tuple[str, ...]],
+    # tuple[str, ...] would be checked by typeguard, whose import takes as long as all of tyro
+    tyro.conf.UseAppendAction[tuple],  # type: ignore[type-arg]
     tyro.conf.arg(
         metavar="MODULE",
         help="a module, or a .py file, that registers bodies or friction laws when it is imported; "

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import field, fields, make_dataclass
 from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, Optional, Union, get_args, get_origin, get_type_hints
 
 import tyro
 
@@ -52,7 +52,8 @@ def option(kind: Any, text: str, default: Any = None, alias: str | None = None) 
         metavar=metavar,
         help_behavior_hint="" if default is None else f"(default: {_shown(default)})",
     )
-    return Annotated[(str if kind is float else kind) | None, argument]  # it may carry its unit
+    # text of a number, which may carry its unit; for X | None tyro would import typeguard
+    return Annotated[Optional[str if kind is float else kind], argument]  # noqa: UP045
 
 
 def given(options: Any) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 import ast
 import inspect
 import re
-import textwrap
+import sys
 from collections.abc import Mapping
 from functools import cache
 from itertools import pairwise
@@ -14,10 +14,10 @@ _CITATION = re.compile(r"[A-Z][a-z]+\d\d$")
 @cache
 def field_docs(kind: type) -> Mapping[str, str]:
     """Text below each field of a dataclass, its documentation, in one line."""
-    (tree,) = ast.parse(textwrap.dedent(inspect.getsource(kind))).body
-    assert isinstance(tree, ast.ClassDef)
+    module = ast.parse(inspect.getsource(sys.modules[kind.__module__]))
+    classes = {node.name: node for node in module.body if isinstance(node, ast.ClassDef)}
     docs: dict[str, str] = {}
-    for statements in pairwise(tree.body):
+    for statements in pairwise(classes[kind.__name__].body):
         match statements:
             case (
                 ast.AnnAssign(target=ast.Name(id=name)),

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Optional
 
 import tyro
 
@@ -49,18 +49,18 @@ _bare = tyro.conf.arg(help_behavior_hint="")
 class SceneOptions:
     """Options of a scene."""
 
-    scene: Annotated[Path | None, _bare] = None
+    scene: Annotated[Optional[Path], _bare] = None  # noqa: UP045
     """a TOML file with tables [robot], [gait], [ground] and [numerics]; options go over it"""
-    surface: Annotated[str | None, _bare] = None
+    surface: Annotated[Optional[str], _bare] = None  # noqa: UP045
     """felt, polyethylene, gelatin, several with commas between, or all: the three, and a video of
     them in step; felt if nothing is given"""
-    gait: Annotated[str | None, _bare] = None
+    gait: Annotated[Optional[str], _bare] = None  # noqa: UP045
     """wave, full-wave, pulse: the order in which the segments inflate; of the quadruped spin and
     crawl too; a .toml file with stages and ramp_time; or a .csv file of measured pressures, time
     and one column per segment, units in the heads"""
     reverse: bool = False
     """run the gait's stages backwards"""
-    robot: Annotated[str | None, _bare] = None
+    robot: Annotated[Optional[str], _bare] = None  # noqa: UP045
     """strip, or quadruped: a torso and four legs in space"""
     plugin: Plugins = ()
     limbs_: Annotated[_LimbOptions, tyro.conf.arg(name="limbs")] = field(

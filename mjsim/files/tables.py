@@ -38,7 +38,6 @@ from mjsim.files.keys import (
 )
 from mjsim.files.limb_tables import KEYS as LIMB_KEYS
 from mjsim.files.limb_tables import build_robot, of_limbs
-from mjsim.files.measured import read_gait
 from mjsim.files.typed import Table, as_number, as_type, checked, make, read_toml
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene, resolved
@@ -224,6 +223,8 @@ def _gait_of(table: Table, where: str, robot: AnyRobot) -> tuple[Gait, float | N
         return build_gait(table, where, robot), None
     for key in table:
         one_of(f"{where}key beside a .csv file", key, ("file", "reverse", "name"))
+    from mjsim.files.measured import read_gait  # needs scipy.linalg, which takes long to import
+
     gait, highest = read_gait(Path(str(table["file"])), robot.chambers)
     gait = replace(gait, name=table.get("name", gait.name))
     return (gait.reversed() if table.get("reverse") else gait), highest

@@ -64,25 +64,33 @@ class ContactRecorder:
         if self._coulomb:
             normal, friction = (np.array(part[:count]) for part in zip(*self._pushes, strict=True))
             return GroundForces(normal, friction)
-        normal, friction = np.zeros((2, count, self._nodes))
-        for rows, push, pull in zip(self._rows[:count], normal, friction, strict=True):
-            self._sort(rows, push, pull)
-        return GroundForces(normal, friction)
+        return self._sorted(self._rows[:count])
 
-    def _sort(self, rows: tuple[NDArray[Any], ...], push: Array, pull: Array) -> None:
-        types, ids, force, geoms, divisors, drag = rows
-        contact = types == _CONTACT
-        np.add.at(push, self._node_of_geom[geoms[ids[contact]]], force[contact])
-        tendons, strength = ids[types == _TENDON], force[types == _TENDON]
-        nodes = self._node_of_tendon[tendons]
+    def _sorted(self, rows: list[tuple[NDArray[Any], ...]]) -> GroundForces:
+        """Forces of some steps, all at once."""
+        kinds, numbers, strengths, geoms, divisors, drags = zip(*rows, strict=True)
+        step = np.repeat(np.arange(len(rows)), [len(part) for part in kinds])
+        kind, ids, force = map(np.concatenate, (kinds, numbers, strengths))
+        normal, friction = np.zeros((2, len(rows), self._nodes))
+
+        contact = kind == _CONTACT
+        begins = np.cumsum([0, *(len(part) for part in geoms)])  # of the contacts of each step
+        geom = np.concatenate(geoms)[begins[step[contact]] + ids[contact]]
+        np.add.at(normal, (step[contact], self._node_of_geom[geom]), force[contact])
+
+        tendon = kind == _TENDON
+        step, ids, force = step[tendon], ids[tendon], force[tendon]
+        nodes = self._node_of_tendon[ids]
         of_node = nodes >= 0
-        pull[nodes[of_node]] += strength[of_node]
-        share = np.full(self._nodes, 0.0)  # of each node in the mean position
-        share[[0, -1] if len(divisors) == 2 else slice(None)] = 1.0 / divisors
-        pull += strength[tendons == self._both].sum() * share
-        if len(drag):
+        friction[step[of_node], nodes[of_node]] += force[of_node]
+        both = ids == self._both
+        share = np.zeros_like(friction)  # of each node in the mean position
+        share[:, [0, -1] if len(divisors[0]) == 2 else slice(None)] = 1.0 / np.array(divisors)
+        friction += np.bincount(step[both], force[both], len(rows))[:, None] * share
+        if self._viscous:
             tendons = np.flatnonzero(self._node_of_tendon >= 0)
-            pull[self._node_of_tendon[tendons]] += drag[tendons]
+            friction[:, self._node_of_tendon[tendons]] += np.array(drags)[:, tendons]
+        return GroundForces(normal, friction)
 
     def _by_contact(self) -> tuple[Array, Array]:
         """Normal force and friction along x on each node, of contacts with friction."""

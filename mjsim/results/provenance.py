@@ -22,6 +22,7 @@ DISTRIBUTION = "undulator"
 _PACKAGES = (DISTRIBUTION, "mujoco", "dm_control", "numpy", "scipy")
 
 
+@cache
 def origin() -> dict[str, Any]:
     """The versions and the commit that a result was made with."""
     return {
