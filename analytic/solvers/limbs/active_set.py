@@ -27,7 +27,7 @@ _SMALL = 1e-4  # steps after which contacts are looked for again
 _STILL = 1e-7  # a step that is the last one; the next would be a hundredth of it
 _DEEP = 1e-9  # below the ground, over the length: a node that pushes
 _RIDGE = 0.02  # weight times length: curvature down across a ridge, where symmetry may hold it
-_SLACK = 100.0  # of bounds, over the step: forces are not right before it is short; measured
+_SLACK = 1e4  # of bounds, over the square of a step: forces are as wrong before it; measured
 
 
 Renewed = Callable[[Rest, ContactFriction | None], ContactFriction]
@@ -117,7 +117,7 @@ def on_contacts(
         same = np.array_equal(touches, pushes)
         pushes, force = touches, np.where(touches, force, 0.0)
         if friction is not None and moves is not None:
-            after = friction.after(friction.slips(pose.nodes) + moves @ step, _SLACK * size)
+            after = friction.after(friction.slips(pose.nodes) + moves @ step, _SLACK * size**2)
             same &= np.array_equal(after.holds, friction.holds)
             friction = after
         q = q + step
