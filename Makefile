@@ -3,7 +3,7 @@ PY := .venv/bin/python
 # the newest that was tested; the default is in constraints.txt
 MUJOCO_4 := 4.0.0
 
-.PHONY: run test check check-mujoco4 numbers scenes reach auto promises quadruped loop startup bench regression identify \
+.PHONY: run test check check-mujoco4 numbers scenes reach auto promises quadruped loop price startup bench regression identify \
 	models gallery figures chart maps reference architecture clean
 
 run: .venv/ready
@@ -47,6 +47,10 @@ quadruped: .venv/ready
 
 loop: .venv/ready
 	$(PY) benchmarks/loop.py
+
+# a prediction beside its walk
+price: .venv/ready
+	$(PY) benchmarks/price.py
 
 startup: .venv/ready
 	$(PY) benchmarks/startup.py

@@ -9,13 +9,11 @@ minimisation of a rate-independent system (Mielke), as analytic.solvers.elastica
 a plane. Weak friction is its limit (analytic.solvers.limbs.walk). First order in the increments.
 """
 
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import PASSIVE
 from analytic.scene.surface import Ground
 from analytic.solvers.limbs.contacts import Contact, Contacts, durations
 from analytic.solvers.limbs.friction import ContactFriction
@@ -32,7 +30,6 @@ _SLIP = 1e-7  # over the length, by which a contact that holds gives way; chosen
 _JUMP = 0.03  # of the strongest limb's bound, by which that of another changes at once; chosen
 _LOCATED = 1e-5  # move over the length within which an event is located; chosen
 _SHORTEST = 1e-7  # change of pressure over the peak's, and part of an increment
-_BESIDE = 1e-8  # part of an increment
 _ON = 3.0  # increments over the one before, that a guess goes on by
 _TINY = 1e-100
 
@@ -154,14 +151,8 @@ class _StickSlip:
             _State(pressures[0], times[0], first, contacts, weights, bounds,
                    viscous, np.zeros((len(bounds), 2)), bounds > 0)
         )  # fmt: skip
-        for begin, end, when, span in zip(
-            pressures[:-1], pressures[1:], pairwise(times), spans, strict=True
-        ):
-            done = 0.0
-            for part in (*self._thresholds(begin, end), 1.0):
-                row, time = (1 - part) * begin + part * end, (1 - part) * when[0] + part * when[1]
-                self._go(row, time, (part - done) * span)
-                done = part
+        for row, time, span in zip(pressures[1:], times[1:], spans, strict=True):
+            self._go(row, time, span)
         q = np.array([state.rest.q for state in self._states])
         place, heading = q[:, :2] - q[0, :2], q[:, 3] - q[0, 3]
         return Path(
@@ -170,14 +161,6 @@ class _StickSlip:
             [state.rest for state in self._states], [state.contacts for state in self._states],
             place, heading,
         )  # fmt: skip
-
-    def _thresholds(self, begin: Array, end: Array) -> list[float]:
-        """Parts of an increment either side of where a limb's end may begin to lie on its side."""
-        at = PASSIVE * self._statics.tree.robot.peak_pressure
-        with np.errstate(divide="ignore", invalid="ignore"):
-            parts = (at - begin) / (end - begin)
-        inside = np.unique(parts[(parts > _SHORTEST) & (parts < 1 - _SHORTEST)])
-        return [float(part + side) for part in inside for side in (-_BESIDE, _BESIDE)]
 
     def _go(self, row: Array, time: float, span: float) -> None:
         """Go on to pressures (S,) [Pa] in a span of time [s]; locate events on the way."""

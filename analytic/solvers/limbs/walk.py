@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.friction.contact_length import PASSIVE
 from analytic.friction.dissipation_in_plane import least_dissipation_in_plane
 from analytic.scene.gait import Gait
 from analytic.scene.limbs import LimbedRobot, rotation
@@ -21,6 +22,8 @@ from analytic.solvers.limbs.statics import Statics
 from analytic.solvers.limbs.stick_slip import stick_slip_path
 
 Array = NDArray[np.float64]
+
+_BESIDE, _APART = 1e-8, 1e-7  # parts of an increment
 
 
 def shapes(
@@ -116,8 +119,27 @@ def walk(
     if path is None:
         fractions, times = gait.path(states, cycles)
         path = robot.peak_pressure * fractions
+    durations(ground, times, len(path))  # refuses what has no times and needs them
+    clock = np.arange(float(len(path))) if times is None else np.asarray(times, dtype=float)
+    path, times = _with_thresholds(robot, path, clock)
     if bent:
         statics = Statics(Tree(robot, elements), chamber)
         return stick_slip_path(statics, path, ground, law, times)
     tree, rests = shapes(robot, path, elements, chamber)
     return follow(tree, rests, path, ground, law, times)
+
+
+def _with_thresholds(robot: LimbedRobot, path: Array, times: Array) -> tuple[Array, Array]:
+    """Pressures (B, S) and times (B,) with states either side of where an end may begin to lie.
+
+    What resists there jumps, and where it does is known: at a part of the peak pressure.
+    """
+    level = PASSIVE * robot.peak_pressure
+    begin, change = path[:-1], np.diff(path, axis=0)
+    parts = np.divide(level - begin, change, out=np.full_like(change, -1.0), where=change != 0)
+    rows, columns = np.nonzero((parts > _APART) & (parts < 1 - _APART))
+    at = rows + parts[rows, columns]
+    places = np.unique(np.concatenate([np.arange(float(len(path))), at - _BESIDE, at + _BESIDE]))
+    index = np.arange(float(len(path)))
+    dense = np.stack([np.interp(places, index, column) for column in path.T], axis=1)
+    return dense, np.interp(places, index, times)
