@@ -43,7 +43,7 @@ def ratio(name: str, scene: Scene) -> float:
 
 
 def main() -> None:
-    print(f"{'scene':26} {'over L':>10} {'walk':>7} {'fine':>7} {'coarse':>7} {'ratio':>6}")
+    print(f"{'scene':30} {'over L':>10} {'walk':>7} {'fine':>7} {'coarse':>7} {'ratio':>6}")
     strip = [ratio(f"strip on {name}", Scene(ground=SURFACES[name])) for name in SURFACES]
     print(f"median {statistics.median(strip):.2f}")
     for left in (1.0, 0.7):

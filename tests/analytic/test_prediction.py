@@ -2,7 +2,7 @@
 
 import pytest
 
-from analytic import GAITS, SOLVERS, SURFACES, Flag, Robot, predict
+from analytic import GAITS, SOLVERS, SURFACES, Flag, Friction, Robot, predict
 
 
 def distance(solver, surface="felt", **options):
@@ -15,6 +15,19 @@ def test_changes_of_anchor_are_located_whatever_the_states(solver):
     fine = distance(solver, states_per_ramp=200)
     for states in (6, 13, 25):
         assert distance(solver, states_per_ramp=states) == pytest.approx(fine, abs=2e-6)
+
+
+@pytest.mark.parametrize("tension", [0.0, 1.0])
+@pytest.mark.parametrize("surface", list(SURFACES))
+def test_segments_that_are_all_but_equal_go_as_equal_ones_do(surface, tension):
+    equal, nearly = (
+        predict(
+            Robot(segments=segments), GAITS["wave"], SURFACES[surface],
+            friction=Friction(tension=tension),
+        ).locomotion.per_cycle
+        for segments in ((1.0, 1.0, 1.0), (1.0, 1.0, 1.0 + 1e-6))
+    )  # fmt: skip
+    assert nearly == pytest.approx(equal, abs=1e-6 * Robot().length)
 
 
 @pytest.mark.parametrize("solver", list(SOLVERS))
