@@ -9,8 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from mjsim.scene import Numerics
-from studies.accuracy import benchmark_cases, heavy_cantilever
+from analytic import REFERENCE
+from mjsim.results.prediction import links
+from mjsim.scene import Numerics, Scene
+from studies.accuracy import benchmark_cases, heavy_cantilever, walking
 from studies.accuracy.setting import Setting, setting_of
 from studies.drawing import COLOURS
 
@@ -33,7 +35,7 @@ def draw(rows: pd.DataFrame, case: str) -> Figure:
     """
     scenes = rows[rows["case"] == case].groupby("scene", sort=False)
     columns = max(1, scenes.ngroups)
-    figure = Figure(figsize=(1 + 5.2 * columns, 4.6), layout="constrained", dpi=110)
+    figure = Figure(figsize=(1 + 5.6 * columns, 5.4), layout="constrained", dpi=110)
     title, label = _TITLES[case]
     panels = figure.subplots(1, columns, sharey=True, squeeze=False)[0]
     for axes, (scene, measured) in zip(panels, scenes, strict=False):
@@ -56,7 +58,9 @@ def _draw_methods(axes: Axes, rows: pd.DataFrame) -> None:
         axes.plot(x, y, "o-", color=colour, ms=4, lw=1.4)
         axes.annotate(method, (x[0], y[0]), xytext=(-4, 5), textcoords="offset points",
                       color=colour, fontsize=8, ha="right")  # fmt: skip
-    for row in filter(is_default, rows.itertuples()):
+    for row in rows.itertuples():
+        if not (is_default(row) or is_usual_reference(row)):
+            continue
         place = row.cost, max(row.error, _LEAST)
         axes.plot(*place, "o", ms=13, mfc="none", mec="0.1")
         axes.annotate("default", place, xytext=(9, 6), textcoords="offset points", fontsize=8)
@@ -87,6 +91,13 @@ def is_default(row: Any) -> bool:
         return False
     usual = Numerics().resolved("chain", "coulomb" if row.cone else "constant")
     return setting_of(row).numerics() == usual
+
+
+def is_usual_reference(row: Any) -> bool:
+    """True for the reference as `undulator run` computes it, without and with its error bar."""
+    if row.case not in benchmark_cases.GROUNDS:
+        return False
+    return row.method in (REFERENCE, walking.WITH_BAR) and row.links == links(Scene())
 
 
 def cheapest(rows: pd.DataFrame, goal: float) -> pd.DataFrame:
