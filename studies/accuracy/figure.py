@@ -31,7 +31,7 @@ def draw(rows: pd.DataFrame, case: str) -> Figure:
     """Error over CPU seconds per simulated second, one panel per scene.
 
     One line per method, its own Pareto front, with its other rows pale behind; failures in a row of
-    their own above.
+    their own above. Rings: what commands take unless told otherwise.
     """
     scenes = rows[rows["case"] == case].groupby("scene", sort=False)
     columns = max(1, scenes.ngroups)
@@ -46,6 +46,10 @@ def draw(rows: pd.DataFrame, case: str) -> Figure:
         axes.set_title(title if scene == heavy_cantilever.TIP else f"{title}, {scene}", fontsize=9)
         axes.grid(which="major", color="0.92", lw=0.6)
     panels[0].set_ylabel(label)
+    methods = {line.get_label(): line for axes in panels for line in axes.lines
+               if not str(line.get_label()).startswith("_")}  # fmt: skip
+    figure.legend(methods.values(), [str(name) for name in methods], fontsize=8, frameon=False,
+                  loc="outside lower center", ncols=min(len(methods), 5))  # fmt: skip
     return figure
 
 
@@ -55,15 +59,15 @@ def _draw_methods(axes: Axes, rows: pd.DataFrame) -> None:
         axes.plot(points["cost"], points["error"].clip(_LEAST), "o", color=colour, ms=3,
                   alpha=0.25, mec="none")  # fmt: skip
         x, y = front["cost"].to_numpy(), front["error"].clip(_LEAST).to_numpy()
-        axes.plot(x, y, "o-", color=colour, ms=4, lw=1.4)
-        axes.annotate(method, (x[0], y[0]), xytext=(-4, 5), textcoords="offset points",
-                      color=colour, fontsize=8, ha="right")  # fmt: skip
+        axes.plot(x, y, "o-", color=colour, ms=4, lw=1.4, label=method)
     for row in rows.itertuples():
         if not (is_default(row) or is_usual_reference(row)):
             continue
         place = row.cost, max(row.error, _LEAST)
         axes.plot(*place, "o", ms=13, mfc="none", mec="0.1")
-        axes.annotate("default", place, xytext=(9, 6), textcoords="offset points", fontsize=8)
+        if is_default(row):
+            axes.annotate("default", place, xytext=(-9, -3), textcoords="offset points",
+                          fontsize=8, ha="right")  # fmt: skip
 
 
 def _draw_failures(axes: Axes, rows: pd.DataFrame, level: float) -> None:
