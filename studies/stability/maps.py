@@ -141,9 +141,9 @@ def _iterations(walk: Prediction) -> float:
 
 def walks(body: str, quick: bool = False) -> Iterator[tuple[Any, ...]]:
     """Time step over links, and over stiffness, for each integrator; and some walks for LONG."""
-    skip, links = (1, LINKS) if body == "chain" else (2, SOME_LINKS)
+    skip, links = (1, list(LINKS)) if body == "chain" else (2, list(SOME_LINKS))
     if quick:
-        skip, links = 5, LINKS[:6:2]
+        skip, links = 5, list(LINKS[:6:2])
     cycles = 1 if quick else CYCLES[body]
     for integrator, timestep in itertools.product(INTEGRATORS, TIMESTEPS[::skip]):
         for n in links:
