@@ -12,6 +12,7 @@ from studies import Array
 COLOURS = {
     "chain": "#d1495b", "cable": "#edae49", "rod": "#66a182", "stock cable": "#8b5e34",
     "modes": "#8d99ae", "lifted": "#52796f", "obstacle": "#3a7ca5", "elastica": "black",
+    "elastica, weak friction": "0.55", "elastica, with error bar": "#9b2fae",
     "Drake": "#5e548e", "PyElastica": "#00798c", "PyBullet": "#b56576",
 }  # fmt: skip
 SIMULATED = COLOURS["chain"]

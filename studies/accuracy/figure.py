@@ -9,8 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from mjsim.scene import Numerics
-from studies.accuracy import benchmark_cases, heavy_cantilever
+from analytic import REFERENCE
+from mjsim.results.prediction import links
+from mjsim.scene import Numerics, Scene
+from studies.accuracy import benchmark_cases, heavy_cantilever, walking
 from studies.accuracy.setting import Setting, setting_of
 from studies.drawing import COLOURS
 
@@ -29,11 +31,11 @@ def draw(rows: pd.DataFrame, case: str) -> Figure:
     """Error over CPU seconds per simulated second, one panel per scene.
 
     One line per method, its own Pareto front, with its other rows pale behind; failures in a row of
-    their own above.
+    their own above. Rings: what commands take unless told otherwise.
     """
     scenes = rows[rows["case"] == case].groupby("scene", sort=False)
     columns = max(1, scenes.ngroups)
-    figure = Figure(figsize=(1 + 5.2 * columns, 4.6), layout="constrained", dpi=110)
+    figure = Figure(figsize=(1 + 5.6 * columns, 5.4), layout="constrained", dpi=110)
     title, label = _TITLES[case]
     panels = figure.subplots(1, columns, sharey=True, squeeze=False)[0]
     for axes, (scene, measured) in zip(panels, scenes, strict=False):
@@ -44,6 +46,10 @@ def draw(rows: pd.DataFrame, case: str) -> Figure:
         axes.set_title(title if scene == heavy_cantilever.TIP else f"{title}, {scene}", fontsize=9)
         axes.grid(which="major", color="0.92", lw=0.6)
     panels[0].set_ylabel(label)
+    methods = {line.get_label(): line for axes in panels for line in axes.lines
+               if not str(line.get_label()).startswith("_")}  # fmt: skip
+    figure.legend(methods.values(), [str(name) for name in methods], fontsize=8, frameon=False,
+                  loc="outside lower center", ncols=min(len(methods), 5))  # fmt: skip
     return figure
 
 
@@ -53,13 +59,15 @@ def _draw_methods(axes: Axes, rows: pd.DataFrame) -> None:
         axes.plot(points["cost"], points["error"].clip(_LEAST), "o", color=colour, ms=3,
                   alpha=0.25, mec="none")  # fmt: skip
         x, y = front["cost"].to_numpy(), front["error"].clip(_LEAST).to_numpy()
-        axes.plot(x, y, "o-", color=colour, ms=4, lw=1.4)
-        axes.annotate(method, (x[0], y[0]), xytext=(-4, 5), textcoords="offset points",
-                      color=colour, fontsize=8, ha="right")  # fmt: skip
-    for row in filter(is_default, rows.itertuples()):
+        axes.plot(x, y, "o-", color=colour, ms=4, lw=1.4, label=method)
+    for row in rows.itertuples():
+        if not (is_default(row) or is_usual_reference(row)):
+            continue
         place = row.cost, max(row.error, _LEAST)
         axes.plot(*place, "o", ms=13, mfc="none", mec="0.1")
-        axes.annotate("default", place, xytext=(9, 6), textcoords="offset points", fontsize=8)
+        if is_default(row):
+            axes.annotate("default", place, xytext=(-9, -3), textcoords="offset points",
+                          fontsize=8, ha="right")  # fmt: skip
 
 
 def _draw_failures(axes: Axes, rows: pd.DataFrame, level: float) -> None:
@@ -87,6 +95,13 @@ def is_default(row: Any) -> bool:
         return False
     usual = Numerics().resolved("chain", "coulomb" if row.cone else "constant")
     return setting_of(row).numerics() == usual
+
+
+def is_usual_reference(row: Any) -> bool:
+    """True for the reference as `undulator run` computes it, without and with its error bar."""
+    if row.case not in benchmark_cases.GROUNDS:
+        return False
+    return row.method in (REFERENCE, walking.WITH_BAR) and row.links == links(Scene())
 
 
 def cheapest(rows: pd.DataFrame, goal: float) -> pd.DataFrame:

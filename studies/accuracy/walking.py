@@ -2,18 +2,20 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
-from analytic import REFERENCE, SOLVERS, Elastica, predict
+from analytic import REFERENCE, SOLVERS
 from mjsim.results.measures import measure
+from mjsim.results.prediction import HALF, displacement, links, prediction
 from mjsim.scene import CONES, INTEGRATORS, Numerics, Scene
 from mjsim.simulation.simulation import simulate
-from studies.accuracy.benchmark_cases import COULOMB, WALK, friction_of, scene_of, walked
+from studies.accuracy.benchmark_cases import COULOMB, WALK, scene_of, walked
 from studies.accuracy.rows import Row
 from studies.accuracy.setting import Setting, grid
 from studies.accuracy.timing import Spent, Timing, repeated
 
+WEAK, WITH_BAR = f"{REFERENCE}, weak friction", f"{REFERENCE}, with error bar"
+_REFERENCES = {WEAK: (1.0,), REFERENCE: (1.0,), WITH_BAR: (1.0, HALF)}  # finenesses that each takes
 _ELLIPTIC, _PYRAMIDAL = CONES
 _USUAL = "discrete", _ELLIPTIC, Numerics.impratio
 _BODIES: dict[str, list[Any]] = {  # see grid
@@ -36,6 +38,7 @@ _BODIES: dict[str, list[Any]] = {  # see grid
           for name in INTEGRATORS[1:]),
     ],
 }  # fmt: skip
+_LINKS = (12, 24, 60, 120)  # of the elastica; 60 are usual
 _QUICK: dict[str, list[Any]] = {
     WALK: [("chain", (6, 12), (0.02, 0.01)), ("cable", (6,), (0.02,)), ("rod", (6,), (0.01,)),
            ("chain", (6,), (0.01,), "Euler")],
@@ -45,16 +48,18 @@ _QUICK: dict[str, list[Any]] = {
 
 def settings(case: str, quick: bool = False) -> Iterator[Setting]:
     """Every setting that is measured on a case, cheap ones first within a method."""
-    for solver in SOLVERS if case == WALK else (REFERENCE,):
-        for links in (12, 24, 60) if solver == REFERENCE else (0,):
-            yield Setting(solver, links)
+    if case == WALK:
+        yield from (Setting(solver) for solver in SOLVERS if solver != REFERENCE)
+        yield from (Setting(WEAK, n) for n in _LINKS)
+    for method in (REFERENCE, WITH_BAR):
+        yield from (Setting(method, n) for n in _LINKS)
     for block in (_QUICK if quick else _BODIES)[case]:
         yield from grid(*block)
 
 
 def run(case: str, ground: str, setting: Setting) -> Row:
     """Measure one setting on one ground."""
-    measured = (_solver if setting.method in SOLVERS else _body)(case, ground, setting)
+    measured = (_solver if setting.timestep == 0 else _body)(case, ground, setting)
     return walked(case, ground, setting, *measured)
 
 
@@ -67,14 +72,12 @@ def _body(case: str, ground: str, setting: Setting) -> tuple[float, Timing, str]
 
 
 def _solver(case: str, ground: str, setting: Setting) -> tuple[float, Timing, str]:
-    scene, solver = scene_of(case, ground), SOLVERS[setting.method]()
-    friction = friction_of(case)
-    if isinstance(solver, Elastica):
-        solver = Elastica(setting.links, scene.chamber)
-    else:  # no friction bends them
-        friction = replace(friction, tension=0.0)
-    walk, timing = repeated(
-        lambda: predict(scene.strip, scene.gait, scene.ground, solver, friction=friction),
+    scene = scene_of(case, ground)
+    name = REFERENCE if setting.method in _REFERENCES else setting.method
+    finer, bent = setting.links / links(scene) if setting.links else 1.0, setting.method != WEAK
+    walks, timing = repeated(
+        lambda: [prediction(scene, name, finer * part, bent=bent)
+                 for part in _REFERENCES.get(setting.method, (1.0,))],
         Scene().gait.period,  # however slow, a cycle of states costs the same
-    )
-    return walk.locomotion.per_cycle / scene.strip.length, timing, "ok"
+    )  # fmt: skip
+    return displacement(scene, walks[0]), timing, "ok"

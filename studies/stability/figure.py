@@ -71,7 +71,7 @@ def draw_robots(rows: pd.DataFrame) -> Figure:
         beyond=(rows["elastica"] != "ok").astype(float),
     )  # kPa; fmt: skip
     tiles = {"branch": "elastica: where its stable branch ends",
-             "chain": "MuJoCo, against elastica"}  # fmt: skip
+             "chain": "MuJoCo, against elastica bent by friction"}  # fmt: skip
     beyond = _grid(table, "gamma", "pressure", "beyond")
     for axes, (column, title) in zip(panels.flat, {**tiles, **_SHADED}.items(), strict=True):
         if column in tiles:
