@@ -97,7 +97,7 @@ class Branch:
                 search = changes <= _MOST_CHANGES and points[-1].contacts is not None
                 after = self._after(points, float(row), trial=search)
                 if search and self._change_in(points, after):
-                    points += self._change(points, after)
+                    points += self._over_jump(points, self._change(points, after), float(row))
                 else:
                     points.append(after)
         return points[1:]
@@ -133,6 +133,18 @@ class Branch:
                 known = [*points, middle]
             error *= part or 0.5
         return [*known[len(points) :], self._after(known, after.row, after)]
+
+    def _over_jump(self, points: list[Point], located: list[Point], row: float) -> list[Point]:
+        """States on either side of a change, or the next row's if none is found right behind it.
+
+        Where a contact lets go at once, the strip may come to rest only at pressures farther on.
+        """
+        if Flag.BRANCH_END not in located[-1].status:
+            return located
+        beyond = self._after(points, row)
+        if Flag.BRANCH_END in beyond.status:
+            return located
+        return [beyond._replace(status=beyond.status | Flag.JUMPED)]
 
     def _after(
         self, points: list[Point], row: float, beyond: Point | None = None, trial: bool = False
@@ -183,10 +195,11 @@ class Branch:
         duration: float = math.inf,
         guess: ChainState | None = None,
         trial: bool = False,
+        damped: bool = False,
     ) -> ChainState | None:
         """The equilibrium that follows a state; None far away, where another branch may be."""
         if self._traction:
-            self._traction.begin(state, duration, trial)
+            self._traction.begin(state, duration, trial, damped)
         candidate = self._chain.equilibrium(guess or state, self._traction)
         return None if candidate is None or _apart(candidate, state) > _LEAP else candidate
 
@@ -208,7 +221,7 @@ class Branch:
         drag = _FIRST_DRAG
         for _ in range(_FLOW_STEPS):
             self._chain.damp(drag, state)
-            candidate = self._near(state)
+            candidate = self._near(state, damped=True)
             self._chain.damp(0.0)
             if candidate is None:
                 drag *= 4.0
@@ -219,7 +232,7 @@ class Branch:
                 drag *= 0.5
             state = candidate
             if drag < _LEAST_DRAG:
-                return self._near(state)
+                return self._near(state, damped=True)
         return None
 
 

@@ -14,12 +14,17 @@ class FixedPoint:
     A contact may be a side as long as it resists like a tip, and a tip as long as it resists like a
     side. Then it is both in turn: bisection ends where the bound would jump, at a bound between.
 
+    Args:
+        count: of contacts.
+        doubts: whether to begin anew where it seems to end, since early results are of shapes that
+            are not yet in balance.
+
     Attributes:
         between: contacts that are so held.
     """
 
-    def __init__(self, count: int) -> None:
-        self._doubted = False
+    def __init__(self, count: int, doubts: bool = True) -> None:
+        self._doubts = doubts
         self._forget(count)
 
     def _forget(self, count: int) -> None:
@@ -47,8 +52,8 @@ class FixedPoint:
         held = between & ~wide & (np.abs(gap) > near)
         self.between = held.tolist()
         solved = bool(((np.abs(gap) <= near) | held).all())
-        if solved and not self._doubted:
-            self._doubted = True  # early results are of shapes that are not yet in balance
+        if solved and self._doubts:
+            self._doubts = False
             self._forget(len(gap))
             return False, results
         after, self._tries = results, self._tries + 1

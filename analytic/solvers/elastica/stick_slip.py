@@ -89,10 +89,13 @@ class StickSlip:
         self._speed, self._slid = 0.0, np.zeros(0)
         self._take([], np.zeros(0), np.zeros(0))
         self._search: FixedPoint | None = None
-        self._changes, self._settled = 0, True
+        self._changes, self._settled, self._doubts = 0, True, True
         self._trial, self.updates = False, _UPDATES
 
-    def begin(self, state: ChainState, duration: float = math.inf, trial: bool = False) -> None:
+    def begin(
+        self, state: ChainState, duration: float = math.inf, trial: bool = False,
+        damped: bool = False,
+    ) -> None:  # fmt: skip
         """Begin an increment at a state, the chain being loaded for its end.
 
         Args:
@@ -100,7 +103,9 @@ class StickSlip:
             duration: of the increment [s].
             trial: whether to leave off where a bound would jump, since the increment will be
                 divided there; the state is then in no balance with its bounds.
+            damped: whether hinges resist turning, so that shapes are all but in balance.
         """
+        self._doubts = not damped
         self._trial, self.updates = trial, _FEW_UPDATES if trial else _UPDATES
         self._before, self._search, self._changes = self._places(state), None, 0
         self._speed = self._chain.robot.length / duration  # of a slip of 1
@@ -154,7 +159,7 @@ class StickSlip:
             if self._changes > _MOST_CHANGES:
                 return True  # contacts that come and go by a rounding: those of before will do
         else:
-            self._search = self._search or FixedPoint(len(bounds))
+            self._search = self._search or FixedPoint(len(bounds), self._doubts)
             alike, bounds = self._search.next(self.bounds, bounds, near)
         self._take(contacts, bounds, drag)
         self._settled = alike
