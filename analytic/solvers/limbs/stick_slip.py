@@ -216,7 +216,7 @@ class _StickSlip:
         """Whether what resists changes at once, or others slide than did."""
         if _kinds(before.contacts) == _kinds(after.contacts):
             slid, slides = (~state.holds & (state.bounds > 0) for state in (before, after))
-            return bool((slid & ~slides).any() and (slides & ~slid).any())
+            return bool((slid != slides).any() and slid.any() and slides.any())
         limbs = len(self._statics.tree.vertices)
         was, now = before.by_limb(limbs), after.by_limb(limbs)
         greatest = np.maximum(was, now).max(axis=1, keepdims=True)
