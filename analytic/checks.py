@@ -5,6 +5,8 @@ from collections.abc import Collection, Iterable
 from numbers import Integral, Real
 from typing import Any
 
+import numpy as np
+
 _LONGEST_WORD = 60  # of a file name
 
 
@@ -67,3 +69,20 @@ def _of(unit: str) -> str:
 def _shown(value: Any) -> str:
     """Written form of a value: NumPy's numbers without their type."""
     return repr(value.item()) if hasattr(value, "item") else repr(value)
+
+
+def times_of(times: Any, rows: int) -> None:
+    """Refuse times that are not one for each of so many rows, or go back.
+
+    Raises:
+        ValueError: they are.
+    """
+    clock = np.asarray(times, dtype=float)
+    if clock.shape != (rows,) or not np.isfinite(clock).all():
+        raise ValueError(f"times must be {rows} numbers, one for each row of the path, got {times}")
+    back = np.flatnonzero(np.diff(clock) < 0)
+    if len(back):
+        raise ValueError(
+            f"times of a path must not decrease, got {clock[back[0] + 1]:g} s after "
+            f"{clock[back[0]]:g} s"
+        )

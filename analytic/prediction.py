@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.checks import one_of
+from analytic.checks import one_of, times_of, whole
 from analytic.friction.laws import Friction
 from analytic.locomotion import WEAK, Locomotion, displacements, left_end
 from analytic.scene.gait import Gait
@@ -91,6 +91,8 @@ def predict(
     if isinstance(solver, str):
         one_of("solver", solver, SOLVERS)
         solver = SOLVERS[solver]()
+    whole("states per ramp", states_per_ramp, 1)
+    whole("cycles", cycles, 1)
     if path is None:
         if depends_on_speed(ground):  # which may creep while a pressure is constant
             fractions = gait.pressures(states_per_ramp, cycles)
@@ -99,6 +101,8 @@ def predict(
             fractions, times = gait.path(states_per_ramp, cycles)
         path = robot.peak_pressure * fractions
     path = np.asarray(path, dtype=float)
+    if times is not None:
+        times_of(times, len(path))
     clock = np.asarray(np.arange(len(path)) if times is None else times, dtype=float)
     if depends_on_speed(ground) and (not friction.tension or times is None):
         raise ValueError(
@@ -171,6 +175,7 @@ class _Walk(NamedTuple):
         """
         for number in range(_ROUNDS):
             moved = np.abs(np.diff(shapes.separation)) > _LOCATED * self.robot.length
+            moved |= number == 0  # there and back is no change
             anchors = [left_end(shapes, ground, self.friction)[1] for ground in grounds]
             changes = np.flatnonzero(np.any(anchors, axis=0) & moved)
             if not len(changes):

@@ -1,5 +1,6 @@
 """A cycle's distance by any solver, resolved where the anchor changes."""
 
+import numpy as np
 import pytest
 
 from analytic import GAITS, SOLVERS, SURFACES, Flag, Friction, Robot, predict
@@ -52,3 +53,24 @@ def test_flags_tell_what_was_met_on_the_way():
 def test_an_unknown_solver_is_refused_by_name():
     with pytest.raises(ValueError, match="modes, lifted, obstacle, elastica"):
         predict(Robot(), GAITS["wave"], SURFACES["felt"], "ladder")
+
+
+def test_a_change_of_anchor_between_states_of_one_separation_is_located():
+    """At odd states per ramp one increment goes as far out as back."""
+    coulomb = Friction(law="coulomb")
+    fine = distance("elastica", "gelatin", states_per_ramp=40, friction=coulomb)
+    for states in (7, 13):
+        assert distance(
+            "elastica", "gelatin", states_per_ramp=states, friction=coulomb
+        ) == pytest.approx(fine, abs=2e-6)
+
+
+def test_states_and_times_that_mean_nothing_are_refused():
+    robot, gait, felt = Robot(), GAITS["wave"], SURFACES["felt"]
+    path = robot.peak_pressure * gait.path(4)[0]
+    with pytest.raises(ValueError, match="states per ramp"):
+        predict(robot, gait, felt, states_per_ramp=0)
+    with pytest.raises(ValueError, match="not decrease"):
+        predict(robot, gait, felt, path=path, times=-np.arange(len(path)))
+    with pytest.raises(ValueError, match="one for each row"):
+        predict(robot, gait, felt, path=path, times=[0.0, 1.0])

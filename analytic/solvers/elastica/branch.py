@@ -26,6 +26,7 @@ _LEAST_PULLED = 1e-2  # where friction or adhesion may give way, and damped moti
 _CURLED = 0.02  # slope that an end in flat contact does not have, even where it lifts off [rad]
 _LOCATED = 1e-7  # motion over L within which a change of contacts is located; chosen
 _FAR = 0.01  # motion over L in an increment whose end is not known; chosen
+_INSTANT = 1e-12  # s; a shortest increment
 _MOST_CHANGES = 8  # in an increment, beyond which they are a flicker and not looked for; chosen
 NO_NUMBERS = Flag.BRANCH_END | Flag.ROLLED_UP
 _JUMP = 0.03  # change of a direction at one pressure that is flagged as a jump [rad]; chosen
@@ -81,7 +82,8 @@ class Branch:
         self._path = np.concatenate([np.zeros((1, pressures.shape[1])), pressures])
         self._duration = np.full(len(pressures), np.inf)
         if times is not None:
-            self._duration[1:] = np.diff(np.asarray(times, dtype=float))
+            # equal times are an instant, in which a viscous ground gives way to nothing
+            self._duration[1:] = np.maximum(np.diff(np.asarray(times, dtype=float)), _INSTANT)
         blank = np.full(chain.links + 2, np.nan)
         self.missing = chain.flat()._replace(
             y=blank, theta=blank[1:], shear=blank[1:], left=math.nan

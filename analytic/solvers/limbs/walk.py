@@ -9,8 +9,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.checks import one_of, times_of, whole
 from analytic.friction.contact_length import PASSIVE
 from analytic.friction.dissipation_in_plane import least_dissipation_in_plane
+from analytic.friction.laws import LAWS
 from analytic.scene.gait import Gait
 from analytic.scene.limbs import LimbedRobot, rotation
 from analytic.scene.surface import Ground
@@ -109,8 +111,12 @@ def walk(
             [s].
 
     Raises:
-        ValueError: the gait is not for so many chambers.
+        ValueError: the gait or the path is not for so many chambers, a pressure is no number, times
+            go back, there is no such law, or there are no states, cycles or elements.
     """
+    one_of("friction", law, LAWS)
+    whole("states", states, 1)
+    whole("cycles", cycles, 1)
     if gait.segments != len(robot.chambers):
         raise ValueError(
             f"gait {gait.name!r} is for {gait.segments} chambers, the robot has "
@@ -119,6 +125,15 @@ def walk(
     if path is None:
         fractions, times = gait.path(states, cycles)
         path = robot.peak_pressure * fractions
+    path, columns = np.asarray(path, dtype=float), len(robot.chambers)
+    if path.ndim != 2 or path.shape[1] != columns or not len(path) or not np.isfinite(path).all():
+        raise ValueError(
+            f"pressures must be rows of {columns} numbers, one per chamber ("
+            f"{', '.join(robot.chambers)}), got an array of shape {path.shape}"
+            + ("" if np.isfinite(path).all() else " with values that are none")
+        )
+    if times is not None:
+        times_of(times, len(path))
     durations(ground, times, len(path))  # refuses what has no times and needs them
     clock = np.arange(float(len(path))) if times is None else np.asarray(times, dtype=float)
     path, times = _with_thresholds(robot, path, clock)

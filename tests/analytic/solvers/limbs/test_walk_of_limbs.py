@@ -142,7 +142,7 @@ ELSEWHERE = [pytest.param("felt", marks=pytest.mark.slow),
 @pytest.mark.parametrize("name", ELSEWHERE)
 def test_a_limb_of_three_segments_in_space_goes_as_far_as_the_strip_s_elastica(name):
     strip, gait, ground = Robot(), GAITS["wave"], SURFACES[name]
-    path = walk(LimbedRobot((Limb("solo", strip, angle=0.5),)), gait, ground, 10, 12)
+    path = walk(LimbedRobot((Limb("solo", strip, angle=0.5),)), gait, ground, 20, 24)
     friction = Friction(tension=1.0, contacts="all")
     theory = predict(strip, gait, ground, Elastica(36), 20, friction=friction)
     ((ahead, aside),), (turn,) = path.by_cycle(1)
