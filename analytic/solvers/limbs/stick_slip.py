@@ -29,6 +29,7 @@ _RISE = 8  # states on the way to a first one that is inflated; chosen
 _SLIP = 1e-7  # over the length, by which a contact that holds gives way; chosen
 _JUMP = 0.03  # of the strongest limb's bound, by which that of another changes at once; chosen
 _LOCATED = 1e-5  # move over the length within which an event is located; chosen
+_MOST_JUMPS, _MOST_SWAPS = 4, 1  # located in an increment; more are a flicker; chosen
 _SHORTEST = 1e-7  # change of pressure over the peak's, and part of an increment
 _ON = 3.0  # increments over the one before, that a guess goes on by
 _TINY = 1e-100
@@ -166,6 +167,7 @@ class _StickSlip:
         """Go on to pressures (S,) [Pa] in a span of time [s]; locate events on the way."""
         begin, peak = self._states[-1], self._statics.tree.robot.peak_pressure
         done, goal, event = 0.0, 1.0, 1.0  # parts of the increment; an event lies before the last
+        jumps, swaps = 0, 0  # located so far
         while done < 1.0:
             before = self._states[-1]
             state = self._step(
@@ -175,14 +177,15 @@ class _StickSlip:
             moved = float(np.abs(state.rest.nodes - before.rest.nodes).max())
             change = (goal - done) * float(np.abs(row - begin.row).max())
             near = moved < _LOCATED * self._statics.length or change < _SHORTEST * peak
-            jumps = self._jumps(before, state)
-            if jumps and not near:
+            jump = jumps < _MOST_JUMPS and self._jumps(before, state)
+            swap = swaps < _MOST_SWAPS and _swaps(before, state)
+            if (jump or swap) and not near:
                 event, goal = goal, 0.5 * (done + goal)
                 continue
             self._states.append(state)
             self._steady = _kinds(before.contacts) == _kinds(state.contacts)
-            done = goal
-            if jumps or done == event:
+            done, jumps, swaps = goal, jumps + jump, swaps + swap
+            if jump or swap or done == event:
                 goal = event = 1.0
             else:
                 goal = event if near else 0.5 * (done + event)
@@ -213,14 +216,21 @@ class _StickSlip:
         return Rest(q, self._statics.tree.pose(q).nodes, state.rest.force, True)
 
     def _jumps(self, before: _State, after: _State) -> bool:
-        """Whether what resists changes at once, or others slide than did."""
+        """Whether what resists changes at once."""
         if _kinds(before.contacts) == _kinds(after.contacts):
-            slid, slides = (~state.holds & (state.bounds > 0) for state in (before, after))
-            return bool((slid != slides).any() and slid.any() and slides.any())
+            return False
         limbs = len(self._statics.tree.vertices)
         was, now = before.by_limb(limbs), after.by_limb(limbs)
         greatest = np.maximum(was, now).max(axis=1, keepdims=True)
         return bool((np.abs(now - was) > _JUMP * greatest).any())
+
+
+def _swaps(before: _State, after: _State) -> bool:
+    """Whether other contacts slide than did; one that begins alone does so within an increment."""
+    if _kinds(before.contacts) != _kinds(after.contacts):
+        return False
+    slid, slides = (~state.holds & (state.bounds > 0) for state in (before, after))
+    return bool((slid != slides).any() and slid.any() and slides.any())
 
 
 def _carried(
