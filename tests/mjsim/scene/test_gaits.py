@@ -100,8 +100,13 @@ def test_other_robots_go_as_far_as_the_elastica(name, surface):
     segments, stages = ROBOTS[name]
     robot = Robot(segments=segments)
     scene = Scene(robot, Gait(name, stages, 8.0), SURFACES[surface])
-    exact = predicted(robot, scene.gait, scene.ground, scene.reference_friction)
-    assert measure(simulate(scene)).displacement == pytest.approx(exact, rel=0.02, abs=0.001)
+    exact, finer = (
+        predicted(robot, scene.gait, scene.ground, scene.reference_friction, links)
+        for links in (36, 72)
+    )
+    # four on gelatin: a tip that holds or lets go as it becomes a side, by 4 % of the distance
+    within = max(0.001, 0.02 * abs(exact)) + abs(exact - finer)
+    assert measure(simulate(scene)).displacement == pytest.approx(exact, abs=within)
 
 
 SLOW = Gait("wave", GAITS["wave"].stages, 8.0)
