@@ -167,7 +167,7 @@ class _StickSlip:
         """Go on to pressures (S,) [Pa] in a span of time [s]; locate events on the way."""
         begin, peak = self._states[-1], self._statics.tree.robot.peak_pressure
         done, goal, event = 0.0, 1.0, 1.0  # parts of the increment; an event lies before the last
-        jumps, swaps = 0, 0  # located so far
+        jumps, swaps, searching = 0, 0, False  # looked for so far, and now
         while done < 1.0:
             before = self._states[-1]
             state = self._step(
@@ -177,16 +177,18 @@ class _StickSlip:
             moved = float(np.abs(state.rest.nodes - before.rest.nodes).max())
             change = (goal - done) * float(np.abs(row - begin.row).max())
             near = moved < _LOCATED * self._statics.length or change < _SHORTEST * peak
-            jump = jumps < _MOST_JUMPS and self._jumps(before, state)
-            swap = swaps < _MOST_SWAPS and _swaps(before, state)
+            jump = (searching or jumps < _MOST_JUMPS) and self._jumps(before, state)
+            swap = (searching or swaps < _MOST_SWAPS) and _swaps(before, state)
             if (jump or swap) and not near:
+                if not searching:  # what is not found near by was a flicker
+                    jumps, swaps, searching = jumps + jump, swaps + swap, True
                 event, goal = goal, 0.5 * (done + goal)
                 continue
             self._states.append(state)
             self._steady = _kinds(before.contacts) == _kinds(state.contacts)
-            done, jumps, swaps = goal, jumps + jump, swaps + swap
+            done = goal
             if jump or swap or done == event:
-                goal = event = 1.0
+                goal, event, searching = 1.0, 1.0, False
             else:
                 goal = event if near else 0.5 * (done + event)
 
