@@ -5,10 +5,14 @@ from bisect import bisect_right
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from analytic.checks import file_word, is_number
 from analytic.scene.surface import RESISTANCES, Ground, Surface
 
 _SAMPLES = 16  # of a field along a side contact; chosen
+_INSTANT = 1e-12  # s; a shortest increment
 
 
 @dataclass(frozen=True)
@@ -83,6 +87,14 @@ def uniform(ground: Ground) -> Surface:
 def depends_on_speed(ground: Ground) -> bool:
     """Tell whether a ground resists anywhere by how fast it is slid over."""
     return any(surface.depends_on_speed for surface in surfaces_of(ground))
+
+
+def durations(times: ArrayLike) -> NDArray[np.float64]:
+    """Durations of the increments between times (B,) [s], (B - 1,) [s]; at least an instant.
+
+    Viscous ground gives way to nothing in no time.
+    """
+    return np.maximum(np.diff(np.asarray(times, dtype=float)), _INSTANT)
 
 
 def check_adhesion(ground: Ground) -> None:

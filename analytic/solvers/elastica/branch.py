@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from analytic.scene.ground import durations
 from analytic.shapes import Flag
 from analytic.solvers.elastica.continuation import follow
 from analytic.solvers.elastica.newton import Chain
@@ -26,7 +27,6 @@ _LEAST_PULLED = 1e-2  # where friction or adhesion may give way, and damped moti
 _CURLED = 0.02  # slope that an end in flat contact does not have, even where it lifts off [rad]
 _LOCATED = 1e-7  # motion over L within which a change of contacts is located; chosen
 _FAR = 0.01  # motion over L in an increment whose end is not known; chosen
-_INSTANT = 1e-12  # s; a shortest increment
 _MOST_CHANGES = 8  # in an increment, beyond which they are a flicker and not looked for; chosen
 NO_NUMBERS = Flag.BRANCH_END | Flag.ROLLED_UP
 _JUMP = 0.03  # change of a direction at one pressure that is flagged as a jump [rad]; chosen
@@ -82,8 +82,7 @@ class Branch:
         self._path = np.concatenate([np.zeros((1, pressures.shape[1])), pressures])
         self._duration = np.full(len(pressures), np.inf)
         if times is not None:
-            # equal times are an instant, in which a viscous ground gives way to nothing
-            self._duration[1:] = np.maximum(np.diff(np.asarray(times, dtype=float)), _INSTANT)
+            self._duration[1:] = durations(times)
         blank = np.full(chain.links + 2, np.nan)
         self.missing = chain.flat()._replace(
             y=blank, theta=blank[1:], shear=blank[1:], left=math.nan
@@ -123,18 +122,18 @@ class Branch:
 
         Which contact slides is told wrongly on the way from one to the other alone.
         """
-        known = [*points]
+        states = [*points]
         error = self._moved(points[-1].state, after.state)
         error = error if math.isfinite(error) else _FAR
         while error > _LOCATED:
-            middle = self._after(known, 0.5 * (known[-1].row + after.row), after, trial=True)
-            part = self._change_in(known, middle)
+            middle = self._after(states, 0.5 * (states[-1].row + after.row), after, trial=True)
+            part = self._change_in(states, middle)
             if part:
                 after = middle
             else:
-                known = [*points, middle]
+                states = [*points, middle]
             error *= part or 0.5
-        return [*known[len(points) :], self._after(known, after.row, after)]
+        return [*states[len(points) :], self._after(states, after.row, after)]
 
     def _over_jump(self, points: list[Point], located: list[Point], row: float) -> list[Point]:
         """States on either side of a change, or the next row's if none is found right behind it.

@@ -26,9 +26,9 @@ _LONGEST = 0.5  # change of an angle in a step [rad]
 _SMALL = 1e-4  # steps after which contacts are looked for again
 _STILL = 1e-7  # a step that is the last one; the next would be a hundredth of it
 _DEEP = 1e-9  # below the ground, over the length: a node that pushes
+_FLAT = 1e-13  # of a direction without stiffness, over the stiffest
 _RIDGE = 0.02  # weight times length: curvature down across a ridge, where symmetry may hold it
 _SLACK = 1e4  # of bounds, over the square of a step: forces are as wrong before it; measured
-
 
 Renewed = Callable[[Rest, ContactFriction | None], ContactFriction]
 
@@ -104,11 +104,9 @@ def on_contacts(
     looked = renewed is None  # whether the contacts are those of this state
     for _ in range(_STEPS):
         gradient, hessian, rise, moves = problem.slopes(q, pose, force, pushes, friction)
-        step = _step(scale[:, None] * hessian * scale, scale * gradient, _RIDGE * weight * length)
-        if step is None:
-            return None
+        step, down = newton_step(scale[:, None] * hessian * scale, scale * gradient)
         size = float(np.abs(step).max())
-        if not size < _LONGEST:
+        if down < -_RIDGE * weight * length or not size < _LONGEST:
             return None
         step = scale * step
         ahead = pose.nodes[:, 2] + rise @ step
@@ -130,13 +128,16 @@ def on_contacts(
     return None
 
 
-def _step(hessian: Array, gradient: Array, ridge: float) -> Array | None:
-    """Newton's step; None where energy and dissipation curve down by more than a ridge may."""
+def newton_step(hessian: Array, gradient: Array) -> tuple[Array, float]:
+    """Newton's step, (Q,), and the least curvature where it is below 0, else 0.
+
+    Where the energy curves down the step is that as if it curved up as much.
+    """
     try:
         factor = cho_factor(hessian, check_finite=False)
+        return np.asarray(-cho_solve(factor, gradient, check_finite=False)), 0.0
     except LinAlgError:
         values, vectors = eigh(hessian, check_finite=False)
-        if values[0] < -ridge or not values.all():
-            return None
-        return np.asarray(-vectors @ ((vectors.T @ gradient) / np.abs(values)))
-    return np.asarray(-cho_solve(factor, gradient, check_finite=False))
+        sizes = np.maximum(np.abs(values), _FLAT * np.abs(values).max())
+        step = -vectors @ ((vectors.T @ gradient) / sizes)
+        return np.asarray(step), min(float(values[0]), 0.0)

@@ -17,7 +17,7 @@ from analytic.friction.contact_length import flat_length, length_between, may_li
 from analytic.friction.contact_length import ripple as strip_ripple
 from analytic.friction.contacts import POINT
 from analytic.friction.laws import LAWS
-from analytic.scene.ground import check_for_limbs, surfaces_of
+from analytic.scene.ground import check_for_limbs, durations, surfaces_of
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground, Surface
@@ -30,7 +30,6 @@ _POINTS = (0.5 - 12**-0.5, 0.5 + 12**-0.5)  # of a side: two that resist turning
 _NEAR, _WHOLE = 2, 1e-9  # elements from an end that count as there; of a length: all of it
 _SHORT = 1e-9  # of a length
 _TOUCHES = 1e-6  # of the weight: a node that pushes less hovers
-_INSTANT = 1e-12  # s; a shortest increment
 
 
 class Contact(NamedTuple):
@@ -268,7 +267,7 @@ def ripple(strip: Robot, elements: int) -> float:
     return 4 * strip_ripple(strip, np.array([0.0, strip.length / elements]))
 
 
-def durations(ground: Ground, times: Array | None, states: int) -> Array:
+def spans_of(ground: Ground, times: Array | None, states: int) -> Array:
     """Durations of the increments between states, (B - 1,) [s]; of 1 s each without times.
 
     Raises:
@@ -277,4 +276,4 @@ def durations(ground: Ground, times: Array | None, states: int) -> Array:
     check_for_limbs(ground)
     if times is None and any(surface.viscosity for surface in surfaces_of(ground)):
         raise ValueError(f"times of the shapes must be given on viscous ground {ground.name!r}")
-    return np.maximum(np.diff(np.arange(float(states)) if times is None else times), _INSTANT)
+    return durations(np.arange(float(states)) if times is None else times)

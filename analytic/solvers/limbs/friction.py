@@ -77,7 +77,7 @@ class ContactFriction(NamedTuple):
         return (*self._by_coordinates(tree, pose, pull, stiffness), self._on_nodes(turning))
 
     def after(self, slips: Array, slack: float = 0.0) -> "ContactFriction":
-        """The same after slips (C, 2) [m]: its tractions, and which contacts hold.
+        """Friction after slips (C, 2) [m]: its tractions, and which contacts hold.
 
         Args:
             slips: (C, 2) [m].
@@ -94,7 +94,7 @@ class ContactFriction(NamedTuple):
         return self._replace(held=part[:, None] * pull, holds=holds)
 
     def least(self, nodes: Array, sharpness: float) -> "ContactFriction":
-        """The same where the smooth cost is least, nodes at places (P, 3) [m]."""
+        """Friction where the smooth cost is least, nodes at places (P, 3) [m]."""
         slips = self.slips(nodes)
         size = np.sqrt((slips**2).sum(axis=1) + sharpness**2)
         held = (self.bounds / size)[:, None] * slips
@@ -105,7 +105,7 @@ class ContactFriction(NamedTuple):
         return SmoothFriction(self.bounds, self.viscous)
 
     def _pull(self, slips: Array) -> Array:
-        """What would hold each contact; of one that slid far only its direction counts."""
+        """Traction that would hold each contact; of one that slid far only its direction counts."""
         pull = self.spring[:, None] * slips
         far = ~self.holds & (_sizes(pull) > _FAR * self.bounds)
         return np.where(far[:, None], pull, pull + self.held)

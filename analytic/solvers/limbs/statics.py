@@ -10,11 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import LinAlgError, cho_factor, cho_solve, eigh
 
 from analytic.scene.chain import joint_springs
 from analytic.scene.limbs import chambers_by_limb, rotation
-from analytic.solvers.limbs.active_set import Problem, Renewed, on_contacts
+from analytic.solvers.limbs.active_set import Problem, Renewed, newton_step, on_contacts
 from analytic.solvers.limbs.friction import ContactFriction
 from analytic.solvers.limbs.kinematics import HEIGHT, IN_PLAN, WHOLE, Tree
 from analytic.solvers.limbs.rest import Rest
@@ -23,7 +22,6 @@ Array = NDArray[np.float64]
 
 _STIFF = 3e4  # of the ground in the Lagrangian: weight over length; chosen
 _INNER, _OUTER = 100, 60
-_FLAT = 1e-13  # of a direction without stiffness, over the stiffest
 _STILL, _STILL_SHARP = 1e-11, 1e-9  # of the gradient, weight times length; sharp friction rounds
 _SETTLED, _SETTLED_SHARP = 1e-8, 1e-5  # of forces: weight
 _GAIN_SHARP = 1e-16  # of energy, weight times length: less is none
@@ -90,9 +88,9 @@ class Statics:
         """
         stiffness, bent = self.springs(pressures)
         problem = Problem(self.tree, self._scale, self._ground, stiffness, bent, renewed)
-        found = on_contacts(problem, guess.q, guess.force)
-        if found:
-            q, force, friction = found
+        solution = on_contacts(problem, guess.q, guess.force)
+        if solution:
+            q, force, friction = solution
             return Rest(q, self.tree.pose(q).nodes, force, True), friction
         rest, friction = guess, renewed(guess, None) if renewed else None
         for _ in range(_TRIES):
@@ -137,7 +135,7 @@ class Statics:
             if np.abs(gradient).max() < still:
                 return q, True
             hessian *= self._scale[:, None] * self._scale
-            step = -_solved(hessian, gradient)
+            step, _ = newton_step(hessian, gradient)
             step *= min(1.0, _LONGEST / float(np.abs(step).max()))
             fall, part = float(gradient @ step), 1.0
             if sharp and -fall < _GAIN_SHARP * unit:
@@ -204,14 +202,3 @@ class _Lagrangian(NamedTuple):
             return gradient, hessian
         pull, stiff = self.friction.slopes(self.tree, pose, self.sharpness)
         return gradient + pull, hessian + stiff
-
-
-def _solved(hessian: Array, gradient: Array) -> Array:
-    """Newton's step; where the energy curves down, as if it curved up as much."""
-    try:
-        factor = cho_factor(hessian, check_finite=False)
-        return np.asarray(cho_solve(factor, gradient, check_finite=False))
-    except LinAlgError:
-        values, vectors = eigh(hessian, check_finite=False)
-        values = np.maximum(np.abs(values), _FLAT * np.abs(values).max())
-        return np.asarray(vectors @ ((vectors.T @ gradient) / values))

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.surface import Ground
-from analytic.solvers.limbs.contacts import Contact, Contacts, durations
+from analytic.solvers.limbs.contacts import Contact, Contacts, spans_of
 from analytic.solvers.limbs.friction import ContactFriction
 from analytic.solvers.limbs.path import Path
 from analytic.solvers.limbs.rest import Rest
@@ -55,7 +55,7 @@ def stick_slip_path(
     Raises:
         ValueError: see analytic.solvers.limbs.walk.follow.
     """
-    spans = durations(ground, times, len(pressures))
+    spans = spans_of(ground, times, len(pressures))
     when = np.arange(float(len(pressures))) if times is None else times
     return _StickSlip(statics, ground, law).along(pressures, when.tolist(), spans.tolist())
 
@@ -218,7 +218,7 @@ class _StickSlip:
         return Rest(q, self._statics.tree.pose(q).nodes, state.rest.force, True)
 
     def _jumps(self, before: _State, after: _State) -> bool:
-        """Whether what resists changes at once."""
+        """Tell whether resistances change at once."""
         if _kinds(before.contacts) == _kinds(after.contacts):
             return False
         limbs = len(self._statics.tree.vertices)
@@ -228,7 +228,10 @@ class _StickSlip:
 
 
 def _swaps(before: _State, after: _State) -> bool:
-    """Whether other contacts slide than did; one that begins alone does so within an increment."""
+    """Tell whether other contacts slide than did.
+
+    One that begins to slide alone does so within an increment.
+    """
     if _kinds(before.contacts) != _kinds(after.contacts):
         return False
     slid, slides = (~state.holds & (state.bounds > 0) for state in (before, after))

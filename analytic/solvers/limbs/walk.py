@@ -16,7 +16,7 @@ from analytic.friction.laws import LAWS
 from analytic.scene.gait import Gait
 from analytic.scene.limbs import LimbedRobot, rotation
 from analytic.scene.surface import Ground
-from analytic.solvers.limbs.contacts import Contacts, durations
+from analytic.solvers.limbs.contacts import Contacts, spans_of
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.path import Path
 from analytic.solvers.limbs.rest import Rest
@@ -65,9 +65,9 @@ def follow(
         times: of the shapes, (B,) [s], which viscous ground asks for.
 
     Raises:
-        ValueError: see analytic.solvers.limbs.contacts.durations.
+        ValueError: see analytic.solvers.limbs.contacts.spans_of.
     """
-    spans = durations(ground, times, len(rests))
+    spans = spans_of(ground, times, len(rests))
     finder = Contacts(tree, law)
     contacts = [finder.find(rest, row) for rest, row in zip(rests, pressures, strict=True)]
     place, heading = np.zeros((len(rests), 2)), np.zeros(len(rests))
@@ -134,7 +134,7 @@ def walk(
         )
     if times is not None:
         times_of(times, len(path))
-    durations(ground, times, len(path))  # refuses what has no times and needs them
+    spans_of(ground, times, len(path))  # refuses what has no times and needs them
     clock = np.arange(float(len(path))) if times is None else np.asarray(times, dtype=float)
     path, times = _with_thresholds(robot, path, clock)
     if bent:
