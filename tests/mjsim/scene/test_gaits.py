@@ -104,7 +104,7 @@ def test_other_robots_go_as_far_as_the_elastica(name, surface):
         predicted(robot, scene.gait, scene.ground, scene.reference_friction, links)
         for links in (36, 72)
     )
-    # four on gelatin: a tip that holds or lets go as it becomes a side, by 4 % of the distance
+    # four on gelatin: a tip that stays or slides as it becomes a side, by 4 % of the distance
     within = max(0.001, 0.02 * abs(exact)) + abs(exact - finer)
     assert measure(simulate(scene)).displacement == pytest.approx(exact, abs=within)
 
