@@ -26,6 +26,7 @@ _LEAST_STEP = 1e-4  # of the way between two states, below which the branch is t
 _LEAST_PULLED = 1e-2  # where friction or adhesion may give way, and damped motion follows
 _CURLED = 0.02  # slope that an end in flat contact does not have, even where it lifts off [rad]
 _LOCATED = 1e-7  # motion over L within which a change of contacts is located; chosen
+_PROBE = 1e-3  # of an increment, to tell whether a contact slides on; chosen
 _FAR = 0.01  # motion over L in an increment whose end is not known; chosen
 _MOST_CHANGES = 8  # in an increment, beyond which they are a flicker and not looked for; chosen
 NO_NUMBERS = Flag.BRANCH_END | Flag.ROLLED_UP
@@ -47,6 +48,7 @@ class Point(NamedTuple):
         iterations: Newton steps to it.
         residual: see ContactShapes.
         contacts: tips and sides, and which of them slide, see StickSlip.signature.
+        unsettled: whether it is in no balance with the bounds of its contacts, see StickSlip.begin.
     """
 
     row: float
@@ -56,6 +58,7 @@ class Point(NamedTuple):
     iterations: int = 0
     residual: float = np.nan
     contacts: Signature | None = None
+    unsettled: bool = False
 
 
 class Branch:
@@ -97,43 +100,58 @@ class Branch:
                 changes += 1
                 search = changes <= _MOST_CHANGES and points[-1].contacts is not None
                 after = self._after(points, float(row), trial=search)
-                if search and self._change_in(points, after):
-                    points += self._over_jump(points, self._change(points, after), float(row))
+                if search and _changed(points[-1], after):
+                    self._add_change(points, after, float(row))
+                elif search and _turned(points, after):
+                    self._add_turn(points, after)
                 else:
-                    points.append(after)
+                    points.append(self._after(points, float(row)) if after.unsettled else after)
         return points[1:]
 
-    def _change_in(self, points: list[Point], after: Point) -> float:
-        """Part of an error in the motion that half an increment has; 0 if it need not be halved.
+    def _add_change(self, points: list[Point], after: Point, row: float) -> None:
+        """Add states on either side of the first change of contacts before a point, by bisection.
 
-        A contact that begins to slide alone does so within an increment. One that comes to a stop
-        does so at the end of a ramp, or where what it took up is greatest: to second order.
-        """
-        before = points[-1]
-        if before.contacts is None or after.contacts is None:
-            return 0.0
-        if after.contacts.differs(before.contacts):
-            return 0.5
-        straight = len(points) > 2 and _ratio(points, after.pressure) > 0
-        return 0.25 * (straight and after.contacts.turned(before.contacts))
-
-    def _change(self, points: list[Point], after: Point) -> list[Point]:
-        """States on either side of the first change of contacts before a point, by bisection.
-
-        Which contact slides is told wrongly on the way from one to the other alone.
+        Which contact slides is told wrongly on the way from one to the other alone. One that comes
+        to a stop before is added in its place.
         """
         states = [*points]
         error = self._moved(points[-1].state, after.state)
         error = error if math.isfinite(error) else _FAR
         while error > _LOCATED:
             middle = self._after(states, 0.5 * (states[-1].row + after.row), after, trial=True)
-            part = self._change_in(states, middle)
-            if part:
+            if _changed(states[-1], middle):
                 after = middle
+            elif _turned(states, middle):
+                return self._add_turn(points, middle)
             else:
                 states = [*points, middle]
-            error *= part or 0.5
-        return [*states[len(points) :], self._after(states, after.row, after)]
+            error *= 0.5
+        located = [*states[len(points) :], self._after(states, after.row, after)]
+        points += self._over_jump(points, located, row)
+        return None
+
+    def _add_turn(self, points: list[Point], after: Point) -> None:
+        """Add the state in which a contact comes to a stop within a ramp, and those after it.
+
+        It may be before the last point already, which is then solved for anew: the contact slid
+        farther than in that point and came back to where it still pulls the same way. A state is
+        before the turn if the contact slides on from it.
+        """
+        again = points.pop() if _slides_alike(points) else None
+        begin, end = points[-1], after
+        probe = _PROBE * (after.row - begin.row)
+        while self._moved(begin.state, end.state) > _LOCATED and end.row - begin.row > 2 * probe:
+            middle = self._after(points, 0.5 * (begin.row + end.row), after)
+            onward = self._after([*points, middle], middle.row + probe, after)
+            if _turned([*points, middle], onward) or _turned(points, middle):
+                end = middle
+            else:
+                begin = middle
+        if begin is not points[-1]:
+            points.append(begin)
+        for row in sorted({again.row if again else after.row, after.row}):
+            if row > points[-1].row:
+                points.append(self._after(points, row))
 
     def _over_jump(self, points: list[Point], located: list[Point], row: float) -> list[Point]:
         """States on either side of a change, or the next row's if none is found right behind it.
@@ -168,7 +186,8 @@ class Branch:
         steps, status = chain.iterations, Flag.OK
         chain.load_at(pressure)
         guess = _guess(points, pressure, row, beyond)
-        state = self._near(before.state, duration, guess, trial)
+        early = trial and before.contacts is not None and "between" not in before.contacts.kinds
+        state = self._near(before.state, duration, guess, early)
         if state is None and trial:
             return Point(row, pressure, self.missing, contacts=UNSETTLED)
         state = state or self._in_smaller_steps(before, pressure, duration)
@@ -182,8 +201,11 @@ class Branch:
             return Point(row, pressure, self.missing, Flag.BRANCH_END, steps)
         if _rolled_up(state) and not self._may_curl:
             return Point(row, pressure, state, Flag.ROLLED_UP, steps)
-        contacts = self._traction.signature() if self._traction else None
-        return Point(row, pressure, state, status, steps, chain.residual(state), contacts)
+        traction = self._traction
+        contacts = traction.signature() if traction else None
+        unsettled = traction is not None and not traction.settled
+        residual = chain.residual(state)
+        return Point(row, pressure, state, status, steps, residual, contacts, unsettled)
 
     def _moved(self, before: ChainState, after: ChainState) -> float:
         """Greatest motion of a node along x, over L."""
@@ -196,11 +218,10 @@ class Branch:
         duration: float = math.inf,
         guess: ChainState | None = None,
         trial: bool = False,
-        damped: bool = False,
     ) -> ChainState | None:
         """The equilibrium that follows a state; None far away, where another branch may be."""
         if self._traction:
-            self._traction.begin(state, duration, trial, damped)
+            self._traction.begin(state, duration, trial)
         candidate = self._chain.equilibrium(guess or state, self._traction)
         return None if candidate is None or _apart(candidate, state) > _LEAP else candidate
 
@@ -222,7 +243,7 @@ class Branch:
         drag = _FIRST_DRAG
         for _ in range(_FLOW_STEPS):
             self._chain.damp(drag, state)
-            candidate = self._near(state, damped=True)
+            candidate = self._near(state)
             self._chain.damp(0.0)
             if candidate is None:
                 drag *= 4.0
@@ -233,8 +254,30 @@ class Branch:
                 drag *= 0.5
             state = candidate
             if drag < _LEAST_DRAG:
-                return self._near(state, damped=True)
+                return self._near(state)
         return None
+
+
+def _changed(before: Point, after: Point) -> bool:
+    """Tell whether other contacts slide after than before."""
+    if before.contacts is None or after.contacts is None:
+        return False
+    return after.contacts.differs(before.contacts)
+
+
+def _turned(points: list[Point], after: Point) -> bool:
+    """Tell whether a contact that slid comes to a stop in the middle of a ramp."""
+    before = points[-1]
+    if before.contacts is None or after.contacts is None or len(points) <= 2:
+        return False
+    return after.contacts.turned(before.contacts) and _ratio(points, after.pressure) > 0
+
+
+def _slides_alike(points: list[Point]) -> bool:
+    """Tell whether the last two points are of one ramp, the same contacts sliding in both."""
+    if len(points) <= 3 or points[-2].contacts != points[-1].contacts:
+        return False
+    return _ratio(points[:-1], points[-1].pressure) > 0
 
 
 def _ratio(points: list[Point], pressure: Array) -> float:

@@ -144,6 +144,8 @@ class Chain:
                 revisions += 1
                 state = revised
                 continue
+            if traction is not None and change > traction.balanced:
+                continue
             if traction is not None and updates < most and not traction.update(state):
                 updates += 1
             elif change < _CONVERGED:

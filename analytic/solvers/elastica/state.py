@@ -39,6 +39,11 @@ class GroundTraction(Protocol):
 
     updates: int
 
+    @property
+    def balanced(self) -> float:
+        """Change in a step of Newton's method within which shapes tell their contacts [rad]."""
+        ...
+
     def tensions(self) -> Array:
         """Tension in the links by a unit of traction at each contact that pulls any, (N + 1, C)."""
         ...

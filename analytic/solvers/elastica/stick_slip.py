@@ -25,7 +25,7 @@ from analytic.solvers.elastica.tractions import tractions
 
 Array = NDArray[np.float64]
 
-_UPDATES, _FEW_UPDATES = 50, 15  # most for one equilibrium, and in a trial; chosen
+_UPDATES = 50  # most for one equilibrium; chosen
 _MOST_CHANGES = 8  # of which contacts there are, in one increment
 _ALIKE = 1e-7  # part of the greatest bound by which bounds may change and count as the same
 
@@ -71,6 +71,7 @@ class StickSlip:
         contacts: in that increment.
         bounds: of the contacts [D0 / L^2].
         updates: see GroundTraction.
+        settled: whether the bounds are those of the contacts that they led to.
     """
 
     def __init__(self, chain: Chain, ground: Ground, friction: Friction) -> None:
@@ -89,13 +90,12 @@ class StickSlip:
         self._speed, self._slid = 0.0, np.zeros(0)
         self._take([], np.zeros(0), np.zeros(0))
         self._search: FixedPoint | None = None
-        self._changes, self._settled, self._doubts = 0, True, True
+        self._changes, self.settled = 0, True
         self._trial, self.updates = False, _UPDATES
 
     def begin(
-        self, state: ChainState, duration: float = math.inf, trial: bool = False,
-        damped: bool = False,
-    ) -> None:  # fmt: skip
+        self, state: ChainState, duration: float = math.inf, trial: bool = False
+    ) -> None:
         """Begin an increment at a state, the chain being loaded for its end.
 
         Args:
@@ -103,10 +103,8 @@ class StickSlip:
             duration: of the increment [s].
             trial: whether to leave off where a bound would jump, since the increment will be
                 divided there; the state is then in no balance with its bounds.
-            damped: whether hinges resist turning, so that shapes are all but in balance.
         """
-        self._doubts = not damped
-        self._trial, self.updates = trial, _FEW_UPDATES if trial else _UPDATES
+        self._trial = trial
         self._before, self._search, self._changes = self._places(state), None, 0
         self._speed = self._chain.robot.length / duration  # of a slip of 1
         self.update(state)
@@ -148,6 +146,11 @@ class StickSlip:
             near=state.near,
         )
 
+    @property
+    def balanced(self) -> float:
+        """See GroundTraction."""
+        return self._search.balanced if self._search else 1.0
+
     def update(self, state: ChainState) -> bool:
         """See GroundTraction.update."""
         contacts = self._touching(state)
@@ -159,10 +162,11 @@ class StickSlip:
             if self._changes > _MOST_CHANGES:
                 return True  # contacts that come and go by a rounding: those of before will do
         else:
-            self._search = self._search or FixedPoint(len(bounds), self._doubts)
-            alike, bounds = self._search.next(self.bounds, bounds, near)
+            self._search = self._search or FixedPoint(len(bounds))
+            margins = self._margins(contacts, state)
+            alike, bounds = self._search.next(self.bounds, bounds, margins, near)
         self._take(contacts, bounds, drag)
-        self._settled = alike
+        self.settled = alike
         return alike or (self._trial and self._search is not None and self._search.at_a_jump)
 
     def _resistance(self, contacts: list[StripContact], state: ChainState) -> tuple[Array, Array]:
@@ -185,6 +189,15 @@ class StickSlip:
                    for surface, v in zip(under, speed, strict=True)]  # fmt: skip
         drag = [surface.drag(robot.width, contact.length) for surface, contact in pairs]
         return bounds, self._unit * self._speed * np.array(drag)
+
+    def _margins(self, contacts: list[StripContact], state: ChainState) -> Array:
+        """Length of a side over L, less the height of the node beside a tip at an end, (C,)."""
+        last = len(state.y) - 1
+        beside = {0: float(state.y[1]), last: float(state.y[last - 1])}
+        return np.array([
+            contact.length / self._chain.robot.length or -beside.get(contact.nodes[0], 0.0)
+            for contact in contacts
+        ])  # fmt: skip
 
     def _touch_alike(self, contacts: list[StripContact]) -> bool:
         """Tell whether contacts are where those before were."""
@@ -210,7 +223,7 @@ class StickSlip:
         least = (1 + _ALIKE) * float(self.bounds.min(initial=np.inf))
         return Signature(
             kinds=tuple(
-                "between" if held[i] or not self._settled else kinds[i] for i in range(count)
+                "between" if held[i] or not self.settled else kinds[i] for i in range(count)
             ),
             weakest=tuple(bound <= least for bound in self.bounds.tolist()),
             slips=tuple(self.slips.tolist()),
