@@ -1,9 +1,12 @@
 """A cycle's distance by any solver, resolved where the anchor changes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from analytic import GAITS, SOLVERS, SURFACES, Flag, Friction, Robot, predict
+from analytic import GAITS, SOLVERS, SURFACES, Flag, Friction, Gait, Robot, predict
+from analytic.scene.pneunet import with_load
 
 
 def distance(solver, surface="felt", **options):
@@ -74,3 +77,29 @@ def test_states_and_times_that_mean_nothing_are_refused():
         predict(robot, gait, felt, path=path, times=-np.arange(len(path)))
     with pytest.raises(ValueError, match="one for each row"):
         predict(robot, gait, felt, path=path, times=[0.0, 1.0])
+
+
+FOUR = Gait(
+    "four",
+    ((0,) * 4, (1, 0, 0, 0), (1, 1, 0, 0), (0, 1, 1, 0), (0, 0, 1, 1), (0, 0, 0, 1), (0,) * 4),
+    8.0,
+)
+
+
+@pytest.mark.parametrize(
+    ("robot", "gait"),
+    [
+        (Robot(segments=(1.0,) * 4), FOUR),  # a side that slides as it becomes a tip, then stays
+        (with_load(replace(Robot(), peak_pressure=55e3), 4.0), GAITS["wave"]),
+        (Robot(), GAITS["pulse"]),  # contacts that come to a stop within a ramp
+    ],
+    ids=["four segments", "light", "pulse"],
+)
+def test_where_tips_resist_and_sides_do_not_the_distance_is_of_no_number_of_states(robot, gait):
+    distances = [
+        predict(
+            robot, gait, SURFACES["gelatin"], states_per_ramp=states, friction=Friction(tension=1.0)
+        ).locomotion.per_cycle / robot.length
+        for states in (7, 12, 25)
+    ]  # fmt: skip
+    assert distances == pytest.approx([distances[0]] * 3, abs=1e-6)

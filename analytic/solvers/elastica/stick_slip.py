@@ -93,9 +93,7 @@ class StickSlip:
         self._changes, self.settled = 0, True
         self._trial, self.updates = False, _UPDATES
 
-    def begin(
-        self, state: ChainState, duration: float = math.inf, trial: bool = False
-    ) -> None:
+    def begin(self, state: ChainState, duration: float = math.inf, trial: bool = False) -> None:
         """Begin an increment at a state, the chain being loaded for its end.
 
         Args:
