@@ -5,8 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analytic import GAITS, SOLVERS, SURFACES, Flag, Friction, Gait, Robot, predict
+from analytic import GAITS, SOLVERS, SURFACES, Flag, Friction, Gait, Robot, Surface, predict
+from analytic.scene.ground import Patches
 from analytic.scene.pneunet import with_load
+from analytic.solvers.models import Elastica
 
 
 def distance(solver, surface="felt", **options):
@@ -103,3 +105,22 @@ def test_where_tips_resist_and_sides_do_not_the_distance_is_of_no_number_of_stat
         for states in (7, 12, 25)
     ]  # fmt: skip
     assert distances == pytest.approx([distances[0]] * 3, abs=1e-6)
+
+
+def test_a_tip_that_slides_up_to_a_border_that_it_cannot_pass_stays_there():
+    """Its bound is any between those on both sides, and it may not slip back by a rounding."""
+    robot = Robot(length=0.13, weight_per_length=0.9031, peak_pressure=54.24e3)
+    gait = Gait("seams", ((0,) * 3, (0, 0, 1), (0, 1, 1), (1, 1, 0), (1, 0, 0), (0,) * 3), 8.0)
+    surfaces = [
+        Surface(f"patch-{i}", tip_force=tip, shear_strength=side, friction=0.0)
+        for i, (tip, side) in enumerate([(0, 1.96), (6.8e-3, 0.588), (3.4e-3, 0), (3.4e-4, 3.92)])
+    ]
+    ground = Patches("seams", (0.0302, 0.0662, 0.1149), tuple(surfaces))
+    distances = [
+        predict(
+            robot, gait, ground, Elastica(links), states, Friction(tension=1.0)
+        ).locomotion.per_cycle / robot.length
+        for links, states in [(30, 6), (60, 12), (60, 25)]
+    ]  # fmt: skip
+    assert distances == pytest.approx([0.2318] * 3, abs=3e-4)  # MuJoCo at fine steps
+    assert distances[1:] == pytest.approx([distances[1]] * 2, abs=1e-6)

@@ -8,7 +8,6 @@ by bisection, to where the strip moves by next to nothing.
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,8 +16,9 @@ from analytic.scene.ground import durations
 from analytic.shapes import Flag
 from analytic.solvers.elastica.continuation import follow
 from analytic.solvers.elastica.newton import Chain
+from analytic.solvers.elastica.points import Point, changed, guess, slides_alike, turned
 from analytic.solvers.elastica.state import ChainState
-from analytic.solvers.elastica.stick_slip import UNSETTLED, Signature, StickSlip
+from analytic.solvers.elastica.stick_slip import UNSETTLED, StickSlip
 
 Array = NDArray[np.float64]
 
@@ -35,30 +35,6 @@ _LEAP = 0.3  # change of a direction in one step that may be a leap to another b
 
 _FIRST_DRAG, _LEAST_DRAG, _MOST_DRAG = 10.0, 1e-3, 1e6  # over the hinges' stiffness; chosen
 _FLOW_STEPS = 200
-
-
-class Point(NamedTuple):
-    """A state of the branch.
-
-    Attributes:
-        row: place along the path of pressures, in its rows.
-        pressure: of the segments, (S,) [Pa].
-        state: shape and forces.
-        status: flag of it.
-        iterations: Newton steps to it.
-        residual: see ContactShapes.
-        contacts: tips and sides, and which of them slide, see StickSlip.signature.
-        unsettled: whether it is in no balance with the bounds of its contacts, see StickSlip.begin.
-    """
-
-    row: float
-    pressure: Array
-    state: ChainState
-    status: Flag = Flag.OK
-    iterations: int = 0
-    residual: float = np.nan
-    contacts: Signature | None = None
-    unsettled: bool = False
 
 
 class Branch:
@@ -100,9 +76,9 @@ class Branch:
                 changes += 1
                 search = changes <= _MOST_CHANGES and points[-1].contacts is not None
                 after = self._after(points, float(row), trial=search)
-                if search and _changed(points[-1], after):
+                if search and changed(points[-1], after):
                     self._add_change(points, after, float(row))
-                elif search and _turned(points, after):
+                elif search and turned(points, after):
                     self._add_turn(points, after)
                 else:
                     points.append(self._after(points, float(row)) if after.unsettled else after)
@@ -119,9 +95,9 @@ class Branch:
         error = error if math.isfinite(error) else _FAR
         while error > _LOCATED:
             middle = self._after(states, 0.5 * (states[-1].row + after.row), after, trial=True)
-            if _changed(states[-1], middle):
+            if changed(states[-1], middle):
                 after = middle
-            elif _turned(states, middle):
+            elif turned(states, middle):
                 return self._add_turn(points, middle)
             else:
                 states = [*points, middle]
@@ -137,13 +113,13 @@ class Branch:
         farther than in that point and came back to where it still pulls the same way. A state is
         before the turn if the contact slides on from it.
         """
-        again = points.pop() if _slides_alike(points) else None
+        again = points.pop() if slides_alike(points) else None
         begin, end = points[-1], after
         probe = _PROBE * (after.row - begin.row)
         while self._moved(begin.state, end.state) > _LOCATED and end.row - begin.row > 2 * probe:
             middle = self._after(points, 0.5 * (begin.row + end.row), after)
             onward = self._after([*points, middle], middle.row + probe, after)
-            if _turned([*points, middle], onward) or _turned(points, middle):
+            if turned([*points, middle], onward) or turned(points, middle):
                 end = middle
             else:
                 begin = middle
@@ -185,9 +161,9 @@ class Branch:
         chain, duration = self._chain, (row - before.row) * float(self._duration[place])
         steps, status = chain.iterations, Flag.OK
         chain.load_at(pressure)
-        guess = _guess(points, pressure, row, beyond)
+        near = guess(points, pressure, row, beyond)
         early = trial and before.contacts is not None and "between" not in before.contacts.kinds
-        state = self._near(before.state, duration, guess, early)
+        state = self._near(before.state, duration, near, early)
         if state is None and trial:
             return Point(row, pressure, self.missing, contacts=UNSETTLED)
         state = state or self._in_smaller_steps(before, pressure, duration)
@@ -216,13 +192,13 @@ class Branch:
         self,
         state: ChainState,
         duration: float = math.inf,
-        guess: ChainState | None = None,
+        first: ChainState | None = None,
         trial: bool = False,
     ) -> ChainState | None:
         """The equilibrium that follows a state; None far away, where another branch may be."""
         if self._traction:
             self._traction.begin(state, duration, trial)
-        candidate = self._chain.equilibrium(guess or state, self._traction)
+        candidate = self._chain.equilibrium(first or state, self._traction)
         return None if candidate is None or _apart(candidate, state) > _LEAP else candidate
 
     def _in_smaller_steps(
@@ -256,57 +232,6 @@ class Branch:
             if drag < _LEAST_DRAG:
                 return self._near(state)
         return None
-
-
-def _changed(before: Point, after: Point) -> bool:
-    """Tell whether other contacts slide after than before."""
-    if before.contacts is None or after.contacts is None:
-        return False
-    return after.contacts.differs(before.contacts)
-
-
-def _turned(points: list[Point], after: Point) -> bool:
-    """Tell whether a contact that slid comes to a stop in the middle of a ramp."""
-    before = points[-1]
-    if before.contacts is None or after.contacts is None or len(points) <= 2:
-        return False
-    return after.contacts.turned(before.contacts) and _ratio(points, after.pressure) > 0
-
-
-def _slides_alike(points: list[Point]) -> bool:
-    """Tell whether the last two points are of one ramp, the same contacts sliding in both."""
-    if len(points) <= 3 or points[-2].contacts != points[-1].contacts:
-        return False
-    return _ratio(points[:-1], points[-1].pressure) > 0
-
-
-def _ratio(points: list[Point], pressure: Array) -> float:
-    """Length of a step to a pressure over that of the one before it; 0 if not straight on."""
-    step, previous = pressure - points[-1].pressure, points[-1].pressure - points[-2].pressure
-    size = float(previous @ previous)
-    ratio = float(step @ previous) / size if size else 0.0
-    bend = np.abs(step - ratio * previous).max()
-    return ratio if bend <= 1e-6 * np.abs(step).max() else 0.0
-
-
-def _guess(points: list[Point], pressure: Array, row: float, beyond: Point | None) -> ChainState:
-    """First guess of a state: between two known ones, or beyond where the path goes on straight."""
-    middle = points[-1]
-    if beyond is not None and math.isfinite(beyond.state.left):
-        part = (row - middle.row) / (beyond.row - middle.row)
-        return _along(middle.state, beyond.state, part)
-    ratio = _ratio(points, pressure) if len(points) > 2 else 0.0
-    if not 0 < ratio <= 2:
-        return middle.state
-    return _along(middle.state, points[-2].state, -ratio)
-
-
-def _along(state: ChainState, toward: ChainState, part: float) -> ChainState:
-    """A shape part of the way from one towards another."""
-    return state._replace(
-        theta=state.theta + part * (toward.theta - state.theta),
-        shear=state.shear + part * (toward.shear - state.shear),
-    )
 
 
 def _rolled_up(state: ChainState) -> bool:

@@ -27,6 +27,7 @@ Array = NDArray[np.float64]
 
 _UPDATES = 50  # most for one equilibrium; chosen
 _MOST_CHANGES = 8  # of which contacts there are, in one increment
+_BORDER = 1e-6  # over L; so near to a border a tip is at it, as changes are located; chosen
 _ALIKE = 1e-7  # part of the greatest bound by which bounds may change and count as the same
 
 
@@ -174,7 +175,12 @@ class StickSlip:
             under = [ground] * len(contacts)
         else:
             x = self._places(state) * robot.length
-            under = [over(ground, *contact.extent(x)) for contact in contacts]
+            # slips are of another state until this increment has some
+            known = self._search is not None and len(self.slips) == len(contacts)
+            under = [
+                self._under(contact, x, sticks=not (known and self.slips[i]))
+                for i, contact in enumerate(contacts)
+            ]
         pairs = list(zip(under, contacts, strict=True))
         bounds = self._unit * np.array([
             self._law.bound(surface, robot.width, contact.length, contact.load)
@@ -187,6 +193,20 @@ class StickSlip:
                    for surface, v in zip(under, speed, strict=True)]  # fmt: skip
         drag = [surface.drag(robot.width, contact.length) for surface, contact in pairs]
         return bounds, self._unit * self._speed * np.array(drag)
+
+    def _under(self, contact: StripContact, x: Array, sticks: bool) -> Surface:
+        """The surface under a contact, at a border under a tip that sticks the one that holds it.
+
+        A tip that slides up to a surface that it cannot slide over stays at the border, but for a
+        rounding.
+        """
+        begin, end = contact.extent(x)
+        if end > begin or not sticks:
+            return over(self._ground, begin, end)
+        near = _BORDER * self._chain.robot.length
+        sides = self._ground.at(begin - near), self._ground.at(begin + near)
+        width = self._chain.robot.width
+        return max(sides, key=lambda side: self._law.bound(side, width, 0.0, contact.load))
 
     def _margins(self, contacts: list[StripContact], state: ChainState) -> Array:
         """Length of a side over L, less the height of the node beside a tip at an end, (C,)."""
