@@ -15,7 +15,6 @@ from analytic.shapes import ContactShapes
 
 Array = NDArray[np.float64]
 
-_FLAT = 1e-3  # rad; less steep than this is flat, as in the simulation; chosen
 POINT = 2  # nodes in a row that push in one point of contact, as it may fall between two
 
 
@@ -56,23 +55,27 @@ class ContactFinder:
     def __init__(self, robot: Robot, nodes: Array, press: float = 0.0) -> None:
         self._weight = robot.weight_per_length + press
         self._place: list[float] = nodes.tolist()
+        self._half = 0.5 * robot.length
         self._lifted = ripple(robot, nodes)
 
     def find(
-        self, force: Sequence[float], height: Sequence[float], lengths: tuple[float, float]
+        self,
+        force: Sequence[float],
+        height: Sequence[float],
+        may_be_side: tuple[bool, bool] = (True, True),
     ) -> list[StripContact]:
         """The contacts of one state, left first.
 
-        The two ends are tips or sides as in analytic.friction.contact_length, unless they curl up.
-        Between them a run of nodes on the ground is a tip if it is one point, else a side whose
-        length follows from its forces, as that of an end: either half of it carries its weight and
-        a push. There an inflated part may lie flat too, by the weight on both sides of it.
+        A run of nodes on the ground is a tip if it is one point, else a side whose length follows
+        from its forces: that of an end as in analytic.friction.contact_length, unless it curls up;
+        of one between the ends either half carries its weight and a push. Pressure is not asked: an
+        inflated part may lie flat by the weight on both sides of it, and behind an end that hardly
+        arches.
 
         Args:
             force: of the ground on the nodes, (N,) [N].
             height: of the nodes, (N,) [m].
-            lengths: of side contact of the two ends, see analytic.friction.contact_length: 0 for a
-                tip; used as they are where the strip lies flat as a whole [m].
+            may_be_side: whether the left and the right end may be sides; else they are tips.
         """
         pushing = [node for node, push in enumerate(force) if push > 0.0]
         if not pushing:
@@ -90,9 +93,9 @@ class ContactFinder:
             end = 0 if number == 0 else len(force) - 1
             outermost = number == 0 or number == len(runs) - 1
             if outermost and height[end] <= self._lifted:
-                length = lengths[1 if end else 0]
-                if length and not whole:
-                    length = self._side(run, push, self._place[end])
+                length = 0.0
+                if may_be_side[1 if end else 0]:
+                    length = self._half if whole else self._side(run, push, self._place[end])
                 contacts.append(StripContact([end], [1.0], length, load))
             else:
                 share = [part / load for part in push]
@@ -100,13 +103,17 @@ class ContactFinder:
         return contacts
 
     def _runs(self, pushing: list[int], height: Sequence[float]) -> list[list[int]]:
-        """Nodes that push with no air between them."""
+        """Nodes that push with no air between them.
+
+        A flat stretch may ripple at single nodes; more in a row that push nothing are an arch,
+        however low it is.
+        """
         runs = [[pushing[0]]]
         for node in pushing[1:]:
             before = runs[-1][-1]
             if node > before + 1:
                 top = max(height[before + 1 : node])
-                if top > self._lifted and top > _FLAT * (self._place[node] - self._place[before]):
+                if node > before + POINT or top > self._lifted:
                     runs.append([])
             runs[-1].append(node)
         return runs
@@ -124,6 +131,5 @@ class ContactFinder:
 
 def contacts_of(shapes: ContactShapes, height: Array, state: int) -> list[StripContact]:
     """The contacts of one of several states, its nodes at heights of shape (B, N) [m]."""
-    lengths = float(shapes.contact_left[state]), float(shapes.contact_right[state])
     finder = ContactFinder(shapes.robot, shapes.nodes)
-    return finder.find(shapes.force[state].tolist(), height[state].tolist(), lengths)
+    return finder.find(shapes.force[state].tolist(), height[state].tolist())

@@ -104,7 +104,6 @@ class BoundedContacts(BoundedFriction):
         nodes = node_positions(scene.strip, numerics.links)
         press = scene.ground.at(0.0).press(scene.strip.width)
         self._finder = ContactFinder(scene.strip, nodes, press)
-        self._half = 0.5 * scene.strip.length
         self._tendons = node_tendons(model, len(nodes))
         self._bounds[self._tendons] = 0.0
         self._resisting: list[int] = [self._both]
@@ -117,8 +116,7 @@ class BoundedContacts(BoundedFriction):
         """See StripFriction.before_step."""
         self._soften_if_steep(slopes)
         force, height = self._forces.by_node()
-        sides = self._on_side(slopes, left, right)
-        contacts = self._finder.find(force, height, (self._half * sides[0], self._half * sides[1]))
+        contacts = self._finder.find(force, height, self._on_side(slopes, True, True))
         for tendon in self._resisting:
             self._bounds[tendon] = 0.0
             self._drag[tendon] = 0.0

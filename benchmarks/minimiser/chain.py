@@ -1,0 +1,395 @@
+"""A strip on the ground by incremental minimisation, in numpy and scipy alone.
+
+The next state minimises
+
+    E(q) + sum over contacts of V_c |x_c(q) - x_c|    over    y_k(q) >= 0,
+
+with the strip as n equal rigid links of length h, q = (y of the left end, directions, x of the left
+end), and E the bending of n - 1 springs and the weight on the n + 1 nodes. Nodes that the ground
+pushes in a row are one contact: a tip of bound V_t if they are two at most, else a side of bound
+tau q length. Bounds are those of the state before. No pressure is asked: what touches, holds.
+
+Shares no code with the product, and is to be kept so.
+"""
+
+from dataclasses import dataclass, field
+from itertools import product
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+_VISCOUS = 1e-3  # resistance that decides what bounds leave open, times a slip of L over the bound
+_FLOW = 1e-3  # resistance of the joints to turning, over their stiffness, at which flow has ended
+_SMALL = 1e-10
+_ATTEMPTS = 150
+_DEPTH = 5  # halvings of an increment in which contacts change
+_GIVE = 1e-9  # of a contact that sticks, over L by D0 / L^2
+
+
+@dataclass(frozen=True)
+class Strip:
+    """Numbers of one robot on one ground, SI; defaults are those of the paper's strip."""
+
+    length: float = 0.130
+    width: float = 0.040
+    modulus: float = 1.8e6
+    thickness: float = 4.0e-3
+    chamber_height: float = 3.928e-3
+    chamber_fraction: float = 0.7
+    weight_per_length: float = 1.416
+    segments: tuple[float, ...] = (1.0, 1.0, 1.0)
+    borders: tuple[float, ...] = ()  # between surfaces
+    tips: tuple[float, ...] = (0.0,)  # V_t of each surface
+    shears: tuple[float, ...] = (0.0,)  # tau
+
+    def bending(self, pressure: Array) -> tuple[Array, Array]:
+        """D and natural curvature, equations (9) and (3)."""
+        d0 = self.modulus * self.width * self.thickness**3 / 12
+        alpha = (6 * self.chamber_height**2 * self.chamber_fraction
+                 / (self.modulus * self.thickness**3))  # fmt: skip
+        eta = self.chamber_fraction * self.chamber_height**3 * self.width / 4
+        return d0 + eta * np.abs(pressure), alpha * pressure
+
+    def tip(self, x: float) -> float:
+        return self.tips[int(np.searchsorted(self.borders, x, side="right"))]
+
+    def side(self, begin: float, end: float) -> float:
+        """The integral of tau q over a stretch [N]."""
+        edges = np.array([-np.inf, *self.borders, np.inf])
+        lengths = np.minimum(edges[1:], end) - np.maximum(edges[:-1], begin)
+        return float(self.width * np.maximum(lengths, 0.0) @ np.array(self.shears))
+
+
+@dataclass
+class Contact:
+    """Nodes pushed in a row, their parts of the force, length and bound."""
+
+    nodes: NDArray[np.int_]
+    share: Array
+    length: float
+    bound: float
+
+
+@dataclass
+class State:
+    """q over L, force of the ground, and how contacts slid in the increment to it."""
+
+    q: Array
+    force: Array
+    slips: list[int] = field(default_factory=list)
+
+
+class Diverged(ArithmeticError):
+    pass
+
+
+class Chain:
+    """The chain of one strip. Lengths over L, forces over D0 / L^2 inside."""
+
+    def __init__(self, strip: Strip, links: int = 96) -> None:
+        self.strip, self.links = strip, links
+        self.h = 1.0 / links
+        self.unit = float(strip.bending(np.zeros(1))[0][0]) / strip.length**2
+        w = strip.weight_per_length * strip.length / self.unit
+        self.w = w
+        self.weight = np.full(links + 1, w * self.h)
+        self.weight[[0, -1]] *= 0.5
+        ends = np.cumsum(strip.segments) / np.sum(strip.segments)
+        middles = (np.arange(2 * links) + 0.5) * 0.5 * self.h
+        self.segment = np.minimum(np.searchsorted(ends, middles), len(ends) - 1)
+        self.k, self.rest = np.zeros(links - 1), np.zeros(links - 1)
+        self.drag = 0.0
+        self.turned = np.zeros(links - 1)
+        self.flows = 0
+
+    def load(self, pressure: Array) -> None:
+        """Springs: two half links in series at each joint."""
+        d, kappa = self.strip.bending(np.asarray(pressure, float))
+        d, kappa = d / (self.unit * self.strip.length**2), kappa * self.strip.length
+        half = 0.5 * self.h
+        left, right = self.segment[1:-1:2], self.segment[2:-1:2]
+        self.k = 1.0 / (half / d[left] + half / d[right])
+        self.rest = -half * (kappa[left] + kappa[right])
+
+    def flat(self) -> State:
+        return State(np.zeros(self.links + 2), self.weight.copy())
+
+    def places(self, q: Array) -> tuple[Array, Array]:
+        theta = q[1:-1]
+        x = q[-1] + np.concatenate([[0.0], np.cumsum(self.h * np.cos(theta))])
+        y = q[0] + np.concatenate([[0.0], np.cumsum(self.h * np.sin(theta))])
+        return x, y
+
+    def energy(self, q: Array) -> float:
+        """Bending and weight."""
+        bend = np.diff(q[1:-1]) - self.rest
+        return float(0.5 * self.k @ bend**2 + self.weight @ self.places(q)[1])
+
+    def contacts(self, state: State) -> list[Contact]:
+        """Contacts of a state."""
+        pushed = np.flatnonzero(state.force > 1e-9 * self.w)
+        runs = np.split(pushed, np.flatnonzero(np.diff(pushed) > 1) + 1)
+        x, _ = self.places(state.q)
+        x = x * self.strip.length
+        found = []
+        for run in runs:
+            push = state.force[run]
+            share = push / push.sum()
+            place, length = float(share @ x[run]), 0.0
+            if len(run) > 2 or (len(run) == 2 and (run[0] == 0 or run[-1] == self.links)):
+                length = self._length(run, push) * self.strip.length
+                begin, end = place - 0.5 * length, place + 0.5 * length
+                if run[0] == 0:
+                    begin, end = x[0], x[0] + length
+                elif run[-1] == self.links:
+                    begin, end = x[-1] - length, x[-1]
+                bound = self.strip.side(begin, end)
+            else:
+                bound = self.strip.tip(place)
+            found.append(Contact(run, share, length, bound / self.unit))
+        return found
+
+    def _length(self, run: NDArray[np.int_], push: Array) -> float:
+        """Length of a flat stretch that carries w a length, and forces where it lifts off."""
+        s = run * self.h
+        if run[0] == 0 and run[-1] == self.links:
+            return 1.0
+        if run[0] == 0:
+            return self._carried(push, s)
+        if run[-1] == self.links:
+            return self._carried(push, 1.0 - s)
+        middle = 0.5 * (s[0] + s[-1])
+        part = np.where(s == middle, 0.5, 1.0) * push
+        low, high = s <= middle, s >= middle
+        return (self._carried(part[low], middle - s[low])
+                + self._carried(part[high], s[high] - middle))  # fmt: skip
+
+    def _carried(self, push: Array, arm: Array) -> float:
+        """xi of F = w xi + R and M = w xi^2 / 2 + R xi."""
+        total, moment = push.sum(), push @ arm
+        return float((total - np.sqrt(max(total**2 - 2 * self.w * moment, 0.0))) / self.w)
+
+    def path(self, before: State, begin: Array, end: Array, depth: int = 0) -> State:
+        """The state at a pressure, by smaller steps where contacts change on the way."""
+        after = self.next(before, end)
+        if depth == _DEPTH or self._signature(before) == self._signature(after):
+            return after
+        middle = 0.5 * (begin + end)
+        return self.path(self.path(before, begin, middle, depth + 1), middle, end, depth + 1)
+
+    def _signature(self, state: State) -> Any:
+        """Kinds of the contacts, and which of them slide."""
+        kinds = [contact.length > 0 for contact in self.contacts(state)]
+        return kinds, state.slips
+
+    def next(self, before: State, pressure: Array) -> State:
+        """The minimum that follows a state at a pressure."""
+        self.load(pressure)
+        contacts = self.contacts(before)
+        return self._minimum(before, contacts) or self._flow(before, contacts)
+
+    def _flow(self, before: State, contacts: list[Contact]) -> State:
+        """The minimum that joints lead to that resist turning, ever less."""
+        self.flows += 1
+        drag, state = 10.0, before
+        for _ in range(400):
+            self.drag, self.turned = drag, np.diff(state.q[1:-1])
+            new = self._minimum(state, contacts)
+            self.drag = 0.0
+            if new is None:
+                drag *= 4.0
+                if drag > 1e7:
+                    break
+                continue
+            step = np.abs(new.q[1:-1] - state.q[1:-1]).max()
+            state = new
+            contacts = self.contacts(state)
+            if step < 0.05:
+                drag *= 0.4
+            if drag < _FLOW:
+                new = self._minimum(state, contacts)
+                if new is not None:
+                    return new
+                break
+        raise Diverged("no minimum")
+
+    def _minimum(self, before: State, contacts: list[Contact]) -> State | None:
+        """Newton's method; which nodes touch is changed on the way, slips are those of each step."""
+        n, count = self.links, len(contacts)
+        share = np.zeros((count, n + 1))
+        for row, contact in zip(share, contacts, strict=True):
+            row[contact.nodes] = contact.share
+        bound = np.array([contact.bound for contact in contacts])
+        at = share @ self.places(before.q)[0]
+        beyond = share.sum(axis=1)[:, None] - np.cumsum(share, axis=1)[:, :-1]  # after link i
+        q, force, pull = before.q.copy(), before.force.copy(), np.zeros(count)
+        active = force > 1e-9 * self.w
+        slips = tuple(0 for _ in contacts)
+        k = self.k * (1 + self.drag)
+        rest = (self.rest + self.drag * self.turned) / (1 + self.drag)
+        size, place = n + 1, slice(0, n + 1)  # without x of the left end
+        for attempt in range(_ATTEMPTS):
+            theta = q[1:-1]
+            cosine, sine = self.h * np.cos(theta), self.h * np.sin(theta)
+            x, y = self.places(q)
+            nodes = np.flatnonzero(active)
+            hessian = self._hessian(k, sine, cosine, force, pull @ beyond)
+            gradient = np.zeros(size)
+            bend = k * (np.diff(theta) - rest)
+            gradient[1:n] -= bend
+            gradient[2:] += bend
+            gradient[1:] += cosine * np.cumsum(self.weight[::-1])[::-1][1:]
+            gradient[0] += self.weight.sum()
+            rise = np.zeros((len(nodes), size))
+            rise[:, 0] = 1.0
+            rise[:, 1:] = cosine * (np.arange(n) < nodes[:, None])
+            shift = np.zeros((count, size))
+            shift[:, 1:] = -sine * beyond
+            matrix = np.zeros((size + len(nodes),) * 2)
+            matrix[place, place] = hessian
+            matrix[place, size:], matrix[size:, place] = -rise.T, -rise
+            right = np.zeros((len(matrix), 1 + count))
+            right[:, 0] = np.concatenate([-gradient, y[nodes]])
+            right[place, 1:] = shift.T
+            try:
+                solution = np.linalg.solve(matrix, right)
+            except np.linalg.LinAlgError:
+                return None
+            free, response = solution[:, 0], solution[:, 1:]
+            gap = share @ x - at + shift @ free[place]
+            found = friction(gap, shift @ response[place], bound, slips)
+            if found is None:
+                return None
+            pull, whole, slips = found
+            move = free - response @ pull
+            if not np.abs(move[place]).max() < 1.5:
+                return None
+            q = q + np.append(move[place], whole)
+            force = np.zeros(n + 1)
+            force[nodes] = move[size:]
+            change = float(np.abs(move[place]).max())
+            if change > 0.05:
+                continue
+            _, y = self.places(q)
+            sinks = ~active & (y < -_SMALL)
+            pulled = active & (force < -1e-9 * self.w)
+            if not (sinks.any() or pulled.any()):
+                if change < 1e-9:
+                    break
+                continue
+            if attempt < _ATTEMPTS // 3:
+                active = (active | sinks) & ~pulled
+            elif sinks.any():
+                active[int(np.argmin(np.where(sinks, y, 0.0)))] = True
+            else:
+                active[int(np.argmin(force))] = False
+        else:
+            return None
+        if np.abs(q[1:-1] - before.q[1:-1]).max() > 0.3:
+            return None
+        sticks = np.array([slip == 0 and v > 0 for slip, v in zip(slips, bound, strict=True)])
+        fixed = shift[sticks]
+        null = _null(np.vstack([rise, fixed[1:] - fixed[:1]]))
+        reduced = null.T @ hessian @ null
+        if len(reduced) and np.linalg.eigvalsh(reduced)[0] <= 0:
+            return None
+        return State(q, force, list(slips))
+
+    def _hessian(self, k: Array, sine: Array, cosine: Array, force: Array, pull: Array) -> Array:
+        """Second derivatives of E with the forces of ground and friction, (n + 1, n + 1)."""
+        n = self.links
+        hessian = np.zeros((n + 1, n + 1))
+        i = np.arange(1, n)
+        hessian[i, i] += k
+        hessian[i + 1, i + 1] += k
+        hessian[i, i + 1] -= k
+        hessian[i + 1, i] -= k
+        hanging = np.cumsum((self.weight - force)[::-1])[::-1][1:]  # on nodes beyond link i
+        i = np.arange(1, n + 1)
+        hessian[i, i] += -sine * hanging - cosine * pull
+        return hessian
+
+
+def friction(
+    gap: Array, compliance: Array, bound: Array, before: tuple[int, ...]
+) -> tuple[Array, float, tuple[int, ...]] | None:
+    """Friction t of each contact, motion U of the whole and slips, by trying all patterns of slips.
+
+    s = g + U - K t, sum t = 0, |t| <= V where s = 0, else t = V sign(s) + c s, with c next to none.
+    """
+    count = len(bound)
+    if not count:
+        return np.zeros(0), 0.0, ()
+    drag = _VISCOUS * max(float(bound.max()), _SMALL)
+    options = [(-1, 0, 1) if v > 0 else (2,) for v in bound]
+    everything = np.array([p for p in product(*options)])
+    first = np.array([before]) if len(before) == count else everything[:0]
+    first = np.where(bound > 0, np.where(first == 2, 0, first), 2)
+    for patterns in (first, everything):
+        if not len(patterns):
+            continue
+        stick = patterns == 0
+        dry = np.where(np.abs(patterns) == 1, patterns, 0) * bound
+        # rows: s = -give t where it sticks, t - c s = dry where it slides, sum t = 0
+        factor = np.where(stick, 1.0, -drag)
+        system = np.zeros((len(patterns), count + 1, count + 1))
+        system[:, :count, :count] = -factor[:, :, None] * compliance
+        i = np.arange(count)
+        system[:, i, i] += np.where(stick, -_GIVE, 1.0)
+        system[:, :count, count] = factor
+        system[:, count, :count] = 1.0
+        right = np.zeros((len(patterns), count + 1, 1))
+        right[:, :count, 0] = dry - factor * gap
+        solution = np.linalg.solve(system, right)[..., 0]
+        t, whole = solution[:, :count], solution[:, count]
+        slip = gap + whole[:, None] - t @ compliance.T
+        over = np.where(stick, np.abs(t) / np.where(bound > 0, bound, 1.0) - 1.0, 0.0)
+        back = np.where(np.abs(patterns) == 1, -patterns * slip, 0.0)
+        wrong = np.maximum(over - 1e-10, 1e3 * (back - 1e-14)).max(axis=1)
+        best = int(np.argmin(wrong))
+        if wrong[best] <= (0.0 if patterns is first else 1e-6):
+            return t[best], float(whole[best]), tuple(int(s) for s in patterns[best])
+    return None
+
+
+def _null(rows: Array) -> Array:
+    """Basis of the directions that constraints allow."""
+    _, s, vt = np.linalg.svd(rows)
+    rank = int((s > 1e-10 * s[0]).sum())
+    return vt[rank:].T
+
+
+def walk(strip: Strip, stages: Array, peak: float, states: int = 100, cycles: int = 2,
+         links: int = 96) -> dict[str, Any]:  # fmt: skip
+    """Displacement of the left end over L in each cycle.
+
+    A gait that starts inflated is inflated first, from the strip lying flat.
+
+    Args:
+        stages: fractions of the peak pressure, (T, S).
+        peak: pressure [Pa].
+        states: of a change by the peak pressure.
+    """
+    chain = Chain(strip, links)
+    state = chain.flat()
+    stages = np.asarray(stages, float)
+    path = [np.zeros(stages.shape[1])]
+    marks = []
+    for target in [stages[0], *(stage for _ in range(cycles) for stage in stages[1:])]:
+        steps = max(int(np.ceil(states * np.abs(target - path[-1]).max())), 1)
+        begin = path[-1]
+        path += [begin + (target - begin) * (i + 1) / steps for i in range(steps)]
+        marks.append(len(path) - 1)
+    left = []
+    trace = []
+    for i, fractions in enumerate(path):
+        if i:
+            state = chain.path(state, peak * path[i - 1], peak * fractions)
+        left.append(state.q[-1])
+        trace.append((fractions, state))
+    at = [marks[0], *marks[len(stages) - 1 :: len(stages) - 1]]
+    return {"by_cycle": np.diff([left[i] for i in at]), "flows": chain.flows, "trace": trace,
+            "chain": chain}  # fmt: skip

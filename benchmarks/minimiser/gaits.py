@@ -1,0 +1,149 @@
+"""Theory against an independent minimiser on random gaits through low pressures.
+
+    python benchmarks/minimiser/gaits.py [COUNT]
+
+Gaits of three segments that start inflated or pass through pressures of a few per cent: of even
+seeds on uniform ground at Phi of 1.5 to 4, of odd ones on two to four patches at Phi of 0.1 to 1.5.
+The minimiser (chain.py beside this file) is numpy and scipy alone. Adds what is missing of the
+first COUNT (40) seeds to gaits.csv, a row as it is done, and prints how many agree within 3 % or
+0.0005 L. A row of a seed is made anew by deleting it.
+"""
+
+import csv
+import math
+import sys
+import time
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from chain import Diverged, Strip, walk
+
+from mjsim.files.tables import build
+from mjsim.results.prediction import HALF, displacement, error_bars, prediction, reference
+
+ROWS = Path(__file__).with_name("gaits.csv")
+COUNT, LINKS, STATES = 40, 99, 60
+RELATIVE, ABSOLUTE = 0.03, 5e-4  # of the distance; over L
+LOW = (0.02, 0.05, 0.1)  # of the peak pressure
+
+
+class Row(NamedTuple):
+    """Displacements over L: theory, its error bar, minimiser, and with fewer states."""
+
+    seed: int
+    theory: float
+    bar: float
+    minimiser: float
+    coarse: float
+    flows: int  # increments in which the minimiser needed damped joints
+    flags: str
+
+    @property
+    def agrees(self) -> bool:
+        off = abs(self.theory - self.minimiser)
+        return off <= max(RELATIVE * abs(self.minimiser), ABSOLUTE)
+
+
+def tables(seed: int) -> dict[str, Any]:
+    """One scene as the tables of a scene file, SI."""
+    rng = np.random.default_rng([32, seed])
+    stages = rng.choice([0.0, 1.0, *LOW], (int(rng.integers(3, 5)), 3),
+                        p=[0.35, 0.35, 0.1, 0.1, 0.1])  # fmt: skip
+    if not (stages[0].any() or np.isin(stages, LOW).any()):
+        stages[0, int(rng.integers(3))] = 1.0
+    peak = round(float(rng.uniform(25e3, 48e3)))
+    uniform = seed % 2 == 0
+    phi = rng.uniform(1.5, 4.0) if uniform else rng.uniform(0.1, 1.5)
+    unit = float(phi) * Strip().bending(np.zeros(1))[0][0] / Strip().length ** 2
+    count = 1 if uniform else int(rng.integers(2, 5))
+    area = Strip().width * Strip().length / 3
+    patches = []
+    places = np.sort(rng.uniform(0.0, 0.15, count - 1))
+    for number in range(count):
+        tip, side = rng.choice([0.0, 0.3, 0.6, 1.0], 2) * rng.uniform(0.8, 1.2, 2)
+        if not tip + side:
+            side = 1.0
+        patch = {"tip_force": float(tip * unit), "shear_strength": float(side * unit / area)}
+        if number:
+            patch["from"] = float(round(places[number - 1], 4))
+        patches.append(patch)
+    closed = [*stages.tolist(), stages[0].tolist()]
+    return {
+        "robot": {"peak_pressure": float(peak),
+                  "weight_per_length": round(float(rng.uniform(0.9, 2.0)), 3)},
+        "gait": {"stages": closed, "ramp_time": 8.0},
+        "ground": patches[0] if uniform else {"patches": patches},
+    }  # fmt: skip
+
+
+def by_minimiser(scene: dict[str, Any], states: int = STATES, links: int = LINKS) -> Any:
+    """Walk of the minimiser; the cycle that the product measures comes last."""
+    patches = scene["ground"].get("patches", [scene["ground"]])
+    strip = Strip(
+        weight_per_length=scene["robot"]["weight_per_length"],
+        borders=tuple(patch["from"] for patch in patches[1:]),
+        tips=tuple(patch["tip_force"] for patch in patches),
+        shears=tuple(patch["shear_strength"] for patch in patches),
+    )
+    stages = np.array(scene["gait"]["stages"])
+    cycles = 2 if len(patches) == 1 and stages[0].any() else 1
+    return walk(strip, stages, scene["robot"]["peak_pressure"], states, cycles, links)
+
+
+def theory(scene: dict[str, Any]) -> tuple[float, float, str]:
+    """Displacement over L, error bar, flags."""
+    built, numerics = build(scene)
+    fine = reference(built, numerics)
+    bar, _ = error_bars(built, fine, reference(built, numerics, HALF))
+    return displacement(built, prediction(built)), bar or math.nan, "+".join(fine.flags)
+
+
+def row(seed: int) -> Row:
+    scene = tables(seed)
+    try:
+        fine, coarse = (by_minimiser(scene, states) for states in (STATES, STATES // 2))
+    except Diverged:
+        return Row(seed, *theory(scene)[:2], math.nan, math.nan, -1, theory(scene)[2])
+    ahead, bar, flags = theory(scene)
+    return Row(seed, ahead, bar, fine["by_cycle"][-1], coarse["by_cycle"][-1], fine["flows"], flags)
+
+
+def read() -> dict[int, Row]:
+    if not ROWS.is_file():
+        return {}
+    with ROWS.open(newline="") as file:
+        return {
+            int(line["seed"]): Row(int(line["seed"]), *(float(line[name]) for name in Row._fields[1:5]),
+                                   int(line["flows"]), line["flags"])
+            for line in csv.DictReader(file)
+        }  # fmt: skip
+
+
+def main(words: list[str]) -> None:
+    count = int(words[0]) if words else COUNT
+    rows = read()
+    for seed in range(count):
+        if seed in rows:
+            continue
+        begin = time.time()
+        rows[seed] = row(seed)
+        new = not ROWS.is_file()
+        with ROWS.open("a", newline="") as file:
+            writer = csv.writer(file)
+            if new:
+                writer.writerow(Row._fields)
+            found = rows[seed]
+            writer.writerow([found.seed, *(f"{value:.6f}" for value in found[1:5]), *found[5:]])
+        print(f"{rows[seed]} {time.time() - begin:.0f} s", flush=True)
+    chosen = [rows[seed] for seed in range(count)]
+    known = [found for found in chosen if not math.isnan(found.minimiser)]
+    off = [found for found in known if not found.agrees]
+    print(f"{len(known) - len(off)} of {len(known)} agree")
+    for found in off:
+        print(f"  seed {found.seed}: {found.theory:+.5f} +- {found.bar:.5f}, minimiser "
+              f"{found.minimiser:+.5f} ({found.coarse:+.5f} with half the states) {found.flags}")  # fmt: skip
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
