@@ -9,13 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_length, length_between, ripple
+from analytic.friction.contact_length import flat_length, length_between, may_lie_flat, ripple
 from analytic.scene.robot import Robot
 from analytic.shapes import ContactShapes
 
 Array = NDArray[np.float64]
 
-POINT = 2  # nodes in a row that push in one point of contact, as it may fall between two
+POINT = 2  # nodes of a run that push in one point of contact, as it may fall between two
 
 
 class StripContact(NamedTuple):
@@ -56,26 +56,29 @@ class ContactFinder:
         self._weight = robot.weight_per_length + press
         self._place: list[float] = nodes.tolist()
         self._half = 0.5 * robot.length
+        self._spacing = float(np.diff(nodes).max())
         self._lifted = ripple(robot, nodes)
 
     def find(
         self,
         force: Sequence[float],
         height: Sequence[float],
-        may_be_side: tuple[bool, bool] = (True, True),
+        passive: tuple[bool, bool],
     ) -> list[StripContact]:
         """The contacts of one state, left first.
 
         A run of nodes on the ground is a tip if it is one point, else a side whose length follows
         from its forces: that of an end as in analytic.friction.contact_length, unless it curls up;
-        of one between the ends either half carries its weight and a push. Pressure is not asked: an
-        inflated part may lie flat by the weight on both sides of it, and behind an end that hardly
-        arches.
+        of one between the ends either half carries its weight and a push. Pressure does not decide
+        it: an inflated part may lie flat by the weight on both sides of it, and behind an end that
+        hardly arches. But an end that is inflated arches within a link too: there a side that is
+        shorter is a point, while without pressure it is as short as its forces say.
 
         Args:
             force: of the ground on the nodes, (N,) [N].
             height: of the nodes, (N,) [m].
-            may_be_side: whether the left and the right end may be sides; else they are tips.
+            passive: whether the left and the right end have next to no pressure, see
+                analytic.friction.contact_length.may_lie_flat.
         """
         pushing = [node for node, push in enumerate(force) if push > 0.0]
         if not pushing:
@@ -93,9 +96,9 @@ class ContactFinder:
             end = 0 if number == 0 else len(force) - 1
             outermost = number == 0 or number == len(runs) - 1
             if outermost and height[end] <= self._lifted:
-                length = 0.0
-                if may_be_side[1 if end else 0]:
-                    length = self._half if whole else self._side(run, push, self._place[end])
+                length = self._half if whole else self._side(run, push, self._place[end])
+                if length < self._spacing and not passive[1 if end else 0]:
+                    length = 0.0
                 contacts.append(StripContact([end], [1.0], length, load))
             else:
                 share = [part / load for part in push]
@@ -124,7 +127,7 @@ class ContactFinder:
         return float(flat_length(self._weight, sum(push), moment))
 
     def _length_between(self, run: list[int], push: list[float]) -> float:
-        if run[-1] - run[0] < POINT:
+        if len(run) <= POINT:
             return 0.0
         return length_between(self._weight, [self._place[node] for node in run], push)
 
@@ -132,4 +135,5 @@ class ContactFinder:
 def contacts_of(shapes: ContactShapes, height: Array, state: int) -> list[StripContact]:
     """The contacts of one of several states, its nodes at heights of shape (B, N) [m]."""
     finder = ContactFinder(shapes.robot, shapes.nodes)
-    return finder.find(shapes.force[state].tolist(), height[state].tolist())
+    passive = may_lie_flat(shapes.pressures[state, [0, -1]], shapes.robot.peak_pressure)
+    return finder.find(shapes.force[state].tolist(), height[state].tolist(), passive.tolist())

@@ -7,7 +7,8 @@ The next state minimises
 with the strip as n equal rigid links of length h, q = (y of the left end, directions, x of the left
 end), and E the bending of n - 1 springs and the weight on the n + 1 nodes. Nodes that the ground
 pushes in a row are one contact: a tip of bound V_t if they are two at most, else a side of bound
-tau q length. Bounds are those of the state before. No pressure is asked: what touches, holds.
+tau q length; two at an end without pressure are a side too, as short as their forces say. Bounds
+are those of the state before.
 
 Shares no code with the product, and is to be kept so.
 """
@@ -139,7 +140,7 @@ class Chain:
             push = state.force[run]
             share = push / push.sum()
             place, length = float(share @ x[run]), 0.0
-            if len(run) > 2 or (len(run) == 2 and (run[0] == 0 or run[-1] == self.links)):
+            if len(run) > 2 or (len(run) == 2 and self._passive(run)):
                 length = self._length(run, push) * self.strip.length
                 begin, end = place - 0.5 * length, place + 0.5 * length
                 if run[0] == 0:
@@ -151,6 +152,11 @@ class Chain:
                 bound = self.strip.tip(place)
             found.append(Contact(run, share, length, bound / self.unit))
         return found
+
+    def _passive(self, run: NDArray[np.int_]) -> bool:
+        """Whether a run is of an end that does not arch between its nodes, for lack of pressure."""
+        return bool((run[0] == 0 and self.rest[0] == 0) or
+                    (run[-1] == self.links and self.rest[-1] == 0))  # fmt: skip
 
     def _length(self, run: NDArray[np.int_], push: Array) -> float:
         """Length of a flat stretch that carries w a length, and forces where it lifts off."""

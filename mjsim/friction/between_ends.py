@@ -116,7 +116,7 @@ class BoundedContacts(BoundedFriction):
         """See StripFriction.before_step."""
         self._soften_if_steep(slopes)
         force, height = self._forces.by_node()
-        contacts = self._finder.find(force, height, self._on_side(slopes, True, True))
+        contacts = self._finder.find(force, height, self._on_side(slopes, left, right))
         for tendon in self._resisting:
             self._bounds[tendon] = 0.0
             self._drag[tendon] = 0.0
