@@ -4,12 +4,12 @@ Plain floats, since this is asked at every step of a simulation, and numpy is sl
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_length, length_between, may_lie_flat, ripple
+from analytic.friction.contact_length import arches, flat_length, length_between, ripple
 from analytic.scene.robot import Robot
 from analytic.shapes import ContactShapes
 
@@ -55,6 +55,7 @@ class ContactFinder:
     def __init__(self, robot: Robot, nodes: Array, press: float = 0.0) -> None:
         self._weight = robot.weight_per_length + press
         self._place: list[float] = nodes.tolist()
+        self._robot = robot
         self._half = 0.5 * robot.length
         self._spacing = float(np.diff(nodes).max())
         self._lifted = ripple(robot, nodes)
@@ -63,7 +64,7 @@ class ContactFinder:
         self,
         force: Sequence[float],
         height: Sequence[float],
-        passive: tuple[bool, bool],
+        arches: tuple[bool, bool],
     ) -> list[StripContact]:
         """The contacts of one state, left first.
 
@@ -77,8 +78,7 @@ class ContactFinder:
         Args:
             force: of the ground on the nodes, (N,) [N].
             height: of the nodes, (N,) [m].
-            passive: whether the left and the right end have next to no pressure, see
-                analytic.friction.contact_length.may_lie_flat.
+            arches: whether the left and the right end do, see `arches`.
         """
         pushing = [node for node, push in enumerate(force) if push > 0.0]
         if not pushing:
@@ -97,13 +97,17 @@ class ContactFinder:
             outermost = number == 0 or number == len(runs) - 1
             if outermost and height[end] <= self._lifted:
                 length = self._half if whole else self._side(run, push, self._place[end])
-                if length < self._spacing and not passive[1 if end else 0]:
+                if length < self._spacing and arches[1 if end else 0]:
                     length = 0.0
                 contacts.append(StripContact([end], [1.0], length, load))
             else:
                 share = [part / load for part in push]
                 contacts.append(StripContact(run, share, self._length_between(run, push), load))
         return contacts
+
+    def arches(self, pressures: Array) -> Any:
+        """Tell whether the ends arch by more than a link, by pressures (..., S) [Pa]: (..., 2)."""
+        return arches(self._robot, pressures[..., [0, -1]], self._spacing)
 
     def _runs(self, pushing: list[int], height: Sequence[float]) -> list[list[int]]:
         """Nodes that push with no air between them.
@@ -135,5 +139,5 @@ class ContactFinder:
 def contacts_of(shapes: ContactShapes, height: Array, state: int) -> list[StripContact]:
     """The contacts of one of several states, its nodes at heights of shape (B, N) [m]."""
     finder = ContactFinder(shapes.robot, shapes.nodes)
-    passive = may_lie_flat(shapes.pressures[state, [0, -1]], shapes.robot.peak_pressure)
-    return finder.find(shapes.force[state].tolist(), height[state].tolist(), passive.tolist())
+    arching = finder.arches(shapes.pressures[state]).tolist()
+    return finder.find(shapes.force[state].tolist(), height[state].tolist(), arching)

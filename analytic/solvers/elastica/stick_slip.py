@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import end_contact, end_loads, may_lie_flat, ripple
+from analytic.friction.contact_length import end_contact, end_loads, ripple
 from analytic.friction.contacts import ContactFinder, StripContact
 from analytic.friction.laws import LAWS, Friction
 from analytic.scene.chain import node_positions
@@ -244,8 +244,8 @@ class StickSlip:
         force = chain.ground_force(state) * chain.force_unit
         height = state.y * robot.length
         if self._friction.contacts == "all":
-            passive = may_lie_flat(chain.pressure[[0, -1]], robot.peak_pressure)
-            return self._finder.find(force.tolist(), height.tolist(), passive.tolist())
+            arching = self._finder.arches(chain.pressure).tolist()
+            return self._finder.find(force.tolist(), height.tolist(), arching)
         air = height > self._air
         left, right = (
             end_contact(robot, self._nodes[::order], force[::order], air[::order], pressure,
