@@ -83,7 +83,7 @@ class ContactFinder:
         pushing = [node for node, push in enumerate(force) if push > 0.0]
         if not pushing:
             return []
-        runs = self._runs(pushing, height)
+        runs = _in_a_row(pushing)
         whole = len(runs) == 1  # the ends' contacts are its halves
         if whole:
             middle = len(force) // 2
@@ -109,22 +109,6 @@ class ContactFinder:
         """Tell whether the ends arch by more than a link, by pressures (..., S) [Pa]: (..., 2)."""
         return arches(self._robot, pressures[..., [0, -1]], self._spacing)
 
-    def _runs(self, pushing: list[int], height: Sequence[float]) -> list[list[int]]:
-        """Nodes that push with no air between them.
-
-        A flat stretch may ripple at single nodes; more in a row that push nothing are an arch,
-        however low it is.
-        """
-        runs = [[pushing[0]]]
-        for node in pushing[1:]:
-            before = runs[-1][-1]
-            if node > before + 1:
-                top = max(height[before + 1 : node])
-                if node > before + POINT or top > self._lifted:
-                    runs.append([])
-            runs[-1].append(node)
-        return runs
-
     def _side(self, run: list[int], push: list[float], end: float) -> float:
         """Length of a flat stretch that begins at an end, from what its nodes carry [m]."""
         moment = sum(p * abs(self._place[node] - end) for node, p in zip(run, push, strict=True))
@@ -134,6 +118,16 @@ class ContactFinder:
         if len(run) <= POINT:
             return 0.0
         return length_between(self._weight, [self._place[node] for node in run], push)
+
+
+def _in_a_row(pushing: list[int]) -> list[list[int]]:
+    """Runs of nodes beside each other; between them is an arch, however low it is."""
+    runs = [[pushing[0]]]
+    for node in pushing[1:]:
+        if node > runs[-1][-1] + 1:
+            runs.append([])
+        runs[-1].append(node)
+    return runs
 
 
 def contacts_of(shapes: ContactShapes, height: Array, state: int) -> list[StripContact]:

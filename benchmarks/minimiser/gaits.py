@@ -78,7 +78,7 @@ def tables(seed: int) -> dict[str, Any]:
 
 
 def by_minimiser(scene: dict[str, Any], states: int = STATES, links: int = LINKS) -> Any:
-    """Walk of the minimiser; the cycle that the product measures comes last."""
+    """Walk of the minimiser, of one cycle, as the product measures."""
     patches = scene["ground"].get("patches", [scene["ground"]])
     strip = Strip(
         weight_per_length=scene["robot"]["weight_per_length"],
@@ -87,8 +87,7 @@ def by_minimiser(scene: dict[str, Any], states: int = STATES, links: int = LINKS
         shears=tuple(patch["shear_strength"] for patch in patches),
     )
     stages = np.array(scene["gait"]["stages"])
-    cycles = 2 if len(patches) == 1 and stages[0].any() else 1
-    return walk(strip, stages, scene["robot"]["peak_pressure"], states, cycles, links)
+    return walk(strip, stages, scene["robot"]["peak_pressure"], states, 1, links)
 
 
 def theory(scene: dict[str, Any]) -> tuple[float, float, str]:
