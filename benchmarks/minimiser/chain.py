@@ -14,54 +14,19 @@ Shares no code with the product, and is to be kept so.
 """
 
 from dataclasses import dataclass, field
-from itertools import product
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from slips import friction
+from strip import Strip
 
 Array = NDArray[np.float64]
 
-_VISCOUS = 1e-3  # resistance that decides what bounds leave open, times a slip of L over the bound
 _FLOW = 1e-3  # resistance of the joints to turning, over their stiffness, at which flow has ended
 _SMALL = 1e-10
 _ATTEMPTS = 150
 _DEPTH = 5  # halvings of an increment in which contacts change
-_GIVE = 1e-9  # of a contact that sticks, over L by D0 / L^2
-
-
-@dataclass(frozen=True)
-class Strip:
-    """Numbers of one robot on one ground, SI; defaults are those of the paper's strip."""
-
-    length: float = 0.130
-    width: float = 0.040
-    modulus: float = 1.8e6
-    thickness: float = 4.0e-3
-    chamber_height: float = 3.928e-3
-    chamber_fraction: float = 0.7
-    weight_per_length: float = 1.416
-    segments: tuple[float, ...] = (1.0, 1.0, 1.0)
-    borders: tuple[float, ...] = ()  # between surfaces
-    tips: tuple[float, ...] = (0.0,)  # V_t of each surface
-    shears: tuple[float, ...] = (0.0,)  # tau
-
-    def bending(self, pressure: Array) -> tuple[Array, Array]:
-        """D and natural curvature, equations (9) and (3)."""
-        d0 = self.modulus * self.width * self.thickness**3 / 12
-        alpha = (6 * self.chamber_height**2 * self.chamber_fraction
-                 / (self.modulus * self.thickness**3))  # fmt: skip
-        eta = self.chamber_fraction * self.chamber_height**3 * self.width / 4
-        return d0 + eta * np.abs(pressure), alpha * pressure
-
-    def tip(self, x: float) -> float:
-        return self.tips[int(np.searchsorted(self.borders, x, side="right"))]
-
-    def side(self, begin: float, end: float) -> float:
-        """The integral of tau q over a stretch [N]."""
-        edges = np.array([-np.inf, *self.borders, np.inf])
-        lengths = np.minimum(edges[1:], end) - np.maximum(edges[:-1], begin)
-        return float(self.width * np.maximum(lengths, 0.0) @ np.array(self.shears))
 
 
 @dataclass
@@ -223,7 +188,7 @@ class Chain:
         raise Diverged("no minimum")
 
     def _minimum(self, before: State, contacts: list[Contact]) -> State | None:
-        """Newton's method; which nodes touch is changed on the way, slips are those of each step."""
+        """Newton's method; which nodes touch and which contacts slide is found on the way."""
         n, count = self.links, len(contacts)
         share = np.zeros((count, n + 1))
         for row, contact in zip(share, contacts, strict=True):
@@ -317,48 +282,6 @@ class Chain:
         i = np.arange(1, n + 1)
         hessian[i, i] += -sine * hanging - cosine * pull
         return hessian
-
-
-def friction(
-    gap: Array, compliance: Array, bound: Array, before: tuple[int, ...]
-) -> tuple[Array, float, tuple[int, ...]] | None:
-    """Friction t of each contact, motion U of the whole and slips, by trying all patterns of slips.
-
-    s = g + U - K t, sum t = 0, |t| <= V where s = 0, else t = V sign(s) + c s, with c next to none.
-    """
-    count = len(bound)
-    if not count:
-        return np.zeros(0), 0.0, ()
-    drag = _VISCOUS * max(float(bound.max()), _SMALL)
-    options = [(-1, 0, 1) if v > 0 else (2,) for v in bound]
-    everything = np.array([p for p in product(*options)])
-    first = np.array([before]) if len(before) == count else everything[:0]
-    first = np.where(bound > 0, np.where(first == 2, 0, first), 2)
-    for patterns in (first, everything):
-        if not len(patterns):
-            continue
-        stick = patterns == 0
-        dry = np.where(np.abs(patterns) == 1, patterns, 0) * bound
-        # rows: s = -give t where it sticks, t - c s = dry where it slides, sum t = 0
-        factor = np.where(stick, 1.0, -drag)
-        system = np.zeros((len(patterns), count + 1, count + 1))
-        system[:, :count, :count] = -factor[:, :, None] * compliance
-        i = np.arange(count)
-        system[:, i, i] += np.where(stick, -_GIVE, 1.0)
-        system[:, :count, count] = factor
-        system[:, count, :count] = 1.0
-        right = np.zeros((len(patterns), count + 1, 1))
-        right[:, :count, 0] = dry - factor * gap
-        solution = np.linalg.solve(system, right)[..., 0]
-        t, whole = solution[:, :count], solution[:, count]
-        slip = gap + whole[:, None] - t @ compliance.T
-        over = np.where(stick, np.abs(t) / np.where(bound > 0, bound, 1.0) - 1.0, 0.0)
-        back = np.where(np.abs(patterns) == 1, -patterns * slip, 0.0)
-        wrong = np.maximum(over - 1e-10, 1e3 * (back - 1e-14)).max(axis=1)
-        best = int(np.argmin(wrong))
-        if wrong[best] <= (0.0 if patterns is first else 1e-6):
-            return t[best], float(whole[best]), tuple(int(s) for s in patterns[best])
-    return None
 
 
 def _null(rows: Array) -> Array:

@@ -17,7 +17,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from chain import Diverged, Strip, walk
+from chain import Diverged, walk
+from strip import Strip
 
 from mjsim.files.tables import build
 from mjsim.results.prediction import HALF, displacement, error_bars, prediction, reference
@@ -113,10 +114,9 @@ def read() -> dict[int, Row]:
         return {}
     with ROWS.open(newline="") as file:
         return {
-            int(line["seed"]): Row(int(line["seed"]), *(float(line[name]) for name in Row._fields[1:5]),
-                                   int(line["flows"]), line["flags"])
-            for line in csv.DictReader(file)
-        }  # fmt: skip
+            int(seed): Row(int(seed), *map(float, numbers), int(flows), flags)
+            for seed, *numbers, flows, flags in list(csv.reader(file))[1:]
+        }
 
 
 def main(words: list[str]) -> None:
@@ -140,8 +140,10 @@ def main(words: list[str]) -> None:
     off = [found for found in known if not found.agrees]
     print(f"{len(known) - len(off)} of {len(known)} agree")
     for found in off:
-        print(f"  seed {found.seed}: {found.theory:+.5f} +- {found.bar:.5f}, minimiser "
-              f"{found.minimiser:+.5f} ({found.coarse:+.5f} with half the states) {found.flags}")  # fmt: skip
+        print(
+            f"  seed {found.seed}: {found.theory:+.5f} ± {found.bar:.5f}, minimiser "
+            f"{found.minimiser:+.5f} ({found.coarse:+.5f} coarser) {found.flags}"
+        )
 
 
 if __name__ == "__main__":
