@@ -14,7 +14,7 @@ Shares no code with the product, and is to be kept so.
 """
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,6 @@ from strip import Strip
 
 Array = NDArray[np.float64]
 
-_FLOW = 1e-3  # resistance of the joints to turning, over their stiffness, at which flow has ended
 _SMALL = 1e-10
 _ATTEMPTS = 150
 _DEPTH = 5  # halvings of an increment in which contacts change
@@ -48,7 +47,7 @@ class State:
     slips: list[int] = field(default_factory=list)
 
 
-class Diverged(ArithmeticError):
+class NoMinimumError(ArithmeticError):
     pass
 
 
@@ -59,17 +58,13 @@ class Chain:
         self.strip, self.links = strip, links
         self.h = 1.0 / links
         self.unit = float(strip.bending(np.zeros(1))[0][0]) / strip.length**2
-        w = strip.weight_per_length * strip.length / self.unit
-        self.w = w
-        self.weight = np.full(links + 1, w * self.h)
+        self.w = strip.weight_per_length * strip.length / self.unit
+        self.weight = np.full(links + 1, self.w * self.h)
         self.weight[[0, -1]] *= 0.5
         ends = np.cumsum(strip.segments) / np.sum(strip.segments)
         middles = (np.arange(2 * links) + 0.5) * 0.5 * self.h
         self.segment = np.minimum(np.searchsorted(ends, middles), len(ends) - 1)
         self.k, self.rest = np.zeros(links - 1), np.zeros(links - 1)
-        self.drag = 0.0
-        self.turned = np.zeros(links - 1)
-        self.flows = 0
 
     def load(self, pressure: Array) -> None:
         """Springs: two half links in series at each joint."""
@@ -146,8 +141,10 @@ class Chain:
     def path(self, before: State, begin: Array, end: Array, depth: int = 0) -> State:
         """The state at a pressure, by smaller steps where contacts change on the way."""
         after = self.next(before, end)
-        if depth == _DEPTH or self._signature(before) == self._signature(after):
+        if after and (depth == _DEPTH or self._signature(before) == self._signature(after)):
             return after
+        if depth == _DEPTH:
+            raise NoMinimumError(f"no minimum near the last one at {end} Pa")
         middle = 0.5 * (begin + end)
         return self.path(self.path(before, begin, middle, depth + 1), middle, end, depth + 1)
 
@@ -156,36 +153,10 @@ class Chain:
         kinds = [contact.length > 0 for contact in self.contacts(state)]
         return kinds, state.slips
 
-    def next(self, before: State, pressure: Array) -> State:
-        """The minimum that follows a state at a pressure."""
+    def next(self, before: State, pressure: Array) -> State | None:
+        """The minimum that follows a state at a pressure, if there is one near."""
         self.load(pressure)
-        contacts = self.contacts(before)
-        return self._minimum(before, contacts) or self._flow(before, contacts)
-
-    def _flow(self, before: State, contacts: list[Contact]) -> State:
-        """The minimum that joints lead to that resist turning, ever less."""
-        self.flows += 1
-        drag, state = 10.0, before
-        for _ in range(400):
-            self.drag, self.turned = drag, np.diff(state.q[1:-1])
-            new = self._minimum(state, contacts)
-            self.drag = 0.0
-            if new is None:
-                drag *= 4.0
-                if drag > 1e7:
-                    break
-                continue
-            step = np.abs(new.q[1:-1] - state.q[1:-1]).max()
-            state = new
-            contacts = self.contacts(state)
-            if step < 0.05:
-                drag *= 0.4
-            if drag < _FLOW:
-                new = self._minimum(state, contacts)
-                if new is not None:
-                    return new
-                break
-        raise Diverged("no minimum")
+        return self._minimum(before, self.contacts(before))
 
     def _minimum(self, before: State, contacts: list[Contact]) -> State | None:
         """Newton's method; which nodes touch and which contacts slide is found on the way."""
@@ -199,17 +170,15 @@ class Chain:
         q, force, pull = before.q.copy(), before.force.copy(), np.zeros(count)
         active = force > 1e-9 * self.w
         slips = tuple(0 for _ in contacts)
-        k = self.k * (1 + self.drag)
-        rest = (self.rest + self.drag * self.turned) / (1 + self.drag)
         size, place = n + 1, slice(0, n + 1)  # without x of the left end
         for attempt in range(_ATTEMPTS):
             theta = q[1:-1]
             cosine, sine = self.h * np.cos(theta), self.h * np.sin(theta)
             x, y = self.places(q)
             nodes = np.flatnonzero(active)
-            hessian = self._hessian(k, sine, cosine, force, pull @ beyond)
+            hessian = self._hessian(sine, cosine, force, pull @ beyond)
             gradient = np.zeros(size)
-            bend = k * (np.diff(theta) - rest)
+            bend = self.k * (np.diff(theta) - self.rest)
             gradient[1:n] -= bend
             gradient[2:] += bend
             gradient[1:] += cosine * np.cumsum(self.weight[::-1])[::-1][1:]
@@ -269,15 +238,15 @@ class Chain:
             return None
         return State(q, force, list(slips))
 
-    def _hessian(self, k: Array, sine: Array, cosine: Array, force: Array, pull: Array) -> Array:
+    def _hessian(self, sine: Array, cosine: Array, force: Array, pull: Array) -> Array:
         """Second derivatives of E with the forces of ground and friction, (n + 1, n + 1)."""
         n = self.links
         hessian = np.zeros((n + 1, n + 1))
         i = np.arange(1, n)
-        hessian[i, i] += k
-        hessian[i + 1, i + 1] += k
-        hessian[i, i + 1] -= k
-        hessian[i + 1, i] -= k
+        hessian[i, i] += self.k
+        hessian[i + 1, i + 1] += self.k
+        hessian[i, i + 1] -= self.k
+        hessian[i + 1, i] -= self.k
         hanging = np.cumsum((self.weight - force)[::-1])[::-1][1:]  # on nodes beyond link i
         i = np.arange(1, n + 1)
         hessian[i, i] += -sine * hanging - cosine * pull
@@ -291,8 +260,16 @@ def _null(rows: Array) -> Array:
     return vt[rank:].T
 
 
+class Walk(NamedTuple):
+    """Displacement of the left end over L in each cycle, and all pressures and states."""
+
+    by_cycle: Array
+    trace: list[tuple[Array, State]]
+    chain: Chain
+
+
 def walk(strip: Strip, stages: Array, peak: float, states: int = 100, cycles: int = 2,
-         links: int = 96) -> dict[str, Any]:  # fmt: skip
+         links: int = 96) -> Walk:  # fmt: skip
     """Displacement of the left end over L in each cycle.
 
     A gait that starts inflated is inflated first, from the strip lying flat.
@@ -320,5 +297,4 @@ def walk(strip: Strip, stages: Array, peak: float, states: int = 100, cycles: in
         left.append(state.q[-1])
         trace.append((fractions, state))
     at = [marks[0], *marks[len(stages) - 1 :: len(stages) - 1]]
-    return {"by_cycle": np.diff([left[i] for i in at]), "flows": chain.flows, "trace": trace,
-            "chain": chain}  # fmt: skip
+    return Walk(np.diff([left[i] for i in at]), trace, chain)
