@@ -13,6 +13,8 @@ from analytic.shapes import ContactShapes, Shapes
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+_ENDS = 2  # contacts between which the paper's rule decides
+
 
 def motion(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, Mask]:
     """Motion of least dissipation over all contacts, its mean at the two states of an increment.
@@ -28,14 +30,10 @@ def motion(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, M
         raise ValueError(
             "friction at all contacts needs contact forces, which the modes do not give"
         )
-    x, height = shapes.curve(shapes.nodes)
+    x, contacts = _contacts(shapes)
     count = len(shapes)
     left = np.zeros(count)
     changes = np.zeros(count - 1, dtype=bool)
-    contacts = [
-        contacts_of(shapes, height, i) if np.isfinite(shapes.separation[i]) else []
-        for i in range(count)
-    ]
     for i in range(count - 1):
         pair = contacts[i : i + 2]
         if not all(pair):
@@ -51,6 +49,50 @@ def motion(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, M
     return left, changes
 
 
+def undecided_motion(shapes: ContactShapes, ground: Ground, friction: Friction) -> float:
+    """Displacement along a sequence that the bounds of all contacts leave open, either way [m].
+
+    Where no contact resists, or by load the bounds of some add up to those of the others, the whole
+    may move by anything between what leaves one contact in its place and what leaves another. Two
+    contacts that resist alike under constant bounds slide alike by rule ([Majidi13], section 2.2);
+    of more than two nothing says so.
+
+    Args:
+        shapes: states in order of time, with `left` where friction bends the strip.
+        ground: under the left end at x = 0 and on both sides of it.
+        friction: law.
+    """
+    x, contacts = _contacts(shapes)
+    left = motion(shapes, ground, friction)[0] if shapes.left is None else shapes.left
+    width, total = shapes.robot.width, 0.0
+    for i in range(len(shapes) - 1):
+        pair = contacts[i : i + 2]
+        if all(pair):
+            step, place = x[i + 1] - x[i], x[i] + left[i]
+            ranges = (_open(*_resistance(state, place, step, ground, width, friction), friction)
+                      for state in pair)  # fmt: skip
+            total += 0.5 * min(ranges)
+    return total
+
+
+def _contacts(shapes: ContactShapes) -> tuple[Array, list[list[StripContact]]]:
+    """Places of the nodes from the left end, (B, N) [m], and contacts of each state, if it has."""
+    x, height = shapes.curve(shapes.nodes)
+    return x, [
+        contacts_of(shapes, height, i) if np.isfinite(shapes.separation[i]) else []
+        for i in range(len(shapes))
+    ]
+
+
+def _open(bounds: Array, moves: Array, friction: Friction) -> float:
+    """Range of motions of the whole between which the bounds of contacts do not decide [m]."""
+    if LAWS[friction.law].needs_load:
+        low, high = minimisers(bounds.tolist(), moves.tolist())
+        return max(min(high, -float(moves.min())) - max(low, -float(moves.max())), 0.0)
+    decided = len(bounds) <= _ENDS or bounds.max() > 0
+    return 0.0 if decided else float(moves.max() - moves.min())
+
+
 def _slide(
     contacts: list[StripContact],
     x: Array,
@@ -60,14 +102,27 @@ def _slide(
     friction: Friction,
 ) -> tuple[float, bool, float]:
     """Motion in an increment [m], whether bounds leave it open, and where a contact sticks [m]."""
+    bounds, moves = _resistance(contacts, x, step, ground, width, friction)
+    low, high = minimisers(bounds.tolist(), moves.tolist())
+    whole = least_dissipation(bounds, moves)
+    stuck = contacts[int(np.argmin(np.abs(whole + moves)))]
+    place = float(stuck.share @ x[stuck.nodes])
+    return whole, high > low and moves.max() > moves.min(), place
+
+
+def _resistance(
+    contacts: list[StripContact],
+    x: Array,
+    step: Array,
+    ground: Ground,
+    width: float,
+    friction: Friction,
+) -> tuple[Array, Array]:
+    """Bounds of contacts [N] and their moves by the shape alone [m], (C,) each."""
     law = LAWS[friction.law]
     bounds = np.array([
         law.bound(over(ground, *contact.extent(x)), width, contact.length, contact.load)
         for contact in contacts
     ])  # fmt: skip
     moves = np.array([contact.share @ step[contact.nodes] for contact in contacts])
-    low, high = minimisers(bounds.tolist(), moves.tolist())
-    whole = least_dissipation(bounds, moves)
-    stuck = contacts[int(np.argmin(np.abs(whole + moves)))]
-    place = float(stuck.share @ x[stuck.nodes])
-    return whole, high > low and moves.max() > moves.min(), place
+    return bounds, moves

@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 
 from analytic.friction.laws import Friction
+from analytic.friction.motion import undecided_motion
 from analytic.locomotion import undecided
 from analytic.prediction import Prediction
 from analytic.scene.limbs import limbs_of
 from analytic.scene.surface import Surface
-from analytic.shapes import Flag
+from analytic.shapes import ContactShapes, Flag
 from analytic.solvers.models import Elastica
 from mjsim.model.limbs import longest_step
 from mjsim.results.prediction import Reference, displacement, prediction
@@ -54,17 +55,21 @@ def tied(scene: Scene, prediction: Prediction, alike: float = 0.0) -> float:
 
     Coulomb friction leaves open which of two equal bounds yields, and where friction at rest is
     more than in sliding, the end that happens to slide first goes on alone. The constant bounds of
-    [Majidi13] decide it by rule: there it is 0 for equal bounds, and for nearly equal ones the
-    change if they were equal.
+    [Majidi13] decide it by rule between two ends: there it is 0 for equal bounds, and for nearly
+    equal ones the change if they were equal. Where more contacts touch and none resists, nothing
+    decides; see analytic.friction.motion.undecided_motion.
 
     Args:
         scene, prediction: the scene and its reference.
         alike: relative difference of nearly equal bounds; 0 for equal ones.
     """
     ground = scene.ground
-    if scene.between or not isinstance(ground, Surface):
-        return 0.0
     over = scene.strip.length * prediction.cycles
+    if scene.between or not isinstance(ground, Surface):
+        shapes = prediction.shapes
+        if alike or not isinstance(shapes, ContactShapes):
+            return 0.0
+        return undecided_motion(shapes, ground, scene.reference_friction) / over
     exact = undecided(prediction.shapes, ground, scene.friction) / over
     if alike:
         return undecided(prediction.shapes, ground, scene.friction, alike) / over - exact

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -115,7 +115,8 @@ def error_bars(scene: Scene, fine: Reference, coarse: Reference) -> tuple[float 
 
 def links(scene: Scene) -> int:
     """Links of the reference."""
-    return max(_LINKS, _LINKS_A_SEGMENT * len(scene.strip.segments) * scene.gait.dips())
+    between = scene.gait.dips() or scene.gait.lingers()
+    return max(_LINKS, _LINKS_A_SEGMENT * len(scene.strip.segments) * between)
 
 
 def prediction(
@@ -148,7 +149,8 @@ def prediction(
         raise ValueError(f"model {solver} is for strips; of a robot of limbs take {QUASI_STATIC}")
     friction = scene.reference_friction
     if not (bent and solver == REFERENCE):
-        friction = replace(friction, tension=0.0)
+        where: Literal["ends", "all"] = "all" if scene.between else "ends"
+        friction = replace(friction, tension=0.0, contacts=where)
     model = SOLVERS[solver]()
     if isinstance(model, Elastica):
         model = Elastica(round(links(scene) * finer), scene.chamber)
