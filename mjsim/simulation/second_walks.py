@@ -89,8 +89,8 @@ def doubts(walk: Trajectory, row: dict[str, Any]) -> list[str]:
         notes.append(f"inertia: {_told(scene, slow)} at 1/{SLOWER:g} of the speed")
     elif not notes:
         notes.append(
-            f"neither links and time step, {_told(scene, fine)} at {_words(finer)}, nor speed, "
-            f"{_told(scene, slow)} at 1/{SLOWER:g} of it, explain the error"
+            f"error not explained: {_told(scene, fine)} at {_words(finer)}, "
+            f"{_told(scene, slow)} at 1/{SLOWER:g} of the speed"
         )
     return notes
 

@@ -110,16 +110,13 @@ def test_a_walk_of_less_mass_and_damping_is_one_of_slower_ramps():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [1, 5, 7, 8, 10, 13])
+@pytest.mark.parametrize("seed", [4, 16, 23])
 def test_inertia_is_named_where_slower_ramps_change_the_distance_and_with_what_they_make_it(seed):
     walk = simulate(scene_of(seed))
-    if walk.status is not Status.OK:
-        return
-    notes = [note for note in doubts(walk, record(walk)) if note.startswith("inertia")]
+    (note,) = (note for note in doubts(walk, record(walk)) if note.startswith("inertia"))
     slow = shift(paced(walk.scene, SLOWER))
-    for note in notes:
-        assert abs(slow - measure(walk).displacement) > 0.001
-        assert float(note.split()[1]) == pytest.approx(slow, rel=PART, abs=1e-3)
+    assert abs(slow - measure(walk).displacement) > 0.001
+    assert float(note.split()[1]) == pytest.approx(slow, rel=PART, abs=1e-3)
 
 
 @pytest.mark.slow
