@@ -36,7 +36,7 @@ OF_NUMERICS = ("links", "time step", "limbs sink", *(str(status) for status in S
 
 
 class Row(NamedTuple):
-    """A scene: distances per cycle over L, NaN of walks that failed, and the notes."""
+    """A scene: distances per cycle over L, NaN of walks that failed, and words on numerics."""
 
     seed: int
     robot: str
@@ -46,7 +46,7 @@ class Row(NamedTuple):
     distance: float
     finer: float
     finest: float
-    notes: str
+    words: str
 
     @property
     def converged(self) -> bool:
@@ -56,11 +56,6 @@ class Row(NamedTuple):
     @property
     def right(self) -> bool:
         return near(self.distance, self.finest, 1.0)
-
-    @property
-    def worded(self) -> bool:
-        """Whether links, time step or failing finer walks are told of."""
-        return any(note.startswith(OF_NUMERICS) for note in self.notes.split("; "))
 
 
 def near(distance: float, finest: float, part: float) -> bool:
@@ -99,6 +94,7 @@ def row_of(seed: int) -> Row:
     walk = simulate(scene)
     row = record(walk)
     notes = [*row["prediction_notes"], *doubts(walk, row)]
+    words = [note for note in notes if note.startswith(OF_NUMERICS)]
     usual, fine = walk.numerics, []
     for links, part in ((1.5, 3), (2, 4)):
         count = 2 * round(links * usual.links / 2)
@@ -106,7 +102,7 @@ def row_of(seed: int) -> Row:
         fine.append(distance(simulate(scene, numerics)))
     kind = "strip" if not scene.in_space else "tree" if seed % 2 else "quadruped"
     return Row(seed, kind, round(scene.gait.ramp_times[0], 4), usual.timestep, str(walk.status),
-               *(round(d, 5) for d in (distance(walk), *fine)), "; ".join(notes))  # fmt: skip
+               *(round(d, 5) for d in (distance(walk), *fine)), "; ".join(words))  # fmt: skip
 
 
 def read() -> list[Row]:
@@ -116,7 +112,7 @@ def read() -> list[Row]:
         return [
             Row(int(row["seed"]), row["robot"], float(row["ramp"]), float(row["timestep"]),
                 row["status"], *(float(row[name]) for name in ("distance", "finer", "finest")),
-                row["notes"])
+                row["words"])
             for row in csv.DictReader(file)
         ]  # fmt: skip
 
@@ -136,11 +132,11 @@ def main() -> None:
             write(rows)
     walked = [row for row in rows if row.status == "ok"]
     converged = [row for row in walked if row.converged]
-    silent = [row for row in walked if not row.worded and not row.right]
+    silent = [row for row in walked if not row.words and not row.right]
     print(f"{len(walked)} of {len(rows)} walk, {len(converged)} of them converged")
     print(f"silent and off: {len(silent)}, of them converged "
           f"{sum(row.converged for row in silent)}")  # fmt: skip
-    print(f"converged, and with a word on numerics: {sum(row.worded for row in converged)}")
+    print(f"converged, and with a word on numerics: {sum(bool(row.words) for row in converged)}")
     for row in silent:
         print("  ", *row)
 

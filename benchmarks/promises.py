@@ -87,8 +87,10 @@ def main() -> None:
     print(f"unexplained is within a factor of {FACTOR:g} of what {SLOWER:g} times slower ramps "
           f"change in {sum(near)} of {len(near)}")  # fmt: skip
     for r in noticed:
-        print(f"  scene {r[0]}, {r[2]}: ramp {r[1]:.2f} s, {r[4]:+.4f}, reference {r[5]:+.4f}, "
-              f"said {said[r[0]]:+.4f}, slower {slow[r[0]]:+.4f}, unexplained {r[8]:+.4f}")  # fmt: skip
+        print(
+            f"  scene {r[0]}, {r[2]}: ramp {r[1]:.2f} s, {r[4]:+.4f}, reference {r[5]:+.4f}, "
+            f"said {said[r[0]]:+.4f}, slow {slow[r[0]]:+.4f}, unexplained {r[8]:+.4f}"
+        )
 
 
 if __name__ == "__main__":

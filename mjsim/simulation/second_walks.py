@@ -2,9 +2,8 @@
 
 A walk that is fast, or away from its reference, is walked once more with twice the links and half
 the time step. Where that changes the distance, a walk with the links alone tells which of the two
-it was. What is then left between walk and reference is inertia if a slower walk comes nearer: with
-mass over the square, and damping over the number, of times that it is slower. By similarity that
-is a walk of slower ramps, valves and viscous flow, at the price of the walk itself.
+it was. What is then left between walk and reference is inertia if a walk of slower ramps and valves
+comes nearer, on ground that does not resist by speed.
 """
 
 import math
@@ -12,6 +11,7 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from analytic.scene import pneunet
+from analytic.scene.ground import depends_on_speed
 from analytic.scene.limbs import limbs_of
 from mjsim.results.measures import measure
 from mjsim.results.status import Status
@@ -21,7 +21,7 @@ from mjsim.scene.numerics import MAX_LINKS
 from mjsim.simulation.simulation import simulate
 
 FAST = 0.02  # acceleration by the gait over gravity from which on steps are tested; measured
-SLOWER = 8.0  # times that a walk is slower in which inertia is a 64th; chosen
+SLOWER = 8.0  # times as slow, for a 64th of the inertia; chosen
 _PART = 0.05  # of the distance and of the turn, that a reference may be away by; chosen
 _STRIP, _LIMBS = 1e-3, 2e-3  # and at least as much, over L; chosen
 _PART_OF_STEPS = 0.025  # that links and steps may change; errors halve with the step; chosen
@@ -80,7 +80,7 @@ def doubts(walk: Trajectory, row: dict[str, Any]) -> list[str]:
     if fine.away(moved) > allowed or (off(moved) and not off(fine)):
         notes.append(_of_numerics(walk, moved, fine, finer))
         numerics, before = finer, fine
-    if not off(before):
+    if not off(before) or depends_on_speed(scene.ground):
         return notes
     slow = _walked(*slower(scene, numerics))
     if slow is None:
@@ -124,9 +124,13 @@ class _Reference:
 
 
 def slower(scene: Scene, numerics: Resolved) -> tuple[Scene, Resolved]:
-    """A scene and its numerics as they are at a slower speed, told in the time of the faster."""
-    light = replace(scene, gravity=scene.gravity * SLOWER**2)  # of which the mass is w / g
-    return light, replace(numerics, damping_time=numerics.damping_time / SLOWER)
+    """A scene of slower ramps and valves, and numerics of as many steps a ramp as are needed."""
+    times = tuple(SLOWER * time for time in scene.gait.ramp_times)
+    slow = replace(
+        scene, gait=replace(scene.gait, ramp_time=times), valves=scene.valves.slower(SLOWER)
+    )
+    longest = min(SLOWER * numerics.timestep, resolved(slow).timestep)
+    return slow, replace(numerics, timestep=max(numerics.timestep, longest))
 
 
 def _finer(scene: Scene, numerics: Resolved) -> Resolved:

@@ -10,7 +10,7 @@ from analytic import GAITS, SURFACES, Gait, Robot, Surface
 from mjsim.results.measures import measure
 from mjsim.results.record import record
 from mjsim.results.status import Status
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Scene, Valves, resolved
 from mjsim.simulation import second_walks
 from mjsim.simulation.second_walks import FAST, SLOWER, doubts, slower, swiftness
 from mjsim.simulation.simulation import simulate
@@ -100,13 +100,14 @@ def test_a_fast_walk_is_that_of_finer_steps():
     assert abs(shift(STRONG, timestep=0.005) - fine) > 0.035 * fine
 
 
-def test_a_walk_of_less_mass_and_damping_is_one_of_slower_ramps():
-    """By similarity; not of friction's own time constant, which is less than a step."""
-    walk = simulate(STRONG)
-    alike = measure(simulate(*slower(STRONG, walk.numerics))).displacement
-    slow = shift(paced(STRONG, SLOWER), timestep=0.01)
-    assert alike == pytest.approx(slow, rel=0.02)
-    assert abs(alike - measure(walk).displacement) > 0.05 * slow
+def test_a_slower_walk_has_slower_ramps_and_valves_and_no_more_steps_than_it_needs():
+    valves = Valves(fill_time=0.05, vent_time=(0.1, 0.2, 0.3), flow_limit=4e5)
+    scene = replace(STRONG, valves=valves)
+    slow, numerics = slower(scene, resolved(scene))
+    assert slow.gait.period == pytest.approx(SLOWER * scene.gait.period)
+    assert slow.valves == Valves(fill_time=0.4, vent_time=(0.8, 1.6, 2.4), flow_limit=5e4)
+    assert numerics.timestep == 0.005
+    assert slower(scene, resolved(scene, Numerics(timestep=0.02)))[1].timestep == 0.02
 
 
 @pytest.mark.slow
@@ -132,9 +133,9 @@ def test_what_slower_ramps_change_is_told_as_inertia(surface):
 def test_no_fast_gait_of_the_benchmark_is_silently_off_and_few_say_more_than_they_need():
     walked = [row for row in read() if row.status == "ok"]
     converged = [row for row in walked if row.converged]
-    assert len(converged) > 30
-    assert not [row for row in converged if not row.worded and not row.right]
-    assert sum(row.worded for row in converged) <= 0.1 * len(converged)
+    assert len(converged) > 20
+    assert not [row for row in converged if not row.words and not row.right]
+    assert sum(bool(row.words) for row in converged) <= 0.1 * len(converged)
 
 
 @pytest.mark.slow
@@ -144,4 +145,4 @@ def test_rows_of_the_benchmark_are_what_it_finds(seed):
     again = row_of(seed)
     assert again[:5] == kept[:5]
     assert kept.status != "ok" or near(again.distance, kept.distance, 0.2)
-    assert again.worded == kept.worded
+    assert bool(again.words) == bool(kept.words)
