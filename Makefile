@@ -3,7 +3,7 @@ PY := .venv/bin/python
 # the newest that was tested; the default is in constraints.txt
 MUJOCO_4 := 4.0.0
 
-.PHONY: run test check check-mujoco4 numbers scenes reach auto promises quadruped loop price startup bench regression \
+.PHONY: run test check check-mujoco4 numbers scenes reach auto promises fast quadruped loop price startup bench regression \
 	identify models gallery figures charts chart maps reference architecture clean
 
 run: .venv/ready
@@ -40,6 +40,10 @@ auto: .venv/ready
 # whether error bars and what is said of inertia hold on random scenes
 promises: .venv/ready
 	$(PY) benchmarks/promises.py
+
+# whether fast gaits go as far as at finer links and time steps, or say that they do not
+fast: .venv/ready
+	$(PY) benchmarks/fast_gaits.py
 
 # the quadruped against its reference on random scenes
 quadruped: .venv/ready

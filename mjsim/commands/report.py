@@ -56,6 +56,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         from mjsim.pictures.document import Entry, page
         from mjsim.results.record import record
+        from mjsim.simulation.second_walks import doubts
     except ModuleNotFoundError:
         warn(PROGRAM, _EXTRA)
         return FAILED
@@ -63,7 +64,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     entries = []
     with bar("theory", len(loaded)) as advance:
         for path, (walk, origin), video in zip(options.trajectories, loaded, videos, strict=True):
-            entries.append(Entry(path.stem, walk, record(walk), origin, video))
+            row = record(walk)
+            row["prediction_notes"] += doubts(walk, row)
+            entries.append(Entry(path.stem, walk, row, origin, video))
             advance(1)
     try:
         with whole(options.out) as part:

@@ -113,6 +113,7 @@ def _walk(
     """Simulate each scene and save its walk."""
     from mjsim.results.provenance import provenance
     from mjsim.results.record import record
+    from mjsim.simulation.second_walks import doubts
 
     records, walks = [], []
     for scene, numerics in cases:
@@ -122,7 +123,7 @@ def _walk(
         path = options.out / f"{file_name(walk.scene, walk.numerics)}{'-failed' * failed}.nc"
         walk.save(path, origin)
         row = {**record(walk), "trajectory": str(path), "video": None, "provenance": origin}
-        row["prediction_notes"] += note
+        row["prediction_notes"] += [*doubts(walk, row), *note]
         if failed:
             warn(PROGRAM, _failure(walk, path))
         records.append(row)

@@ -1,6 +1,8 @@
-"""Notes on what makes a distance unsure, from the numbers of the scene, one line each."""
+"""Notes on what makes a distance unsure, from the numbers of the scene, one line each.
 
-import math
+What only another walk can tell, links, time step and inertia: mjsim.simulation.second_walks.
+"""
+
 from dataclasses import replace
 from typing import Any
 
@@ -21,8 +23,6 @@ from mjsim.scene import Scene
 
 APART = 1e-3  # difference of displacements, over L, from which on they differ; chosen
 NEARLY = 0.05  # relative difference of nearly equal bounds, and of nearly equal pressures; chosen
-_MATTERS = 0.05  # part of the distance from which on inertia is noted; chosen
-_TURNED = 0.2  # error of the turn from which on it is noted [degrees]; chosen
 _ROUNDED = 1.01  # a step that was printed to two digits is short enough
 _FEET = 3  # that stand without falling, if a robot of limbs has so many
 _LINKS, _STATES = 30, 25  # of the elastica that finds the end of the branch
@@ -39,12 +39,9 @@ def cautions(walk: Trajectory, theory: Reference, row: dict[str, Any]) -> list[s
         return _of_limbs(walk, row)
     if row["predicted_displacement_over_L"] is None:
         return []
-    numbers = (row["displacement_over_L"], row["error_over_L"])
     return [
         *between_ends(walk.scene),
         *_later(walk.scene, theory.walk),
-        *(inertia(*numbers, row["prediction_uncertainty_over_L"] or 0.0)
-          if None not in numbers else []),
         *_near_ties(walk.scene, theory.walk),
         *near_end(walk.scene, theory.walk),
     ]  # fmt: skip
@@ -91,22 +88,6 @@ def _later(scene: Scene, prediction: Prediction) -> list[str]:
     return [f"from cycle {len(by_cycle)} on {by_cycle[-1]:+.4f} L"]
 
 
-def inertia(displacement: float, error: float, bar: float) -> list[str]:
-    """Distance of the walk from the reference, which has no inertia, if it matters.
-
-    The part that the anchor rule does not explain (mjsim.results.measures) is a part of it: inertia
-    also moves who is the anchor, and then both ends keep the rule.
-
-    Args:
-        displacement: of the walk per cycle, over L.
-        error: its difference from the reference.
-        bar: uncertainty of the reference.
-    """
-    if not abs(error) > max(_MATTERS * abs(displacement), APART, bar):
-        return []
-    return [f"inertia moves it by about {abs(error):.3f} L: slower ramps are nearer to theory"]
-
-
 def near_end(scene: Scene, prediction: Prediction) -> list[str]:
     """A note where the stable branch ends at little more pressure."""
     if not np.isfinite(prediction.locomotion.per_cycle):
@@ -136,10 +117,8 @@ def between_ends(scene: Scene) -> list[str]:
 
 
 def _of_limbs(walk: Trajectory, row: dict[str, Any]) -> list[str]:
-    """Notes on a robot of limbs: inertia, time step and limbs that stand."""
+    """Notes on a robot of limbs: time step and limbs that stand."""
     notes = []
-    if row["error_over_L"] is not None and _inertia_of_limbs(row):
-        notes.append("inertia: a slower gait comes closer to the reference")
     step = longest_step(walk.scene, walk.numerics)
     if walk.numerics.timestep > step * _ROUNDED:
         notes.append(f"limbs sink in too deep: take a timestep of at most {step:.2g} s")
@@ -148,13 +127,3 @@ def _of_limbs(walk: Trajectory, row: dict[str, Any]) -> list[str]:
     if part > 0:
         notes.append(f"on {row['fewest_limbs_on_ground']} limbs for {part:.0%} of the time")
     return notes
-
-
-def _inertia_of_limbs(row: dict[str, Any]) -> bool:
-    """True where displacement or turn are off the reference by more than its uncertainty."""
-    off = math.hypot(row["error_over_L"], row["aside_over_L"] - row["predicted_aside_over_L"])
-    matters = max(_MATTERS * abs(row["predicted_displacement_over_L"]), 2 * APART)
-    turn = max(_TURNED + row["prediction_uncertainty_deg"],
-               _MATTERS * abs(row["predicted_turn_deg"]))  # fmt: skip
-    bar = row["prediction_uncertainty_over_L"] or 0.0
-    return bool(off > matters + bar or abs(row["error_deg"]) > turn)

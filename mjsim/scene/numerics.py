@@ -9,6 +9,9 @@ MIN_LINKS, MAX_LINKS = 6, 384
 FEWEST_IN_SPACE = 2  # of a limb
 LONGEST_STEP = 0.1  # s
 
+SHORT_STEPS = (0.005, 0.0025, 0.001, 0.0005, 0.00025)  # s; of fast gaits
+_SLOW = 1.0  # s; chambers that take as long to fill may have the usual time step; measured
+
 Integrator = Literal["discrete", "Euler", "implicitfast", "implicit", "RK4"]
 Cone = Literal["elliptic", "pyramidal"]
 INTEGRATORS: tuple[str, ...] = get_args(Integrator)
@@ -37,7 +40,8 @@ class Numerics:
     """length of a link is the limb's over this: 24 of a strip, where multiples of 6 are the most
     accurate; 6 of each limb of a robot in space, even"""
     timestep: float | None = None
-    """time step [s]; 0.005 of a strip, 0.01 of a robot in space; chosen"""
+    """time step [s]; 0.005 of a strip, 0.01 of a robot in space; shorter where a chamber fills
+    faster than in 1 s, down to 0.00025; chosen"""
     integrator: Integrator = "discrete"
     """MuJoCo's integrator; all but discrete need softer contacts and smaller steps"""
     damping_time: float = 0.005
@@ -113,6 +117,20 @@ class Numerics:
                 raise ValueError(f"{name} does nothing for a robot {where}, got {given[name]!r}")
         values: dict[str, Any] = {k: chosen[k] if v is None else v for k, v in given.items()}
         return Resolved(**values)
+
+
+def short_enough(usual: float, fill_time: float) -> float:
+    """The usual time step, or a shorter one of SHORT_STEPS for a fast gait [s].
+
+    The integrator lags behind the springs by its time step, and contacts and friction follow the
+    step before: distances are off by a part that goes by the step over the time of a ramp.
+
+    Args:
+        usual: time step of slow gaits [s].
+        fill_time: in which a chamber fills to the peak, at the gait's fastest [s].
+    """
+    longest = usual * min(1.0, fill_time / _SLOW) * (1 + 1e-9)
+    return next((step for step in (usual, *SHORT_STEPS) if step <= longest), SHORT_STEPS[-1])
 
 
 def _check_links(links: int | None, in_space: bool) -> None:

@@ -1,7 +1,8 @@
 """Scenes: a robot that walks a gait on a ground."""
 
+import itertools
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -17,7 +18,7 @@ from analytic.scene.quadruped_gaits import for_robot
 from analytic.scene.robot import GRAVITY, Robot
 from analytic.scene.surface import SURFACES, Ground
 from mjsim.scene import registry
-from mjsim.scene.numerics import Numerics, Resolved
+from mjsim.scene.numerics import Numerics, Resolved, short_enough
 from mjsim.scene.valves import Valves
 
 Chamber = Literal["linearized", "sealed", "constant-pressure"]
@@ -181,6 +182,15 @@ class Scene:
         return max(self.gait.ramp_times) if self.gait.repeats else _RISE
 
     @property
+    def fill_time(self) -> float:
+        """Time in which a chamber would fill to the peak as fast as any one ever does [s]."""
+        changes = np.abs(np.diff(np.array(self.gait.stages), axis=0)).max(axis=1)
+        rate = float((changes / np.array(self.gait.ramp_times)).max())
+        times = (self.valves.of(name, self.gait.segments) for name in ("fill_time", "vent_time"))
+        lag = min(itertools.chain(*times))
+        return max(lag, 1 / rate) if rate else math.inf
+
+    @property
     def duration(self) -> float:
         """Simulated time, what comes before the first cycle included [s]."""
         return self.rise_time + self.settle_time + self.cycles * self.gait.period
@@ -192,7 +202,11 @@ def resolved(scene: Scene, numerics: Numerics | None = None) -> Resolved:
     Raises:
         ValueError: they do not go with the robot.
     """
-    return (numerics or Numerics()).resolved(scene.body, scene.friction, scene.in_space)
+    given = numerics or Numerics()
+    if given.timestep is None:
+        usual = given.resolved(scene.body, scene.friction, scene.in_space).timestep
+        given = replace(given, timestep=short_enough(usual, scene.fill_time))
+    return given.resolved(scene.body, scene.friction, scene.in_space)
 
 
 def check_turn(

@@ -51,6 +51,19 @@ class Valves:
             value = self.fill_time if name == "vent_time" else math.inf
         return value if isinstance(value, tuple) else (value,) * segments
 
+    def slower(self, times: float) -> "Valves":
+        """Valves that are slower, by so many times."""
+        slow: dict[str, PerSegment | None] = {}
+        for field in fields(self):
+            value, factor = getattr(self, field.name), times
+            if field.name == "flow_limit":
+                factor = 1 / times
+            if isinstance(value, tuple):
+                slow[field.name] = tuple(factor * each for each in value)
+            else:
+                slow[field.name] = None if value is None else factor * value
+        return Valves(**slow)  # type: ignore[arg-type]
+
     def check(self, segments: int) -> None:
         """Raise ValueError where numbers are given for another number of segments."""
         for field in fields(self):

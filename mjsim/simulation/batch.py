@@ -111,7 +111,7 @@ def rollout(
             )
     if not scenes:
         return []
-    common = resolved(scenes[0], numerics)
+    common = min((resolved(scene, numerics) for scene in scenes), key=lambda each: each.timestep)
     commands = [_commands(scene, common) for scene in scenes]
     if len({command.shape for command in commands}) > 1:
         raise ValueError("scenes of a rollout must be of one duration and number of segments")

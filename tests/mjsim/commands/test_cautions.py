@@ -15,6 +15,7 @@ from mjsim.results.cautions import near_end, tied
 from mjsim.results.measures import measure
 from mjsim.results.record import record
 from mjsim.scene import Numerics, Scene
+from mjsim.simulation.second_walks import doubts
 from mjsim.simulation.simulation import simulate
 
 BENT = Friction(tension=1.0)
@@ -22,7 +23,10 @@ PERIODIC = trapezoid(1 / 3, 0.52, 0.23, period=12.0)  # starts inflated
 
 
 def told(scene, numerics=None):
-    return record(simulate(scene, numerics))
+    walk = simulate(scene, numerics)
+    row = record(walk)
+    row["prediction_notes"] += doubts(walk, row)
+    return row
 
 
 @pytest.mark.usefixtures("coarse")
@@ -36,17 +40,16 @@ def test_the_documentation_explains_every_key_of_json(tmp_path, capsys):
 @pytest.mark.parametrize("ramp", [0.2, 0.3, 0.5])
 @pytest.mark.parametrize("surface", ["felt", "polyethylene"])
 @pytest.mark.slow
-def test_what_is_said_of_inertia_is_what_slower_ramps_change_within_a_factor_of_2(surface, ramp):
+def test_what_is_said_of_inertia_is_what_slower_ramps_do(surface, ramp):
     fine = Numerics(links=48, timestep=0.001)
     fast, slow = (
         Scene(gait=replace(GAITS["wave"], ramp_time=part * ramp), ground=SURFACES[surface])
         for part in (1, 8)
     )
-    row = told(fast, fine)
-    change = row["displacement_over_L"] - measure(simulate(slow, fine)).displacement
-    if abs(change) > 0.003:
-        (note,) = (note for note in row["prediction_notes"] if "inertia" in note)
-        assert 0.5 < float(note.split()[5]) / abs(change) < 2.0
+    row, distance = told(fast, fine), measure(simulate(slow, fine)).displacement
+    if abs(row["displacement_over_L"] - distance) > 0.003:
+        (note,) = (note for note in row["prediction_notes"] if note.startswith("inertia"))
+        assert float(note.split()[1]) == pytest.approx(distance, rel=0.05, abs=1e-3)
 
 
 @pytest.mark.parametrize("surface", list(SURFACES))

@@ -86,13 +86,15 @@ def test_a_gait_that_starts_inflated_goes_as_far_in_its_first_cycle_as_later():
 def test_a_strip_that_is_not_at_rest_when_it_begins_has_no_distance():
     """Hardly any time to settle after a fast rise."""
     stages = ((1, 1, 0), (0, 1, 1), (1, 1, 0))
-    walk = simulate(Scene(gait=Gait("thrown", stages, 0.05), settle_time=0.005))
+    scene = Scene(gait=Gait("thrown", stages, 0.05), settle_time=0.005)
+    walk = simulate(scene, Numerics(timestep=0.005))
     assert walk.status is Status.UNSETTLED
     assert measure(walk) is None
 
 
 def test_ramps_of_fewer_steps_than_can_be_seen_are_refused(tmp_path, capsys):
-    said = refusal(["--gait.ramp-time", "0.002", "--no-video", "--out", str(tmp_path)], capsys)
+    words = ["--gait.ramp-time", "0.002", "--timestep", "0.005", "--no-video"]
+    said = refusal([*words, "--out", str(tmp_path)], capsys)
     assert "0.0005 s" in said
     assert "got 0.005 s" in said
 

@@ -76,7 +76,7 @@ BAD = [
     (["--robot.mass", "0.02", "--robot.weight-per-length", "1"], "1.0", "not both"),
     (["--gait.stages", "00,10"], "(0.0, 0.0)", "close"),
     (["--gait.stages", "0x,10"], "'0x,10'", "0 and 1"),
-    (["--gait.ramp-time", "0.01"], "0.005", "ramp"),
+    (["--gait.ramp-time", "0.0004"], "0.0001 s", "ramp"),
     (["--slope", "90"], "90 degrees", "less steep"),
     (["--numerics.integrator", "euler"], "'euler'", "Euler"),
     (["--friction", "wet"], "'wet'", "constant"),

@@ -1,0 +1,176 @@
+"""Second walks that tell what makes the distance of a walk unsure, each cause by its own test.
+
+A walk that is fast, or away from its reference, is walked once more with twice the links and half
+the time step. Where that changes the distance, a walk with the links alone tells which of the two
+it was. What is then left between walk and reference is inertia if a walk of slower ramps and valves
+comes nearer, on ground that does not resist by speed.
+"""
+
+import math
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+from analytic.scene import pneunet
+from analytic.scene.ground import depends_on_speed
+from analytic.scene.limbs import limbs_of
+from mjsim.results.measures import measure
+from mjsim.results.status import Status
+from mjsim.results.trajectory import Trajectory
+from mjsim.scene import Resolved, Scene, resolved
+from mjsim.scene.numerics import MAX_LINKS
+from mjsim.simulation.simulation import simulate
+
+FAST = 0.02  # acceleration by the gait over gravity from which on steps are tested; measured
+SLOWER = 8.0  # times as slow, for a 64th of the inertia; chosen
+_PART = 0.05  # of the distance and of the turn, that a reference may be away by; chosen
+_STRIP, _LIMBS = 1e-3, 2e-3  # and at least as much, over L; chosen
+_PART_OF_STEPS = 0.025  # that links and steps may change; errors halve with the step; chosen
+_OF_STEPS = 1.5e-3, 2e-3  # and at least as much, over L, of a strip and of limbs; chosen
+_DEGREE = 0.005  # of L, that a turn by a degree counts as; chosen
+
+
+class Moved(NamedTuple):
+    """How a robot moved in a cycle: ahead and aside over L, and its turn [degrees]."""
+
+    ahead: float
+    aside: float
+    turn: float
+
+    def away(self, other: "Moved") -> float:
+        """Difference from another, over L."""
+        apart = math.hypot(self.ahead - other.ahead, self.aside - other.aside)
+        return apart + _DEGREE * abs(self.turn - other.turn)
+
+    @property
+    def size(self) -> float:
+        """Difference from standing still, over L."""
+        return self.away(Moved(0.0, 0.0, 0.0))
+
+
+def swiftness(scene: Scene) -> float:
+    """Acceleration of a robot's parts by its gait over gravity, kappa L^2 / (g T^2) [1].
+
+    kappa is the curvature at the peak pressure, T the time to fill a chamber to it.
+    """
+    robot = scene.robot
+    bend = max(pneunet.curvature_per_pressure(limb.strip) for limb in limbs_of(robot))
+    reach = bend * robot.peak_pressure * robot.length**2
+    return reach / (scene.gravity * scene.fill_time**2)
+
+
+def doubts(walk: Trajectory, row: dict[str, Any]) -> list[str]:
+    """Notes on a walk, each with the distance of the walk that it rests on.
+
+    Args:
+        walk: that ended well, or there are none.
+        row: its record, see mjsim.results.record.
+    """
+    moved, scene = _moved(walk), walk.scene
+    if moved is None:
+        return []
+    off = _Reference(scene, row)
+    if not (swiftness(scene) > FAST or off(moved)):
+        return []
+    finer = _finer(scene, walk.numerics)
+    fine = _walked(scene, finer)
+    if not isinstance(fine, Moved):
+        return [f"{fine} at {_words(finer)}"] if fine else []
+    notes, numerics, before = [], walk.numerics, moved
+    allowed = max(_PART_OF_STEPS * fine.size, _OF_STEPS[scene.in_space])
+    if fine.away(moved) > allowed or (off(moved) and not off(fine)):
+        notes.append(_of_numerics(walk, moved, fine, finer))
+        numerics, before = finer, fine
+    if not off(before) or depends_on_speed(scene.ground):
+        return notes
+    slow = _walked(*slower(scene, numerics))
+    if slow is None:
+        return notes
+    if not isinstance(slow, Moved) or off.nearer(slow, before):
+        notes.append(f"inertia: {_told(scene, slow)} at 1/{SLOWER:g} of the speed")
+    elif not notes:
+        notes.append(
+            f"error not explained: {_told(scene, fine)} at {_words(finer)}, "
+            f"{_told(scene, slow)} at 1/{SLOWER:g} of the speed"
+        )
+    return notes
+
+
+class _Reference:
+    """The reference of a walk, and whether it is away from it by more than that is sure to.
+
+    Args:
+        scene, row: of the walk, and its record.
+    """
+
+    def __init__(self, scene: Scene, row: dict[str, Any]) -> None:
+        values = [row[f"predicted_{name}"] for name in
+                  ("displacement_over_L", "aside_over_L", "turn_deg")]  # fmt: skip
+        self._moved = None if None in values else Moved(*values)
+        self._few = _LIMBS if scene.in_space else _STRIP
+        self._bar = (row["prediction_uncertainty_over_L"] or 0.0) + _DEGREE * (
+            row["prediction_uncertainty_deg"] or 0.0
+        )
+
+    def __call__(self, moved: Moved) -> bool:
+        if self._moved is None:
+            return False
+        return moved.away(self._moved) > max(_PART * moved.size, self._few) + self._bar
+
+    def nearer(self, slow: Moved, moved: Moved) -> bool:
+        """Tell whether the slow walk is nearer by more than two walks may be apart."""
+        assert self._moved is not None
+        gained = moved.away(self._moved) - slow.away(self._moved)
+        return gained > max(_PART * moved.size, self._few)
+
+
+def slower(scene: Scene, numerics: Resolved) -> tuple[Scene, Resolved]:
+    """A scene of slower ramps and valves, and numerics of as many steps a ramp as are needed."""
+    times = tuple(SLOWER * time for time in scene.gait.ramp_times)
+    slow = replace(
+        scene, gait=replace(scene.gait, ramp_time=times), valves=scene.valves.slower(SLOWER)
+    )
+    longest = min(SLOWER * numerics.timestep, resolved(slow).timestep)
+    return slow, replace(numerics, timestep=max(numerics.timestep, longest))
+
+
+def _finer(scene: Scene, numerics: Resolved) -> Resolved:
+    """Twice the links and half the time step, and no coarser than usual."""
+    usual, twice = resolved(scene), 2 * numerics.links
+    links = max(usual.links, twice if twice <= MAX_LINKS else numerics.links)
+    return replace(numerics, links=links, timestep=min(0.5 * numerics.timestep, usual.timestep))
+
+
+def _of_numerics(walk: Trajectory, moved: Moved, fine: Moved, finer: Resolved) -> str:
+    """The note on links, time step or both, whichever change the distance."""
+    one = _walked(walk.scene, replace(walk.numerics, links=finer.links))
+    change, cause, told = fine.away(moved), "links and time step", _words(finer)
+    if isinstance(one, Moved) and one.away(fine) < 0.5 * change:
+        cause, told = "links", f"{finer.links} links"
+    elif isinstance(one, Moved) and one.away(moved) < 0.5 * change:
+        cause, told = "time step", f"{finer.timestep:g} s"
+    return f"{cause}: {_told(walk.scene, fine)} at {told}"
+
+
+def _walked(scene: Scene, numerics: Resolved) -> Moved | Status | None:
+    """How it moved, or how it failed; None if the scene cannot be walked so."""
+    try:
+        walk = simulate(scene, numerics)
+    except ValueError:
+        return None
+    return _moved(walk) or walk.status
+
+
+def _moved(walk: Trajectory) -> Moved | None:
+    found = measure(walk)
+    return found and Moved(found.displacement, found.aside, math.degrees(found.turn))
+
+
+def _words(numerics: Resolved) -> str:
+    return f"{numerics.links} links and {numerics.timestep:g} s"
+
+
+def _told(scene: Scene, moved: Moved | Status) -> str:
+    if not isinstance(moved, Moved):
+        return str(moved)
+    turn = f" and {moved.turn:+.2f} degrees" if scene.in_space else ""
+    return f"{moved.ahead:+.4f} L{turn}"
