@@ -5,6 +5,7 @@ them all as they are shows in no shape or distance over the length.
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -75,6 +76,7 @@ class Together(NamedTuple):
 def together(estimate: Estimate) -> list[Together]:
     """Combinations that alone are determined, as no parameter in them is apart from the others."""
     covariance = estimate.covariance
+    errors = np.sqrt(np.diag(covariance))
     information = np.linalg.pinv(covariance, hermitian=True, rcond=1e-14)
     apart = 1 / np.maximum(np.diag(covariance) * np.diag(information), 1.0)
     combinations: list[Together] = []
@@ -83,7 +85,7 @@ def together(estimate: Estimate) -> list[Together]:
         if apart[i] > 1 - _TOGETHER**2 or any(name in c.exponents for c in combinations):
             continue
         powers = information[i] / information[i, i]
-        powers = np.where(np.abs(powers) * estimate.error > _PART * estimate.error[i], powers, 0.0)
+        powers = np.where(np.abs(powers) * errors > _PART * errors[i], powers, 0.0)
         powers[i] = 1.0
         powers = np.where(np.abs(np.abs(powers) - 1) < _PART, np.sign(powers), powers.round(2))
         exponents = {
@@ -96,10 +98,17 @@ def together(estimate: Estimate) -> list[Together]:
     return combinations
 
 
-def without_limit(estimate: Estimate) -> list[str]:
-    """Sentences on parameters to which the data set a limit on one side alone, or on none."""
+def without_limit(estimate: Estimate, others: Iterable[str] = ()) -> list[str]:
+    """Sentences on parameters to which the data set a limit on one side alone, or on none.
+
+    Args:
+        estimate: of a fit.
+        others: names of parameters of which more is said elsewhere.
+    """
     sentences = []
     for p, low, high in zip(estimate.parameters, estimate.low, estimate.high, strict=True):
+        if p.name in others:
+            continue
         unit = "" if p.unit == "1" else f" {p.unit}"
         if low == 0 and high == math.inf:
             sentences.append(f"the data set no limit to {p.name} within its bounds")

@@ -18,7 +18,7 @@ from mjsim.fitting.misfit import Misfit, misfit
 from mjsim.fitting.observations import PRESSURE, Series
 from mjsim.fitting.parameters import Parameter
 from mjsim.fitting.problem import Problem, by_name
-from mjsim.fitting.profile import Profiled, profiled
+from mjsim.fitting.profile import Profiled, by_slopes, lowered, profiled
 from mjsim.fitting.walks import Predictor
 
 Array = NDArray[np.float64]
@@ -34,10 +34,10 @@ class Estimate:
     Attributes:
         parameters: that were free.
         value: of the parameters, (P,).
-        error: standard error of their logarithms, (P,): relative.
+        error: standard error of their logarithms, (P,): relative; as the interval is wide.
         low, high: of the 95 % intervals, (P,): 0 or infinite where the data set no limit, NaN where
             the model misses the data so that no interval holds.
-        covariance: of the logarithms, (P, P).
+        covariance: of the logarithms, by the slopes at the fit, (P, P).
         sensitivity: of residuals over noise to the logarithms, (n, P).
         noise: standard deviation by kind [m, rad or m/s].
         offset: zeros, by number [m, rad or Pa].
@@ -87,7 +87,8 @@ class Estimate:
     @property
     def correlation(self) -> Array:
         """Correlation of the logarithms, (P, P)."""
-        return np.asarray(self.covariance / np.outer(self.error, self.error))
+        errors = np.sqrt(np.diag(self.covariance))
+        return np.asarray(self.covariance / np.outer(errors, errors))
 
 
 def estimate(
@@ -121,8 +122,12 @@ def estimate(
         )
     problem.set_noise(differences, spread=True)
     point, sensitivity = problem.settle(point)
-    problem.inflation = _structure(problem, point).inflation
-    profile = profiled(problem, point, sensitivity)
+    structure = _structure(problem, point)
+    if structure.withheld:  # or the search has ended beside the minimum
+        point, sensitivity = lowered(problem, point, sensitivity)
+        structure = _structure(problem, point)
+    problem.inflation = structure.inflation
+    profile = (by_slopes if structure.withheld else profiled)(problem, point, sensitivity)
     point, widths = profile.point, _widths(problem, profile)
     if refined is not None:
         problem.predictor = refined
@@ -156,28 +161,26 @@ def _judged(problem: Problem, point: Array, sensitivity: Array, widths: Array) -
     count, free = len(problem.parameters), max(problem.count - problem.unknowns, 1)
     structure = _structure(problem, point)
     problem.inflation = structure.inflation
-    whole = problem.covariance(point, sensitivity)
-    slopes = np.sqrt(np.diag(whole))
+    covariance = problem.covariance(point, sensitivity)
+    slopes = np.sqrt(np.diag(covariance))
     ends = widths * slopes[:count]
     quantile = float(stats.t.ppf(0.975, free))
     closed = np.isfinite(ends).all(axis=0) & (slopes[:count] < _OPEN)
-    scale = np.ones(problem.unknowns)
-    scale[:count] = np.where(closed, np.where(closed, widths, 0.0).mean(axis=0) / quantile, 1.0)
-    whole = whole * np.outer(scale, scale)
-    error, logs = np.sqrt(np.diag(whole)), point[:count]
+    scale = np.where(closed, np.where(closed, widths, 0.0).mean(axis=0) / quantile, 1.0)
+    logs = point[:count]
     with np.errstate(over="ignore"):
         low, high = np.exp(logs - ends[0]), np.exp(logs + ends[1])
     lost = np.nan if structure.withheld else 1.0
     zeros = dict(zip(problem.offsets, (point[count:] * problem.scale).tolist(), strict=True))
-    unsure = dict(zip(problem.offsets, (error[count:] * problem.scale).tolist(), strict=True))
+    unsure = dict(zip(problem.offsets, (slopes[count:] * problem.scale).tolist(), strict=True))
     differences = problem.differences(point)
     return Estimate(
         parameters=problem.parameters,
         value=np.exp(logs),
-        error=error[:count],
+        error=slopes[:count] * scale,
         low=low * lost,
         high=high * lost,
-        covariance=whole[:count, :count],
+        covariance=covariance[:count, :count],
         sensitivity=problem.jacobian(sensitivity)[:, :count],
         noise=problem.noise_by_kind(),
         offset=zeros,

@@ -87,11 +87,13 @@ def _chance(deviations: Array, neighbours: float) -> float:
 
 
 def _inflation(deviations: Array) -> float:
-    """1 + 2 (r_1 + r_2 + ...), up to the first that is not above what chance gives."""
-    count, total = len(deviations), 1.0
-    for apart in range(1, count // 2 + 1):
-        alike = _correlation(deviations, apart)
-        if alike < 1 / math.sqrt(count):
+    """1 + 2 (r_1 + r_2 + ...), by pairs up to the first whose sum is not positive (Geyer 1992)."""
+    count, total = len(deviations), -1.0
+    for apart in range(0, count // 2, 2):
+        pair = (_correlation(deviations, apart) if apart else 1.0) + _correlation(
+            deviations, apart + 1
+        )
+        if pair <= 0:
             break
-        total += 2 * alike
-    return total
+        total += 2 * pair
+    return max(total, 1.0)

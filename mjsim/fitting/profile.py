@@ -79,10 +79,25 @@ def profiled(problem: Problem, point: Array, sensitivity: Array) -> Profiled:
             below, above = profile.sides(stop=not last)
             break
         except _LowerCostError as lower:
-            point = profile.lowest(lower.point)
-            problem.set_noise(problem.differences(point))
-            sensitivity = problem.sensitivity(point)
+            point, sensitivity = _anew(problem, profile.lowest(lower.point))
     return Profiled(point, sensitivity, below, above)
+
+
+def lowered(problem: Problem, point: Array, sensitivity: Array) -> tuple[Array, Array]:
+    """Point of least cost near a point by a search without slopes, and the sensitivity there."""
+    return _anew(problem, _Profile(problem, point, sensitivity).lowest(point))
+
+
+def by_slopes(problem: Problem, point: Array, sensitivity: Array) -> Profiled:
+    """Distances that the slopes give, where none hold."""
+    widths = _Profile(problem, point, sensitivity).widths
+    return Profiled(point, sensitivity, widths, widths)
+
+
+def _anew(problem: Problem, point: Array) -> tuple[Array, Array]:
+    """Point and sensitivity, once the noise is estimated at another minimum."""
+    problem.set_noise(problem.differences(point))
+    return point, problem.sensitivity(point)
 
 
 class _Profile:
@@ -140,7 +155,7 @@ class _Profile:
         rise = (self.problem.cost(at) - self.least) / self.expected
         return _End(distance, rise, at)
 
-    def _anew(self, i: int, sign: float, distance: float, near: _End) -> _End:
+    def _fitted_at(self, i: int, sign: float, distance: float, near: _End) -> _End:
         """The cost at a distance, the other unknowns fitted, from a point of the profile on."""
         at = self.point.copy()
         if near.distance:
@@ -160,7 +175,7 @@ class _Profile:
         inside, outside = _End(0.0, 0.0, self.point), None
         for _ in range(_POINTS):
             distance = self._next(inside, outside, end, limit)
-            point = self._anew(i, sign, distance, inside if inside.distance else end)
+            point = self._fitted_at(i, sign, distance, inside if inside.distance else end)
             if stop and point.rise < -_LOWER:
                 raise _LowerCostError(point.point)
             if point.rise < 1:

@@ -36,12 +36,13 @@ def doubts_of(fit: Estimate, base: Tables) -> Doubts:
         fit: the estimate.
         base: tables of the scene that was fitted.
     """
-    directions, bound, limits = undetermined(fit, base), at_bounds(fit), without_limit(fit)
+    directions, bound = undetermined(fit, base), at_bounds(fit)
     combinations = [] if directions else together(fit)
-    notes = [*map(str, directions), *limits]
-    notes += [f"{name} ended at a bound: its interval means nothing" for name in bound]
     several = [d.exponents for d in directions if len(d.exponents) > 1]
     withheld = {name for part in [*several, *(c.exponents for c in combinations)] for name in part}
+    limits = without_limit(fit, withheld)
+    notes = [*map(str, directions), *limits]
+    notes += [f"{name} ended at a bound: its interval means nothing" for name in bound]
     withheld |= {*bound}
     notes += [f"{combination}: their intervals are withheld" for combination in combinations]
     if fit.misfit.withheld:
