@@ -23,6 +23,7 @@ _AS_IT_SHOULD = (0.6, 1.6)  # rise of the cost over the expected one: widths wit
 _LOWER = 0.1  # of the rise: by which a cost must be lower to be another minimum; chosen
 _SHARP = 0.05  # of a distance: to which an end of an interval is found; chosen
 _POINTS = 10  # of a profile on one side, at most; chosen
+_FIRST_RISES = (0.25, 100.0)  # between which a rise tells where to look first; chosen
 _TRIES = 4  # steps of the other parameters at each; chosen
 _RESTARTS = 3  # from lower costs; chosen
 _FIRST, _LAST = 1.0, 0.2  # steps of the search without slopes, of standard errors; chosen
@@ -140,14 +141,10 @@ class _Profile:
         return float(max(high - self.point[i] if sign > 0 else self.point[i] - low, 0.0))
 
     def _start(self, i: int, sign: float) -> tuple[float, Array]:
-        """End of an interval as the slopes give it, within the bounds of all parameters."""
+        """End of an interval as the slopes give it, with all parameters kept in their bounds."""
+        distance = float(min(self.widths[i], self._limit(i, sign)))
         along = sign * self.covariance[i] / self.covariance[i, i]
-        low, high = self.problem.bounds()
-        with np.errstate(divide="ignore", invalid="ignore"):
-            room = np.where(along > 0, (high - self.point) / along,
-                            np.where(along < 0, (low - self.point) / along, np.inf))  # fmt: skip
-        distance = float(max(min(self.widths[i], room.min()), 0.0))
-        return distance, np.clip(self.point + distance * along, low, high)
+        return distance, np.clip(self.point + distance * along, *self.problem.bounds())
 
     def _end(self, distance: float, at: Array) -> _End:
         """The cost at parameters, with the zeros fitted to them."""
@@ -186,14 +183,13 @@ class _Profile:
                 outside = point
             if outside is not None and outside.distance * (1 - _SHARP) < inside.distance:
                 break
-        if outside is None:
-            return inside.distance
-        return _between(inside, outside)
+        return math.inf if outside is None else _between(inside, outside)
 
     def _next(self, inside: _End, outside: "_End | None", end: _End, limit: float) -> float:
         """Distance to look at next: farther until the cost has risen, then between."""
         if outside is None:
-            return min(2 * inside.distance or max(end.distance, _EDGE), limit)
+            first = end.distance / math.sqrt(np.clip(end.rise, *_FIRST_RISES))
+            return min(2 * inside.distance or first, limit)
         guess = _between(inside, outside)
         span = outside.distance - inside.distance
         return float(np.clip(guess, inside.distance + 0.1 * span, outside.distance - 0.1 * span))

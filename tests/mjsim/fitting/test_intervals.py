@@ -77,6 +77,29 @@ def test_a_minimum_at_a_kink_has_the_interval_of_the_cost_itself(seed):
     assert 0.79 < fit.high[0] < 1.3
 
 
+def test_a_parameter_at_its_bound_leaves_the_interval_of_another_open_on_both_sides():
+    """Both make the distance, and friction cannot go on where it should for the other's sake."""
+
+    def along(modulus, friction):
+        ramp = TIME / TIME[-1]
+        return 0.02 * friction * ramp + 0.004 * math.log(modulus / 2e6) * (
+            ramp + 0.2 * np.sin(TIME)
+        )
+
+    def walk(scene, numerics, places):
+        x = along(scene.robot.modulus, scene.ground.friction)
+        return motion(places, 0.0)._replace(x=np.outer(x, np.ones(len(places))))
+
+    measured = along(2.1e6, 0.7) + np.random.default_rng(0).normal(0, NOISE, len(TIME))
+    data = [Series("left", "left", 0.0, TIME, measured, (Run(),), 0.0, 0)]
+    free = parameters(GROUND, "robot.modulus,surface.friction", "robot.modulus=2MPa",
+                      "surface.friction=0.3..0.7")  # fmt: skip
+    fit = estimate(Predictor(GROUND, data, walk), free)
+    assert fit.low[0] < 0.999 * fit.value[0]
+    assert fit.high[0] > 1.001 * fit.value[0]
+    assert fit.low[0] <= 2.1e6 <= fit.high[0]
+
+
 def test_of_parameters_seen_together_the_combination_alone_is_told():
     """Distance goes by the ratio of both bounds, and hardly anything by their product."""
     base = {"ground": {"tip_force": 0.03, "shear_strength": 20.0}}
