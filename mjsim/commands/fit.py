@@ -1,11 +1,9 @@
 """Fit fields of a scene to what was measured: `undulator fit`."""
 
-import dataclasses
 import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -16,11 +14,10 @@ from mjsim.files.cli import FAILED, fail, parse, say, strict_json
 from mjsim.files.files import check_folder, whole
 from mjsim.files.options import SceneOptions, tables_of
 from mjsim.files.tables import Tables
-from mjsim.files.text_table import Column, text_table
 
 if TYPE_CHECKING:
-    from mjsim.fitting.determined import Direction
     from mjsim.fitting.estimate import Estimate
+    from mjsim.fitting.report import Doubts
     from mjsim.fitting.walks import Predictor
 
 PROGRAM = "undulator fit"
@@ -28,8 +25,6 @@ EXAMPLES = (
     "track.csv --scene my.toml --free robot.modulus,surface.tip_force,surface.shear_strength",
     "runs.csv --robot quadruped --free surface.tip_force,robot.modulus --model quasi-static",
 )
-_CORRELATED = 0.3  # of neighbouring residuals; more and the intervals are too narrow; chosen
-_TOGETHER = 0.9  # correlation of parameters beyond which a note says so; chosen
 _OF_THE_SCENE = ("robot.", "valves.", "surface.")  # parameters that fit.toml has as keys
 
 
@@ -39,7 +34,8 @@ class Options(SceneOptions):
 
     Data are CSV files, which docs/fitting.md describes. Prints each parameter, and what the data do
     not determine; writes the fitted scene, fit.toml, and fit.png. Exit code 0: done; 2: bad input;
-    3: a parameter is not determined or ended at a bound.
+    3: a parameter is not determined or ended at a bound, or the model misses the data so much that
+    no interval holds.
     """
 
     data: Annotated[tuple[Path, ...], tyro.conf.Positional] = ()
@@ -54,6 +50,9 @@ class Options(SceneOptions):
     prior: str = ""
     """what is known beside the data, and counts as one more measurement:
     robot.modulus=2MPa+-0.2MPa,..."""
+    zero: Literal["angle", "pressure"] | None = None
+    """what a bench's files of pressure and angle may read at rest, one unknown per file: angle, the
+    protractor's; pressure, the sensor's, or the one at which the segment begins to bend"""
     model: Literal["mujoco", "quasi-static"] = "mujoco"
     """what walks: MuJoCo, coarse at first and at the end with the scene's own links and time step;
     or the elastica that friction bends, without inertia and with ideal valves"""
@@ -66,7 +65,7 @@ class Options(SceneOptions):
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv, EXAMPLES)
-    from mjsim.fitting.determined import at_bounds, undetermined
+    from mjsim.fitting.report import doubts_of, ignored, record_of, remarks, table, zeros
 
     try:
         if not options.data:
@@ -76,17 +75,19 @@ def main(argv: Sequence[str] | None = None) -> int:
             raise ValueError("surface must be one: runs on others say so in a column")
         check_folder(options.out)
         fit, record = _fit(options, base)
-        open_, bound = undetermined(fit, base), at_bounds(fit)
-        notes = _notes(fit, open_, bound)
-        paths = _write(options.out, fit, base, notes)
+        doubts = doubts_of(fit, base)
+        tables, refusal = _scene(fit, base)
+        notes = [*doubts.notes, *remarks(fit, doubts), *refusal, *ignored(fit)]
+        paths = _write(options.out, fit, tables, doubts, notes)
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
     if options.json:
-        say(strict_json(_record(fit, notes) | record | {"files": [str(p) for p in paths]}))
+        files = {"files": [str(path) for path in paths]}
+        say(strict_json(record_of(fit, doubts, notes) | record | files))
     else:
-        say("\n".join([_table(fit), _summary(fit, record), *notes]))
+        say("\n".join([table(fit, doubts), *zeros(fit), _summary(fit, record), *notes]))
         print(*paths)
-    return FAILED if open_ or bound else 0
+    return FAILED if doubts.notes else 0
 
 
 def _fit(options: Options, base: Tables) -> "tuple[Estimate, dict[str, Any]]":
@@ -97,14 +98,15 @@ def _fit(options: Options, base: Tables) -> "tuple[Estimate, dict[str, Any]]":
 
     began = time.perf_counter()
     free = parameters(base, options.free, options.start, options.bounds, options.prior)
-    series = read_observations(options.data)
+    series = read_observations(options.data, options.zero or "")
     walk, second = WALKS[options.model], next(k for k in WALKS if k != options.model)
     runs = {run for line in series if line.quantity != "angle" for run in line.runs}
     pool = processes(len(runs), len(free))
     try:
         fine = Predictor(base, series, walk, pool=pool)
         rough = fine
-        if options.model == "mujoco" and fine.changes(coarse):
+        start = {parameter.name: parameter.start for parameter in free}
+        if options.model == "mujoco" and fine.changes(coarse, start):
             rough = Predictor(base, series, walk, coarse, pool=pool)
         fit = estimate(rough, free, refined=fine if rough is not fine else None)
         apart = _apart(fit, Predictor(base, series, WALKS[second], pool=pool))
@@ -120,44 +122,38 @@ def _fit(options: Options, base: Tables) -> "tuple[Estimate, dict[str, Any]]":
 def _apart(fit: "Estimate", second: "Predictor") -> float | None:
     """Difference of a second model from the fitted one at the fit, over the noise: rms."""
     try:
-        predictions = second(fit.values)
+        predictions = second(fit.values, fit.pressure_zeros)
     except ValueError:  # a ground or a body that it does not know
         return None
     squares = []
     for series, model, prediction in zip(fit.series, fit.model, predictions, strict=True):
-        shift = 0.0 if series.offset is None else fit.offset[series.offset]
-        squares.append(((prediction + shift - model) / fit.noise[series.noise]) ** 2)
+        squares.append(((prediction + fit.level(series) - model) / fit.noise[series.noise]) ** 2)
     apart = float(np.sqrt(np.mean(np.concatenate(squares))))
     return apart if math.isfinite(apart) else None
 
 
-def _notes(fit: "Estimate", open_: "list[Direction]", bound: list[str]) -> list[str]:
-    """Reasons why the numbers are unsure, one line each."""
-    notes = [str(direction) for direction in open_]
-    notes += [f"{name} ended at a bound: its interval means nothing" for name in bound]
-    if not open_:
-        pairs = combinations(enumerate(p.name for p in fit.parameters), 2)
-        notes += [
-            f"{first} and {second} are seen together: correlation {fit.correlation[i, j]:+.2f}"
-            for (i, first), (j, second) in pairs if abs(fit.correlation[i, j]) > _TOGETHER
-        ]  # fmt: skip
-    neighbours = fit.autocorrelation()
-    if neighbours > _CORRELATED:
-        notes.append(
-            f"neighbouring residuals are alike (correlation {neighbours:.2f}): the model misses "
-            "something, and the intervals are too narrow"
-        )
-    return notes
-
-
-def _write(folder: Path, fit: "Estimate", base: Tables, notes: list[str]) -> list[Path]:
+def _scene(fit: "Estimate", base: Tables) -> tuple[Tables, list[str]]:
+    """Tables of the fitted scene, and a note if it cannot walk as it is."""
     from mjsim.files.tables import build
-    from mjsim.files.written import as_tables, as_toml
+    from mjsim.files.written import as_tables
     from mjsim.fitting.parameters import with_values
-    from mjsim.fitting.picture import draw
 
-    tables = as_tables(*build(with_values(base, fit.values)))
-    comments = ["Fitted; 95 % intervals:", *_table(fit).splitlines(), *notes]
+    tables = with_values(base, fit.values)
+    try:
+        return as_tables(*build(tables)), []
+    except ValueError as error:
+        return tables, [f"the fitted scene does not walk as it is: {error}"]
+
+
+def _write(
+    folder: Path, fit: "Estimate", tables: Tables, doubts: "Doubts", notes: list[str]
+) -> list[Path]:
+    from mjsim.files.written import as_toml
+    from mjsim.fitting.picture import draw
+    from mjsim.fitting.report import table, zeros
+
+    rows = table(fit, doubts).splitlines()
+    comments = ["Fitted; 95 % intervals:", *rows, *zeros(fit), *notes]
     others = sorted(name for name in fit.values if not name.startswith(_OF_THE_SCENE))
     if others:
         comments.append("of surfaces beside the scene's ground: " + ", ".join(
@@ -166,21 +162,6 @@ def _write(folder: Path, fit: "Estimate", base: Tables, notes: list[str]) -> lis
         part.write_text(as_toml(tables, comments), "utf-8")
     draw(fit, folder / "fit.png")
     return [folder / "fit.toml", folder / "fit.png"]
-
-
-def _table(fit: "Estimate") -> str:
-    columns = (
-        Column("parameter", "name"), Column("value", "value", ".4g"), Column("unit", "unit"),
-        Column("95 % interval", "interval"), Column("error", "error", ".2g"),
-    )  # fmt: skip
-    rows = [
-        {**row, "unit": "" if row["unit"] == "1" else row["unit"],
-         "interval": f"{row['low_95']:.4g} .. {row['high_95']:.4g}",
-         "error": f"{100 * row['relative_error']:.2g} %" if row["relative_error"] < 1
-         else "> 100 %"}
-        for row in _parameters(fit)
-    ]  # fmt: skip
-    return text_table(columns, rows)
 
 
 def _summary(fit: "Estimate", record: dict[str, Any]) -> str:
@@ -195,21 +176,3 @@ def _summary(fit: "Estimate", record: dict[str, Any]) -> str:
     )
     return (f"{fit.count} numbers, noise of {', '.join(noise)}{second}; {record['walks']} walks, "
             f"{record['wall_time_s']:.1f} s")  # fmt: skip
-
-
-def _parameters(fit: "Estimate") -> list[dict[str, Any]]:
-    """Fields of each parameter with its fitted value and interval."""
-    numbers = zip(fit.value.tolist(), fit.low.tolist(), fit.high.tolist(), fit.error.tolist(),
-                  strict=True)  # fmt: skip
-    return [
-        dataclasses.asdict(parameter) | {"unit": parameter.unit, "value": value, "low_95": low,
-                                         "high_95": high, "relative_error": error}
-        for parameter, (value, low, high, error) in zip(fit.parameters, numbers, strict=True)
-    ]  # fmt: skip
-
-
-def _record(fit: "Estimate", notes: list[str]) -> dict[str, Any]:
-    return {
-        "parameters": _parameters(fit), "correlation": fit.correlation.tolist(),
-        "noise_SI": fit.noise, "numbers": fit.count, "notes": notes,
-    }  # fmt: skip

@@ -2,8 +2,9 @@
 
 Parameters are fitted on a logarithmic scale. Residuals are over the noise of their kind; beyond
 Huber's bend they count by their size and no longer by its square (Huber 1964). The noise is
-estimated from the residuals (Huber's proposal 2), and standard errors are those of such an
-estimate, of errors that are independent of each other.
+estimated from the residuals (Huber's proposal 2). Intervals are where the cost itself has risen
+(mjsim.fitting.profile); they grow with residuals that are alike, and are withheld where these show
+that the model misses the data (mjsim.fitting.misfit).
 """
 
 from collections.abc import Sequence
@@ -13,16 +14,17 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from mjsim.fitting.observations import Series
+from mjsim.fitting.misfit import Misfit, misfit
+from mjsim.fitting.observations import PRESSURE, Series
 from mjsim.fitting.parameters import Parameter
-from mjsim.fitting.problem import BEND, Problem, by_name
+from mjsim.fitting.problem import Problem, by_name
+from mjsim.fitting.profile import Profiled, by_slopes, lowered, profiled
 from mjsim.fitting.walks import Predictor
 
 Array = NDArray[np.float64]
 
-_LOST = 1e-5  # of the largest information: below it is an error of the sensitivities, 0.1 %
-_ENDLESS = 1e3  # error of the logarithm of a parameter that the data do not determine at all
-_NOTHING = 1e-9  # deviations of the data for a unit of a logarithm, likewise
+
+_OPEN = 1.0  # error of a logarithm, beyond which bounds and not data end an interval; chosen
 
 
 @dataclass(frozen=True)
@@ -32,15 +34,18 @@ class Estimate:
     Attributes:
         parameters: that were free.
         value: of the parameters, (P,).
-        error: standard error of their logarithms, (P,): relative.
-        low, high: of the 95 % intervals, (P,).
-        covariance: of the logarithms, (P, P).
+        error: standard error of their logarithms, (P,): relative; as the interval is wide.
+        low, high: of the 95 % intervals, (P,): 0 or infinite where the data set no limit, NaN where
+            the model misses the data so that no interval holds.
+        covariance: of the logarithms, by the slopes at the fit, (P, P).
         sensitivity: of residuals over noise to the logarithms, (n, P).
         noise: standard deviation by kind [m, rad or m/s].
-        offset: data of x, by number [m].
+        offset: zeros, by number [m, rad or Pa].
+        offset_error: standard errors of them.
         series: measurements.
         model: prediction of each series, offsets included.
         count: numbers that were fitted.
+        misfit: structure of the residuals.
     """
 
     parameters: tuple[Parameter, ...]
@@ -52,14 +57,28 @@ class Estimate:
     sensitivity: Array
     noise: dict[str, float]
     offset: dict[int, float]
+    offset_error: dict[int, float]
     series: tuple[Series, ...]
     model: tuple[Array, ...]
     count: int
+    misfit: Misfit
 
     @property
     def values(self) -> dict[str, float]:
         """Values by name of the parameter."""
         return by_name(self.parameters, np.log(self.value))
+
+    @property
+    def pressure_zeros(self) -> dict[int, float]:
+        """Pressures that sensors show where there is none, by offset [Pa]."""
+        return {s.offset: self.offset[s.offset] for s in self.series
+                if s.zero == PRESSURE and s.offset is not None}  # fmt: skip
+
+    def level(self, series: Series) -> float:
+        """Zero of the values of a series, 0 if it has none [m or rad]."""
+        if series.offset is None or series.zero == PRESSURE:
+            return 0.0
+        return self.offset[series.offset]
 
     def residuals(self) -> list[Array]:
         """Residuals, data less model, of each series."""
@@ -68,16 +87,8 @@ class Estimate:
     @property
     def correlation(self) -> Array:
         """Correlation of the logarithms, (P, P)."""
-        return np.asarray(self.covariance / np.outer(self.error, self.error))
-
-    def autocorrelation(self) -> float:
-        """Correlation of residuals along time or pressure, the largest of all series."""
-        largest = 0.0
-        for series, residual in zip(self.series, self.residuals(), strict=True):
-            if len(residual) > 8 and len(series.runs) == 1:
-                part = np.clip(residual / self.noise[series.noise], -3, 3)[np.argsort(series.at)]
-                largest = max(largest, float(part[1:] @ part[:-1] / (part @ part)))
-        return largest
+        errors = np.sqrt(np.diag(self.covariance))
+        return np.asarray(self.covariance / np.outer(errors, errors))
 
 
 def estimate(
@@ -90,7 +101,8 @@ def estimate(
     Args:
         predictor: model that walks often.
         parameters: free ones.
-        refined: finer model in which the fit ends; its sensitivities are taken to be the same.
+        refined: finer model in which the fit ends; its sensitivities and the shapes of its
+            intervals are taken to be the same.
 
     Raises:
         ValueError: there are fewer numbers than unknowns, or the walk at the start fails.
@@ -104,59 +116,77 @@ def estimate(
     differences = problem.differences(point)
     failed = problem.failed(differences)
     if failed:
+        reasons = "".join(f" ({reason})" for reason in predictor.refused.values())
         raise ValueError(
-            f"the walk at the start fails in {', '.join(failed)}: give another --start"
+            f"the walk at the start fails in {', '.join(failed)}{reasons}: give another --start"
         )
     problem.set_noise(differences, spread=True)
-    point = problem.settle(point)
-    sensitivity = problem.sensitivity(point)
+    point, sensitivity = problem.settle(point)
+    structure = _structure(problem, point)
+    if structure.withheld:  # or the search has ended beside the minimum
+        point, sensitivity = lowered(problem, point, sensitivity)
+        structure = _structure(problem, point)
+    problem.inflation = structure.inflation
+    profile = (by_slopes if structure.withheld else profiled)(problem, point, sensitivity)
+    point, widths = profile.point, _widths(problem, profile)
     if refined is not None:
         problem.predictor = refined
-        point = problem.settle(point, sensitivity)
-    return _judged(problem, point, sensitivity)
+        point, _ = problem.settle(point, profile.sensitivity)
+    return _judged(problem, point, profile.sensitivity, widths)
 
 
-def _judged(problem: Problem, point: Array, sensitivity: Array) -> Estimate:
-    """Estimate with the errors of a bent loss (Huber, Robust Statistics, section 7.6)."""
+def _structure(problem: Problem, point: Array) -> Misfit:
+    """Structure of the residuals at a point."""
+    residuals = problem.split(-problem.differences(point))
+    return misfit(problem.series, residuals, problem.noise_by_kind())
+
+
+def _widths(problem: Problem, profile: Profiled) -> Array:
+    """Distances to the ends of the intervals over standard errors by the slopes, (2, P)."""
+    count = len(problem.parameters)
+    covariance = problem.covariance(profile.point, profile.sensitivity)
+    errors = np.sqrt(np.diag(covariance))[:count]
+    return np.stack([profile.below, profile.above]) / errors
+
+
+def _judged(problem: Problem, point: Array, sensitivity: Array, widths: Array) -> Estimate:
+    """Estimate with its errors.
+
+    Args:
+        problem: at its final noise.
+        point: of least cost.
+        sensitivity: of the model.
+        widths: see _widths.
+    """
     count, free = len(problem.parameters), max(problem.count - problem.unknowns, 1)
-    differences = problem.differences(point)
-    deviations = differences / problem.noise
-    inside = max(float(np.mean(np.abs(deviations) <= BEND)), 1 / problem.count)
-    variance = max(float(np.sum(np.clip(deviations, -BEND, BEND) ** 2)) / free, _NOTHING)
-    jacobian = problem.jacobian(sensitivity)
-    data, prior = jacobian[: problem.count], jacobian[problem.count :]
-    whole = _inverse(data.T @ data * inside**2 / variance + prior.T @ prior)
-    covariance = whole[:count, :count]
-    error = np.sqrt(np.diag(covariance))
-    logs, wide = point[:count], float(stats.t.ppf(0.975, free)) * error
+    structure = _structure(problem, point)
+    problem.inflation = structure.inflation
+    covariance = problem.covariance(point, sensitivity)
+    slopes = np.sqrt(np.diag(covariance))
+    ends = widths * slopes[:count]
+    quantile = float(stats.t.ppf(0.975, free))
+    closed = np.isfinite(ends).all(axis=0) & (slopes[:count] < _OPEN)
+    scale = np.where(closed, np.where(closed, widths, 0.0).mean(axis=0) / quantile, 1.0)
+    logs = point[:count]
     with np.errstate(over="ignore"):
-        low, high = np.exp(logs - wide), np.exp(logs + wide)
-    shifts = (point[count:] * problem.scale).tolist()
+        low, high = np.exp(logs - ends[0]), np.exp(logs + ends[1])
+    lost = np.nan if structure.withheld else 1.0
+    zeros = dict(zip(problem.offsets, (point[count:] * problem.scale).tolist(), strict=True))
+    unsure = dict(zip(problem.offsets, (slopes[count:] * problem.scale).tolist(), strict=True))
+    differences = problem.differences(point)
     return Estimate(
         parameters=problem.parameters,
         value=np.exp(logs),
-        error=error,
-        low=low,
-        high=high,
-        covariance=covariance,
-        sensitivity=jacobian[:, :count],
+        error=slopes[:count] * scale,
+        low=low * lost,
+        high=high * lost,
+        covariance=covariance[:count, :count],
+        sensitivity=problem.jacobian(sensitivity)[:, :count],
         noise=problem.noise_by_kind(),
-        offset=dict(zip(problem.offsets, shifts, strict=True)),
+        offset=zeros,
+        offset_error=unsure,
         series=problem.series,
         model=tuple(problem.split(problem.data + differences)),
         count=problem.count,
+        misfit=structure,
     )
-
-
-def _inverse(information: Array) -> Array:
-    """Inverse of a symmetric matrix, nearly infinite along directions that it does not determine.
-
-    It stays so small that the errors of the other directions do not drown in its rounding.
-    """
-    scale = np.maximum(np.sqrt(np.diag(information)), _NOTHING)
-    values, vectors = np.linalg.eigh(information / np.outer(scale, scale))
-    directions = vectors / scale[:, None]
-    endless = _ENDLESS**2 / (directions**2).sum(axis=0)
-    kept = values > _LOST
-    inverse = np.where(kept, 1 / np.where(kept, values, 1.0), endless)
-    return np.asarray((directions * inverse) @ directions.T)

@@ -5,7 +5,8 @@ A file is one of three kinds, told by its columns, whose heads name their units:
 - `time [s]` and some of `left [mm]`, `right [mm]`, `x@0.25 [mm]`, `z@0.5 [mm]`: places of the ends
   and of points marked at a part of the length, along a walk whose gait begins at time 0. Where the
   camera's x is 0 does not matter.
-- `pressure [kPa]` and `angle [deg]`: of a free segment; `length [mm]` if it is not the robot's.
+- `pressure [kPa]` and `angle [deg]`: of a free segment; `length [mm]` if it is not the robot's. The
+  log of a bench may have `time [s]` too; the segment is taken to be at rest at each sample.
 - `displacement [mm]` per cycle, `speed [mm/s]`, `height [mm]` or, of a robot of limbs, `turn [deg]`
   to the left per cycle: a row per run.
 
@@ -13,7 +14,8 @@ Of a robot of limbs left and right are the beginning and the end of the trunk, a
 along it.
 
 Any of them may have columns that tell runs apart: `surface`, a name, and fields of the scene such
-as `robot.peak_pressure [kPa]` or `gait.ramp_time [s]`. Cells may be empty.
+as `robot.peak_pressure [kPa]` or `gait.ramp_time [s]`. Cells may be empty. Capitals do not matter,
+and columns of other names beside known ones are ignored, which `Series.ignored` tells.
 """
 
 import itertools
@@ -25,6 +27,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.checks import one_of
 from mjsim.files.csv_table import CsvTable, name_of, read_csv
 from mjsim.fitting.parameters import unit_of
 
@@ -34,10 +37,13 @@ _PLACE = re.compile(r"([xz])@(\d*\.?\d+)")
 _UNITS = {"time": ("s", "s or ms"), "pressure": ("Pa", "kPa or psi"), "angle": ("rad", "deg"),
           "speed": ("m/s", "mm/s"), "turn": ("rad", "deg")}  # fmt: skip
 _LENGTH = ("m", "mm")  # of all others
-_TIME, _PRESSURE, RUN = "time", "pressure", "run"  # abscissas of the other columns
+_TIME, PRESSURE, RUN = "time", "pressure", "run"  # abscissas of the other columns
+_ANGLE, _SEGMENT = "angle", "length"
+ZEROS = (_ANGLE, PRESSURE)  # what a bench may read where there is none
+_SHORT = {"t": _TIME, "p": PRESSURE, "theta": _ANGLE}
 _ALONG = {
     _TIME: "left, right, x@0.25, z@0.5",
-    _PRESSURE: "angle, length",
+    PRESSURE: "angle, length",
     RUN: "displacement, speed, height, turn",
 }
 SURFACE = "surface"
@@ -71,7 +77,10 @@ class Series(NamedTuple):
         value: measurements, (n,) [m, rad or m/s].
         runs: of each value, or of all of them if it is one.
         length: of the segment that bends [m], 0 for one of the robot's.
-        offset: number of the series' datum of x, or None where there is none to be found.
+        offset: number of the series' zero, or None where there is none to be found: the x of the
+            camera, or of the quantity that `zero` names.
+        zero: angle or pressure, or empty.
+        ignored: heads of columns of the file that are not read.
     """
 
     name: str
@@ -82,12 +91,14 @@ class Series(NamedTuple):
     runs: tuple[Run, ...]
     length: float = 0.0
     offset: int | None = None
+    zero: str = ""
+    ignored: tuple[str, ...] = ()
 
     @property
     def abscissa(self) -> str:
         """Quantity of `at`: time, pressure or run."""
-        if self.quantity == "angle":
-            return _PRESSURE
+        if self.quantity == _ANGLE:
+            return PRESSURE
         return RUN if self.quantity in _ALONG[RUN].split(", ") else _TIME
 
     @property
@@ -101,39 +112,52 @@ class Series(NamedTuple):
         return "position" if self.abscissa == _TIME else self.quantity
 
 
-def read_observations(paths: Sequence[Path]) -> list[Series]:
+def read_observations(paths: Sequence[Path], zero: str = "") -> list[Series]:
     """Read the series of all files.
 
+    Args:
+        paths: of the files.
+        zero: angle or pressure, of which each file of bending has a zero that is to be found; or
+            empty.
+
     Raises:
-        ValueError: a file cannot be read, is of none of the three kinds, or holds no number.
+        ValueError: a file cannot be read, is of none of the three kinds, or holds no number; or
+            there is no file of bending that has a zero.
     """
+    if zero:
+        one_of("zero", zero, ZEROS)
     offsets = itertools.count()
-    return [series for path in paths for series in _of_file(path, offsets)]
+    series = [series for path in paths for series in _of_file(path, offsets, zero)]
+    if zero and not any(each.zero for each in series):
+        raise ValueError(f"zero is of files of pressure and angle, got {zero!r} and no such file")
+    return series
 
 
-def _of_file(path: Path, offsets: Iterator[int]) -> list[Series]:
+def _of_file(path: Path, offsets: Iterator[int], zero: str) -> list[Series]:
     table = read_csv(path, "data")
-    names = [name_of(head) for head in table.heads]
+    names = [_name(head) for head in table.heads]
     for name in names:
         if names.count(name) > 1:
             raise ValueError(f"{table.where}: column {name!r} stands twice")
     marks = [name for name in names if _is_field(name)]
-    measured = [name for name in names if name != SURFACE and name not in marks]
-    abscissa = _abscissa(table, names, measured)
-    cells = {name: _column(table, name, column) for column, name in enumerate(names)}
+    abscissa, measured = _columns(table, names, marks)
+    used = {abscissa, SURFACE, *marks, *measured}
+    unread = {*names} - used - ({_TIME} if abscissa == PRESSURE else set())
+    ignored = tuple(h for h, name in zip(table.heads, names, strict=True) if name in unread)
+    cells = {name: _column(table, name, column) for column, name in enumerate(names)
+             if name in used}  # fmt: skip
     runs = [
         Run(surface, tuple((name, float(cells[name][row])) for name in marks))
         for row, surface in enumerate(cells.get(SURFACE, [None] * len(table.rows)))
     ]
     series = []
+    of_bench = next(offsets) if zero and abscissa == PRESSURE else None
     for run in [None] if abscissa == RUN else dict.fromkeys(runs):
         rows = np.array([run is None or row_run == run for row_run in runs], dtype=bool)
         offset = next(offsets)
         for name in measured:
-            if name in (abscissa, "length"):
-                continue
             kept = rows & np.isfinite(cells[name])
-            if not kept.any():
+            if name == _SEGMENT or not kept.any():
                 continue
             match = _PLACE.fullmatch(name)
             quantity, place = match.groups() if match else (name, 0.0)
@@ -146,8 +170,10 @@ def _of_file(path: Path, offsets: Iterator[int]) -> list[Series]:
                     numbers + np.float64(1) if abscissa == RUN else cells[abscissa][kept],
                     cells[name][kept],
                     tuple(runs[row] for row in numbers) if run is None else (run,),
-                    _length(table, cells["length"][kept]) if "length" in cells else 0.0,
-                    offset if quantity in ("left", "right", "x") else None,
+                    _length(table, cells[_SEGMENT][kept]) if _SEGMENT in cells else 0.0,
+                    offset if quantity in ("left", "right", "x") else of_bench,
+                    zero if abscissa == PRESSURE else "",
+                    ignored,
                 )
             )
     if not series:
@@ -155,28 +181,45 @@ def _of_file(path: Path, offsets: Iterator[int]) -> list[Series]:
     return series
 
 
+def _name(head: str) -> str:
+    """Name of a column, in small letters and spelled out, but for fields of the scene."""
+    name = name_of(head)
+    return name if _is_field(name) else _SHORT.get(name.lower(), name.lower())
+
+
 def _is_field(name: str) -> bool:
     """True for a column of a field of the scene, as robot.peak_pressure."""
     return "." in name and "@" not in name
 
 
-def _abscissa(table: CsvTable, names: list[str], measured: list[str]) -> str:
-    """Column that the others are a function of: time, pressure, or run where there is none."""
-    abscissa = next((name for name in (_TIME, _PRESSURE) if name in names), RUN)
-    others = [name for name in measured if name != abscissa]
+def _columns(table: CsvTable, names: list[str], marks: list[str]) -> tuple[str, list[str]]:
+    """Columns to read: what the others are a function of, time, pressure or run; and the others.
+
+    Time stands beside pressure and angle in the log of a bench, whose samples are of rest.
+    """
+    bench = PRESSURE in names and _ANGLE in names
+    abscissa = PRESSURE if bench else next((n for n in (_TIME, PRESSURE) if n in names), RUN)
     heads = _ALONG[abscissa]
+    others = [name for name in names if name not in (abscissa, SURFACE, *marks)]
     places = {name: _PLACE.fullmatch(name) if abscissa == _TIME else None for name in others}
-    wrong = [name for name in others if not places[name] and name not in heads.split(", ")]
-    beside = "" if abscissa == RUN else f"beside {abscissa} "
-    if wrong or not others:
+    known = [name for name in others if places[name] or name in heads.split(", ")]
+    if not {*known} - {_SEGMENT}:
+        unknown = next((name for name in others if name not in known), "")
+        beside = "" if abscissa == RUN else f"beside {abscissa} "
         raise ValueError(
-            f"{table.where}: column {wrong[0] if wrong else ''!r} is unknown; known {beside}are "
-            f"{heads}, surface, and fields such as robot.peak_pressure"
+            f"{table.where}: column {unknown!r} is unknown; known {beside}are {heads}, surface, "
+            "and fields such as robot.peak_pressure"
+        )
+    track = [name for name in others if name in ("left", "right") or _PLACE.fullmatch(name)]
+    if bench and track:
+        raise ValueError(
+            f"{table.where}: {track[0]!r}, of a walk, and angle, of a free segment, must be in "
+            "files of their own"
         )
     for name, place in places.items():
         if place and float(place.group(2)) > 1:
             raise ValueError(f"{table.where}: {name}: a place must be a part of the length, 0 to 1")
-    return abscissa
+    return abscissa, known
 
 
 def _column(table: CsvTable, name: str, column: int) -> Any:
@@ -184,7 +227,7 @@ def _column(table: CsvTable, name: str, column: int) -> Any:
     if name == SURFACE:
         return [row[column] for _, row in table.rows]
     if not _is_field(name):
-        gaps = name not in (_TIME, _PRESSURE, "length")
+        gaps = name not in (_TIME, PRESSURE, _SEGMENT)
         return table.numbers(column, *_UNITS.get(name, _LENGTH), gaps)
     try:
         unit = unit_of(name)

@@ -5,14 +5,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from analytic.scene.limbs import limbs_of
-from analytic.scene.robot import GRAVITY
-from analytic.scene.surface import SURFACES
+from analytic.scene.limbs import AnyRobot, limbs_of
+from analytic.scene.robot import GRAVITY, Robot
+from analytic.scene.surface import SURFACES, Ground
 from mjsim.files.keys import NAMES, SURFACE_FIELDS, check_keys
+from mjsim.files.limb_tables import build_robot, of_limbs
 from mjsim.files.quantities import field_unit, spelled_out, with_fields
-from mjsim.files.tables import Tables, build
-from mjsim.files.typed import Table
+from mjsim.files.tables import Tables, build_ground
+from mjsim.files.typed import Table, make
 from mjsim.files.units import in_unit
+from mjsim.scene.valves import Valves
 
 _FACTOR = 100.0  # from the start to a bound that is not given
 _SUFFIX = "fitted"  # of the names of surfaces with fitted values
@@ -96,17 +98,33 @@ def nominal(base: Tables, name: str) -> float:
         ValueError: it is 0 or not given.
     """
     table, _, key = name.partition(".")
-    scene, _ = build(base)
-    robot = scene.robot if hasattr(scene.robot, key) else limbs_of(scene.robot)[0].strip
-    owners = {**SURFACES, "robot": robot, "valves": scene.valves}
-    value = getattr(owners.get(table, scene.ground), key, None)
-    if key == "mass" and value is None:
-        value = scene.robot.weight / GRAVITY
+    if table == "robot":
+        whole = robot_of(base)
+        robot = whole if hasattr(whole, key) else limbs_of(whole)[0].strip
+        value = getattr(robot, key, None)
+        if key == "mass" and value is None:
+            value = whole.weight / GRAVITY
+    elif table == "valves":
+        value = getattr(make(Valves, base.get("valves", {}), "[valves] "), key)
+    else:
+        ground = SURFACES[table] if table in SURFACES else ground_of(base)
+        value = getattr(ground, key, None)
     if not (isinstance(value, float) and value > 0):
         raise ValueError(
             f"{name} is not above 0 in the scene: give it a start, --start {name}=VALUE"
         )
     return value
+
+
+def robot_of(tables: Tables) -> AnyRobot:
+    """The robot of a scene's tables, whether or not it can walk the scene's gait."""
+    table = tables.get("robot", {})
+    return build_robot(table, "[robot] ") if of_limbs(table) else make(Robot, table, "[robot] ")
+
+
+def ground_of(tables: Tables) -> Ground:
+    """The ground of a scene's tables."""
+    return build_ground(tables.get("ground", {}), "[ground] ")
 
 
 def with_values(

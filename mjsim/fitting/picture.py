@@ -42,7 +42,7 @@ def draw(estimate: Estimate, path: Path) -> None:
         ):
             order = np.argsort(each.at)
             x = each.at[order] / (1e3 if each.abscissa == "pressure" else 1)
-            shift = 0.0 if each.offset is None else estimate.offset[each.offset]
+            shift = estimate.level(each)
             unit, factor = {"m": ("mm", 1e3), "m/s": ("mm/s", 1e3)}.get(each.unit, (each.unit, 1))
             top.plot(x, factor * (each.value[order] - shift), ".", color="C0", ms=4, label="data")
             style = "x" if each.abscissa == RUN else "-"

@@ -5,6 +5,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +21,7 @@ from analytic.solvers.models import Elastica
 from mjsim.files import plugins
 from mjsim.files.tables import Tables, build
 from mjsim.fitting.observations import RUN, Run, Series
-from mjsim.fitting.parameters import with_values
+from mjsim.fitting.parameters import robot_of, with_values
 from mjsim.results.measures import measure
 from mjsim.results.prediction import reference
 from mjsim.scene import Numerics, Scene, resolved
@@ -145,8 +146,12 @@ class Predictor:
         numerics: function from a scene and its numerics to those to walk it with.
         pool: processes for many walks at once, if there are any.
 
+    Values that the scene refuses, as those at which the strip would close into a circle, count as a
+    walk that fails.
+
     Attributes:
         walks: number of walks so far.
+        refused: reasons why the scene refused values, by what was refused.
     """
 
     base: Tables
@@ -155,32 +160,51 @@ class Predictor:
     numerics: Callable[[Scene, Numerics], Numerics] = lambda scene, numerics: numerics
     pool: ProcessPoolExecutor | None = None
     walks: int = 0
+    refused: dict[str, str] = field(default_factory=dict)
     _motions: dict[str, Motion | None] = field(default_factory=dict)
 
-    def __call__(self, values: Mapping[str, float]) -> list[Array]:
-        """Predictions, one array per series, NaN where the walk failed."""
-        return self.all([values])[0]
+    def __call__(
+        self, values: Mapping[str, float], zeros: Mapping[int, float] = MappingProxyType({})
+    ) -> list[Array]:
+        """Predictions, one array per series, NaN where the walk failed.
 
-    def all(self, points: Iterable[Mapping[str, float]]) -> list[list[Array]]:
-        """Predictions at several points, their walks as one batch."""
-        points = list(points)
+        Args:
+            values: of parameters, by name.
+            zeros: pressures that sensors show where there is none, by offset [Pa].
+        """
+        self.all([values])
+        return [self._of(series, values, zeros) for series in self.series]
+
+    def all(self, points: Iterable[Mapping[str, float]]) -> None:
+        """Walk at several points as one batch; later calls remember the walks."""
         todo: dict[str, tuple[Scene, Numerics]] = {}
         for values in points:
             for run in self._runs():
                 key, tables = self._tables(values, run)
-                if key not in self._motions and key not in todo:
+                if key in self._motions or key in todo:
+                    continue
+                try:
                     scene, numerics = build(tables)
                     todo[key] = scene, self.numerics(scene, numerics)
+                except ValueError as error:
+                    self._motions[key], self.refused[key] = None, str(error)
         jobs = [(*case, self._places) for case in todo.values()]
         use = self.pool.map if self.pool is not None and len(jobs) > 1 else map
         motions = use(self.walk, *zip(*jobs, strict=True)) if jobs else ()
         self._motions |= dict(zip(todo, motions, strict=True))
         self.walks += len(jobs)
-        return [[self._of(series, values) for series in self.series] for values in points]
 
-    def changes(self, numerics: Callable[[Scene, Numerics], Numerics]) -> bool:
-        """True if other numerics than the scene's would be walked."""
-        scene, fine = build(self.base)
+    def changes(
+        self, numerics: Callable[[Scene, Numerics], Numerics], values: Mapping[str, float]
+    ) -> bool:
+        """True if other numerics than the scene's would be walked, at values of the parameters.
+
+        Raises:
+            ValueError: the scene refuses the values.
+        """
+        if not self._runs():
+            return False
+        scene, fine = build(with_values(self.base, values))
         return resolved(scene, numerics(scene, fine)) != resolved(scene, fine)
 
     @property
@@ -197,9 +221,10 @@ class Predictor:
         tables = with_values(self.base, values, dict(run.fields), run.surface)
         return json.dumps(tables, sort_keys=True, default=str), tables
 
-    def _of(self, series: Series, values: Mapping[str, float]) -> Array:
+    def _of(self, series: Series, values: Mapping[str, float], zeros: Mapping[int, float]) -> Array:
         if series.quantity == "angle":
-            return self._angle(series, values)
+            zero = 0.0 if series.offset is None else zeros.get(series.offset, 0.0)
+            return self._angle(series._replace(at=series.at - zero), values)
         motions = [self._motions[self._tables(values, run)[0]] for run in series.runs]
         if series.abscissa == RUN:
             return np.array([_number(series, motion) for motion in motions])
@@ -216,9 +241,12 @@ class Predictor:
         return np.interp(series.at, motion.time, track)
 
     def _angle(self, series: Series, values: Mapping[str, float]) -> Array:
-        run = series.runs[0]
-        robot = build(self._tables(values, run)[1])[0].robot
-        strip = limbs_of(robot)[0].strip
+        key, tables = self._tables(values, series.runs[0])
+        try:
+            strip = limbs_of(robot_of(tables))[0].strip
+        except ValueError as error:
+            self.refused[key] = str(error)
+            return np.full(len(series.at), np.nan)
         length = series.length or strip.length * (strip.borders[1] - strip.borders[0])
         return pneunet.natural_curvature(strip, series.at) * length
 

@@ -60,6 +60,36 @@ def test_what_the_data_leave_open_is_said_and_the_exit_code_is_3(tmp_path, capsy
     assert "the data do not determine robot.modulus robot.thickness^-0.33" in printed
 
 
+def test_a_law_that_misses_the_data_withholds_intervals_with_exit_code_3(tmp_path, capsys):
+    pressure = np.linspace(1, 50, 40)
+    path = tmp_path / "soft_start.csv"
+    rows = "".join(f"{p},{0.02 * p**2}\n" for p in pressure)
+    path.write_text("pressure [kPa],angle [deg]\n" + rows)
+    code = fit.main([str(path), "--free", "robot.modulus", "--out", str(tmp_path), "--json"])
+    found = json.loads(capsys.readouterr().out)
+    assert code == 3
+    (one,) = found["parameters"]
+    assert (one["interval"], one["low_95"], one["high_95"]) == ("withheld", None, None)
+    assert "the model misses something" in found["notes"][0]
+
+
+def test_the_log_of_a_bench_gives_its_zero_and_a_scene_that_may_not_walk(tmp_path, capsys):
+    """Nine degrees a kPa from 2 kPa on: the default gait's 48 kPa would close the strip."""
+    path = tmp_path / "log.csv"
+    rows = "".join(f"{p / 10},{p},{9 * (p - 2)},21\n" for p in range(2, 23))
+    path.write_text("time [s],pressure [kPa],angle [deg],room [degC]\n" + rows)
+    code = fit.main([str(path), "--free", "robot.modulus", "--zero", "pressure", "--out",
+                     str(tmp_path)])  # fmt: skip
+    printed = capsys.readouterr().out
+    assert code == 0
+    assert "2.793e+05" in printed
+    assert "zero of pressure in log.csv: 2 kPa" in printed
+    assert "columns that are not read: room [degC]" in printed
+    assert "the fitted scene does not walk as it is: peak_pressure must be below" in printed
+    tables = tomllib.loads((tmp_path / "fit.toml").read_text())
+    assert tables["robot"]["modulus"] == pytest.approx(2.793e5, rel=1e-3)
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -69,6 +99,7 @@ def test_what_the_data_leave_open_is_said_and_the_exit_code_is_3(tmp_path, capsy
         (["RUNS", "--free", "robot.modulus", "--surface", "all"], "surface must be one"),
         (["RUNS", "--free", "robot.modulus", "--bounds", "robot.modulus=3..4"], "its bounds"),
         (["RUNS", "--free", "robot.modulus", "--model", "guess"], "--model"),
+        (["RUNS", "--free", "robot.modulus", "--zero", "angle"], "zero is of files of pressure"),
     ],
 )
 def test_bad_input_is_one_line_and_exit_code_2(runs, tmp_path, capsys, arguments, words):
