@@ -3,6 +3,7 @@
 import contextlib
 import io
 import json
+import logging
 import math
 import re
 import sys
@@ -39,6 +40,29 @@ def fail(program: str, message: str) -> NoReturn:
 def warn(program: str, message: str) -> None:
     """Print one line on stderr."""
     print(f"{program}: {message}", file=sys.stderr)
+
+
+class _Notes(logging.Handler):
+    """Notes of the logger "mjsim", such as on what was made of a file, as lines on stderr."""
+
+    def __init__(self, program: str) -> None:
+        super().__init__()
+        self._program, self._printed = program, set[str]()
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Print the note in one line, once."""
+        line = " ".join(record.getMessage().split())
+        if line not in self._printed:
+            warn(self._program, line)
+        self._printed.add(line)
+
+
+def _print_notes(program: str) -> None:
+    """Let notes be printed under the name of a command."""
+    log = logging.getLogger("mjsim")
+    for handler in [handler for handler in log.handlers if isinstance(handler, _Notes)]:
+        log.removeHandler(handler)
+    log.addHandler(_Notes(program))
 
 
 def say(text: str) -> None:
@@ -103,6 +127,7 @@ def parse(
         examples: that the help ends with, without the name of the command.
     """
     printed = io.StringIO()
+    _print_notes(program)
     try:
         with contextlib.redirect_stderr(printed):
             return tyro.cli(kind, prog=program, args=argv, config=(tyro.conf.FlagCreatePairsOff,))

@@ -15,6 +15,7 @@ Every table and every key is optional over the defaults. A number may be a text 
 length = "90 mm"; in tables all are SI once they are built.
 """
 
+import logging
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -29,6 +30,7 @@ from analytic.scene.surface import SURFACES, Ground, Surface
 from analytic.scene.trapezoid import trapezoid
 from mjsim.files.keys import (
     NAMES,
+    OF_A_LOG,
     SCENE_FIELDS,
     SIDES,
     SURFACE_FIELDS,
@@ -39,14 +41,13 @@ from mjsim.files.keys import (
 from mjsim.files.limb_tables import KEYS as LIMB_KEYS
 from mjsim.files.limb_tables import build_robot, of_limbs
 from mjsim.files.typed import Table, as_number, as_type, checked, make, read_toml
-from mjsim.scene.numerics import Numerics
+from mjsim.scene.numerics import FEWEST_STEPS, Numerics
 from mjsim.scene.scene import Scene, resolved
 from mjsim.scene.valves import Valves
 
+LOG = logging.getLogger("mjsim")
 Tables = dict[str, Table]
 _STRIP = Robot()
-
-FILES = (".toml", ".csv")  # of gaits
 
 
 def read_tables(path: Path) -> Tables:
@@ -95,21 +96,29 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
         build_robot(table, f"{where}[robot] ") if of_limbs(table)
         else make(Robot, table, f"{where}[robot] ")
     )  # fmt: skip
-    gait, highest = _gait_of(tables.get("gait", {}), f"{where}[gait] ", robot)
+    values = tables.get("numerics", {})
+    check_keys("numerics", values, where)
+    rest = {key: value for key, value in values.items() if key not in SCENE_FIELDS}
+    numerics = make(Numerics, rest, f"{where}[numerics] ")
+    valves = make(Valves, tables.get("valves", {}), f"{where}[valves] ")
+    timed = tables.get("gait", {})
+    gait, highest = _gait_of(timed, f"{where}[gait] ", robot, _shortest(numerics, robot))
+    if highest is not None and not (valves.ideal or timed.get("commands", False)):
+        LOG.warning(
+            "gait %s: its pressures were measured in the chambers, so that [valves] does not "
+            "act; for commands of valves say commands = true, or --commands",
+            gait.name,
+        )
+        valves = Valves()
     if highest is not None and "peak_pressure" in table:
         gait = _of_peak(gait, highest, robot.peak_pressure, f"{where}[robot] ")
     elif highest is not None:
         robot = replace(robot, peak_pressure=highest)
     ground = tables.get("ground", {})
     slope = as_type(float, ground.get("slope_deg", 0.0), f"{where}[ground] slope_deg", "deg")
-    values = tables.get("numerics", {})
-    check_keys("numerics", values, where)
     scene_values = {key: value for key, value in values.items() if key in SCENE_FIELDS}
     checked_values = checked(Scene, scene_values, f"{where}[numerics] ")
-    valves = make(Valves, tables.get("valves", {}), f"{where}[valves] ")
     under = build_ground(ground, f"{where}[ground] ")
-    rest = {key: value for key, value in values.items() if key not in SCENE_FIELDS}
-    numerics = make(Numerics, rest, f"{where}[numerics] ")
     try:
         scene = Scene(robot=robot, gait=gait, ground=under, slope=math.radians(slope),
                       valves=valves, **checked_values)  # fmt: skip
@@ -217,15 +226,43 @@ def _sides(table: Table, where: str) -> dict[str, float]:
     }
 
 
-def _gait_of(table: Table, where: str, robot: AnyRobot) -> tuple[Gait, float | None]:
+def is_file(text: str) -> bool:
+    """Tell whether the word for a gait is a file's: by an ending or a folder, or there is one."""
+    path = Path(text)
+    return bool(path.suffix) or path.name != text or path.is_file()
+
+
+def is_log(text: str) -> bool:
+    """Tell whether the file of a gait is one of measured pressures, and no TOML."""
+    return Path(text).suffix.lower() != ".toml"
+
+
+def _shortest(numerics: Numerics, robot: AnyRobot) -> float:
+    """Duration of the shortest ramp that a simulation can follow [s]."""
+    in_space = isinstance(robot, LimbedRobot)
+    return FEWEST_STEPS * numerics.resolved(Scene.body, Scene.friction, in_space).timestep
+
+
+def _gait_of(
+    table: Table, where: str, robot: AnyRobot, shortest: float
+) -> tuple[Gait, float | None]:
     """The gait, and the highest pressure if it was measured [Pa]."""
-    if not str(table.get("file", "")).endswith(".csv"):
+    file = str(table.get("file", ""))
+    if not file or not is_log(file):
+        for key in OF_A_LOG:
+            if key in table:
+                raise ValueError(
+                    f"{where}{key} is for a file of measured pressures, got {table[key]!r}"
+                )
         return build_gait(table, where, robot), None
     for key in table:
-        one_of(f"{where}key beside a .csv file", key, ("file", "reverse", "name"))
+        one_of(f"{where}key beside a .csv file", key, ("file", "reverse", "name", *OF_A_LOG))
     from mjsim.files.measured import read_gait  # needs scipy.linalg, which takes long to import
 
-    gait, highest = read_gait(Path(str(table["file"])), robot.chambers)
+    options = checked(GaitKeys, {key: table[key] for key in OF_A_LOG if key in table}, where)
+    gait, highest = read_gait(
+        Path(file), robot.chambers, options.get("columns", ()), options.get("cycle"), shortest
+    )
     gait = replace(gait, name=table.get("name", gait.name))
     return (gait.reversed() if table.get("reverse") else gait), highest
 

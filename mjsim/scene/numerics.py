@@ -8,6 +8,7 @@ from analytic.checks import one_of, positive, whole
 MIN_LINKS, MAX_LINKS = 6, 384
 FEWEST_IN_SPACE = 2  # of a limb
 LONGEST_STEP = 0.1  # s
+FEWEST_STEPS = 4  # of a ramp; with fewer the gait is not seen; chosen
 
 Integrator = Literal["discrete", "Euler", "implicitfast", "implicit", "RK4"]
 Cone = Literal["elliptic", "pyramidal"]
