@@ -39,8 +39,8 @@ class GaitKeys:
     file: str | None = None
     """a TOML table of these keys, or a CSV of measured pressures"""
     columns: tuple[str, ...] | None = None
-    """of a CSV, names of the columns of the chambers in their order, the time's before them if there
-    is one more; a unit in brackets counts in place of the file's"""
+    """of a CSV, names of the columns of the chambers in their order, before them the time's if it
+    is given; a unit in brackets counts in place of the file's"""
     cycle: float | None = None
     """of a CSV, duration of a cycle in it, of which the last whole one repeats [s]"""
     commands: bool = False

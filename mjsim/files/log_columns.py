@@ -2,8 +2,8 @@
 
 The time is told by its name. Chambers are told by the names of the robot's chambers, as `left
 [kPa]` or `pressure right`; else by numbers or letters, as p3, p2, p1 or a, b, c, in their order;
-else they are the columns of pressures from left to right, where there are as many as chambers. Other columns
-do not count, and are named in a note.
+else they are the columns of pressures from left to right, where there are as many as chambers.
+Other columns do not count, and are named in a note.
 """
 
 import re

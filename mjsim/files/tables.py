@@ -41,6 +41,7 @@ from mjsim.files.keys import (
 from mjsim.files.limb_tables import KEYS as LIMB_KEYS
 from mjsim.files.limb_tables import build_robot, of_limbs
 from mjsim.files.typed import Table, as_number, as_type, checked, make, read_toml
+from mjsim.scene.magnitudes import check_robot
 from mjsim.scene.numerics import FEWEST_STEPS, Numerics
 from mjsim.scene.scene import Scene, resolved
 from mjsim.scene.valves import Valves
@@ -96,6 +97,10 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
         build_robot(table, f"{where}[robot] ") if of_limbs(table)
         else make(Robot, table, f"{where}[robot] ")
     )  # fmt: skip
+    try:
+        check_robot(robot, table)
+    except ValueError as error:
+        raise ValueError(f"{where}[robot] {error}") from error
     values = tables.get("numerics", {})
     check_keys("numerics", values, where)
     rest = {key: value for key, value in values.items() if key not in SCENE_FIELDS}
@@ -206,7 +211,7 @@ def build_gait(table: Table, where: str = "", robot: AnyRobot = _STRIP) -> Gait:
         name, known = table.pop("name", "wave"), {**GAITS, **QUADRUPED_GAITS}
         if isinstance(robot, LimbedRobot) and not of_quadruped:
             raise ValueError(f"{where}stages must be given for {', '.join(robot.chambers)}")
-        one_of(f"{where}name of a gait without stages", name, known if of_quadruped else GAITS)
+        one_of(f"{where}name", name, known if of_quadruped else GAITS)
         gait = replace(known[name], **checked(Gait, table, where)) if table else known[name]
     if sides and gait.segments != 3:
         raise ValueError(f"{where}{next(iter(sides))} is for gaits of three segments such as "

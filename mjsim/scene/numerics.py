@@ -4,6 +4,7 @@ from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
 
 from analytic.checks import one_of, positive, whole
+from analytic.fields import in_si
 
 MIN_LINKS, MAX_LINKS = 6, 384
 FEWEST_IN_SPACE = 2  # of a limb
@@ -74,6 +75,7 @@ class Numerics:
     contacts alike, which is weak where some are bound [s]; chosen"""
 
     def __post_init__(self) -> None:
+        in_si(self)
         one_of("integrator", self.integrator, INTEGRATORS)
         one_of("cone", self.cone, CONES)
         for item in fields(self):
