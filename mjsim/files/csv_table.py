@@ -138,7 +138,20 @@ def read_csv(path: Path, what: str) -> CsvTable:
             raise ValueError(f"{where}: line {number}: needs {len(heads)} numbers, got {len(row)}")
     if decimal != ".":
         rows = [(number, [cell.replace(decimal, ".") for cell in row]) for number, row in rows]
+    if rows and _are_units(rows[0][1]):  # a line of units below the names
+        (_, units), *rows = rows
+        heads = [
+            f"{head} [{unit}]" if unit else head for head, unit in zip(heads, units, strict=True)
+        ]
     return CsvTable(where, heads, rows)
+
+
+def _are_units(cells: list[str]) -> bool:
+    """Tell whether cells are units, or empty, and no numbers, which "1" is too."""
+    words = [cell for cell in cells if cell]
+    return bool(words) and all(
+        not word[0].isdigit() and find(split_reference(word)[0]) is not None for word in words
+    )
 
 
 def name_of(head: str) -> str:

@@ -42,6 +42,7 @@ _SAID = frozenset(  # words that say no more than that a column is of pressures
         "the",
     ]
 )
+_NUMBER = re.compile(r"[-+\d.,eE]+")
 _ABSOLUTE = ("abs", "absolute")
 
 
@@ -81,6 +82,11 @@ def find_columns(table: CsvTable, chambers: Sequence[str], chosen: Sequence[str]
     Raises:
         ValueError: a column is not there or not a single one, or it is not clear which are meant.
     """
+    if all(_NUMBER.fullmatch(head) for head in table.heads):
+        raise ValueError(
+            f"{table.where}: needs a first line of names and units, such as time [s], p1 [kPa]; "
+            f"got {', '.join(table.heads)}"
+        )
     heads = [head_of(head) for head in table.heads]
     if chosen:
         return _chosen(table, heads, chambers, chosen)
@@ -96,7 +102,7 @@ def find_columns(table: CsvTable, chambers: Sequence[str], chosen: Sequence[str]
     pressures = [i for i in others if _is_pressure(heads[i])]
     candidates = sorted({*pressures, *(named if pressures else others)})
     picked, notes = _picked(table, heads, keys, candidates, known)
-    ignored = [table.heads[i] for i in others if i not in picked]
+    ignored = [table.heads[i] for i in others if i not in picked and table.heads[i]]
     if ignored:
         notes.append(f"columns that do not count: {', '.join(map(repr, ignored))}")
     return Columns(time, picked, heads, notes)

@@ -169,8 +169,9 @@ def as_gait(
         raise ValueError("no pressure is above the noise")
     if found.moved or len(time) < found.found:
         LOG.warning(
-            "gait %s: %d of %d corners merged that were closer than %g s: corners move by up to "
-            "%.3g s, pressures on their way by up to %.2g kPa", name, found.found - len(time),
+            "gait %s: %d of %d corners merged, as some were closer than %g s: the others "
+            "move by up to %.3g s, and pressures on the way by up to %.2g kPa",
+            name, found.found - len(time),
             found.found, shortest, found.moved, 1e-3 * found.changed,
         )  # fmt: skip
     if cycle is not None:

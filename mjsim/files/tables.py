@@ -107,7 +107,7 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
     numerics = make(Numerics, rest, f"{where}[numerics] ")
     valves = make(Valves, tables.get("valves", {}), f"{where}[valves] ")
     timed = tables.get("gait", {})
-    gait, highest = _gait_of(timed, f"{where}[gait] ", robot, _shortest(numerics, robot))
+    gait, highest = _gait_of(timed, f"{where}[gait] ", robot, numerics)
     if highest is not None and not (valves.ideal or timed.get("commands", False)):
         LOG.warning(
             "gait %s: its pressures were measured in the chambers, so that [valves] does not "
@@ -249,7 +249,7 @@ def _shortest(numerics: Numerics, robot: AnyRobot) -> float:
 
 
 def _gait_of(
-    table: Table, where: str, robot: AnyRobot, shortest: float
+    table: Table, where: str, robot: AnyRobot, numerics: Numerics
 ) -> tuple[Gait, float | None]:
     """The gait, and the highest pressure if it was measured [Pa]."""
     file = str(table.get("file", ""))
@@ -265,6 +265,7 @@ def _gait_of(
     from mjsim.files.measured import read_gait  # needs scipy.linalg, which takes long to import
 
     options = checked(GaitKeys, {key: table[key] for key in OF_A_LOG if key in table}, where)
+    shortest = _shortest(numerics, robot)
     gait, highest = read_gait(
         Path(file), robot.chambers, options.get("columns", ()), options.get("cycle"), shortest
     )

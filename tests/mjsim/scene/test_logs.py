@@ -230,6 +230,17 @@ def test_columns_that_are_not_clear_are_asked_for(tmp_path, heads, named):
         read_series(path, ("left", "middle", "right"))
 
 
+def test_units_may_stand_in_a_line_of_their_own_and_heads_may_not_lack(tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text("Time,p2,p1,\nms,kPa,psig,\n0,1,2,\n500,1,2,\n")
+    read = read_series(path, ("1", "2"))
+    assert read.time.tolist() == [0.0, 0.5]
+    assert read.pressure[0].tolist() == pytest.approx([2 * PSI, 1e3])
+    path.write_text("0,1,2\n1,1,2\n")
+    with pytest.raises(ValueError, match="first line of names"):
+        read_series(path)
+
+
 def test_dates_and_times_of_day_are_times(tmp_path):
     path = tmp_path / "log.csv"
     begin = datetime.datetime(2024, 2, 28, 23, 59, 59)
