@@ -12,6 +12,7 @@ from analytic.scene.surface import SURFACES, Surface
 from mjsim.files import plugins
 from mjsim.files.cli import ALL, Plugins
 from mjsim.files.dataclass_options import given, optional, parts
+from mjsim.files.gait_files import is_file
 from mjsim.files.keys import (
     KEYS,
     SCENE_FIELDS,
@@ -21,7 +22,7 @@ from mjsim.files.keys import (
     GaitKeys,
     GroundKeys,
 )
-from mjsim.files.tables import Tables, is_file, merged, read_tables
+from mjsim.files.tables import Tables, merged, read_tables
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene
 from mjsim.scene.valves import Valves

@@ -20,7 +20,7 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
-from analytic.checks import one_of
+from analytic.checks import meant, one_of
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.ground import Patches
 from analytic.scene.limbs import ORDER, AnyRobot, LimbedRobot
@@ -28,6 +28,7 @@ from analytic.scene.quadruped_gaits import QUADRUPED_GAITS, undulation
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES, Ground, Surface
 from analytic.scene.trapezoid import trapezoid
+from mjsim.files.gait_files import is_log, shortest_ramp
 from mjsim.files.keys import (
     NAMES,
     OF_A_LOG,
@@ -42,7 +43,7 @@ from mjsim.files.limb_tables import KEYS as LIMB_KEYS
 from mjsim.files.limb_tables import build_robot, of_limbs
 from mjsim.files.typed import Table, as_number, as_type, checked, make, read_toml
 from mjsim.scene.magnitudes import check_robot
-from mjsim.scene.numerics import FEWEST_STEPS, Numerics
+from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene, resolved
 from mjsim.scene.valves import Valves
 
@@ -211,7 +212,13 @@ def build_gait(table: Table, where: str = "", robot: AnyRobot = _STRIP) -> Gait:
         name, known = table.pop("name", "wave"), {**GAITS, **QUADRUPED_GAITS}
         if isinstance(robot, LimbedRobot) and not of_quadruped:
             raise ValueError(f"{where}stages must be given for {', '.join(robot.chambers)}")
-        one_of(f"{where}name", name, known if of_quadruped else GAITS)
+        names = known if of_quadruped else GAITS
+        if name not in names and not meant(name, names):
+            raise ValueError(
+                f"{where}name must be one of {', '.join(names)}, or a file; "
+                f"got {name!r}: no such file"
+            )
+        one_of(f"{where}name", name, names)
         gait = replace(known[name], **checked(Gait, table, where)) if table else known[name]
     if sides and gait.segments != 3:
         raise ValueError(f"{where}{next(iter(sides))} is for gaits of three segments such as "
@@ -231,23 +238,6 @@ def _sides(table: Table, where: str) -> dict[str, float]:
     }
 
 
-def is_file(text: str) -> bool:
-    """Tell whether the word for a gait is a file's: by an ending or a folder, or there is one."""
-    path = Path(text)
-    return bool(path.suffix) or path.name != text or path.is_file()
-
-
-def is_log(text: str) -> bool:
-    """Tell whether the file of a gait is one of measured pressures, and no TOML."""
-    return Path(text).suffix.lower() != ".toml"
-
-
-def _shortest(numerics: Numerics, robot: AnyRobot) -> float:
-    """Duration of the shortest ramp that a simulation can follow [s]."""
-    in_space = isinstance(robot, LimbedRobot)
-    return FEWEST_STEPS * numerics.resolved(Scene.body, Scene.friction, in_space).timestep
-
-
 def _gait_of(
     table: Table, where: str, robot: AnyRobot, numerics: Numerics
 ) -> tuple[Gait, float | None]:
@@ -265,7 +255,7 @@ def _gait_of(
     from mjsim.files.measured import read_gait  # needs scipy.linalg, which takes long to import
 
     options = checked(GaitKeys, {key: table[key] for key in OF_A_LOG if key in table}, where)
-    shortest = _shortest(numerics, robot)
+    shortest = shortest_ramp(numerics, robot)
     gait, highest = read_gait(
         Path(file), robot.chambers, options.get("columns", ()), options.get("cycle"), shortest
     )

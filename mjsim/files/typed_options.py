@@ -9,7 +9,7 @@ from typing import Any, get_args, get_type_hints
 from analytic.checks import meant
 
 _SUBJECT = re.compile(
-    r"(?:\[(?P<table>\w+)\] )?(?P<key>[a-z_]+)(?P<rest>(?:'s parts)? (?:must|is) .*)", re.DOTALL
+    r"(?:\[(?P<table>\w+)\] )?(?P<key>[a-z_]+)(?P<rest>(?:'s parts)? (?:must|is for) .*)", re.DOTALL
 )
 _TABLES = {"surface": "ground"}  # of options that are called otherwise
 _OTHERS = {"--ground": "--surface", "--mu": "--surface.friction", "--dt": "--timestep",

@@ -6,9 +6,11 @@ from analytic.units import in_unit
 from mjsim import Gait, Numerics, Robot, Scene, Surface, Valves, as_tables, simulate
 from mjsim.commands.run import main
 from mjsim.files.csv_table import head_of
+from mjsim.files.quantities import check_field
 from mjsim.files.tables import build
 from mjsim.scene import resolved
 from mjsim.sweeps.export import with_unit
+from mjsim.sweeps.plan import make_plan
 from mjsim.sweeps.rows import Job, rows_of
 
 
@@ -120,6 +122,10 @@ def test_python_takes_names_and_values_with_units():
 @pytest.mark.parametrize(
     ("make", "named"),
     [
+        (lambda: check_field("modulus"), "did you mean robot.modulus"),
+        (lambda: check_field("robo.modulus"), "did you mean robot.modulus"),
+        (lambda: check_field("robot.modulos"), "did you mean modulus"),
+        (lambda: make_plan({"grdi": {}}), "did you mean grid"),
         (lambda: Scene(ground="fel"), "did you mean felt"),
         (lambda: Scene(gait="wav"), "did you mean wave"),
         (lambda: Scene("strp"), "did you mean strip"),

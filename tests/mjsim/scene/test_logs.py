@@ -294,7 +294,9 @@ def test_what_was_measured_in_chambers_is_not_filtered_again(tmp_path, caplog):
     assert commanded.valves.fill_time == 0.5
 
 
-@pytest.mark.parametrize("name", ["UP.CSV", "log.csv", "gait.toml", "folder/log.txt", "walk.tsv"])
+@pytest.mark.parametrize(
+    "name", ["UP.CSV", "log.csv", "gait.toml", "folder/log.txt", "walk.tsv", "log"]
+)
 def test_a_file_that_is_not_there_is_no_such_file(capsys, name):
     with pytest.raises(SystemExit) as stop:
         main(["--gait", name, "--no-video"])
