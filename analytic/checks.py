@@ -2,12 +2,15 @@
 
 import math
 from collections.abc import Collection, Iterable
+from difflib import get_close_matches
 from numbers import Integral, Real
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 _LONGEST_WORD = 60  # of a file name
+_ALIKE = 0.7  # part of the letters from which on a word is taken for another mistyped; chosen
 
 
 def is_number(value: Any) -> bool:
@@ -43,7 +46,9 @@ def one_of(name: str, value: Any, valid: Iterable[str]) -> None:
         return  # a registry need not look for all that it has
     words = list(valid)
     if value not in words:
-        raise ValueError(f"{name} must be one of {', '.join(words)}; got {value!r}")
+        raise ValueError(
+            f"{name} must be one of {', '.join(words)}; got {value!r}{meant(value, words)}"
+        )
 
 
 def slope(value: Any) -> None:
@@ -86,3 +91,19 @@ def times_of(times: Any, rows: int) -> None:
             f"times of a path must not decrease, got {clock[back[0] + 1]:g} s after "
             f"{clock[back[0]]:g} s"
         )
+
+
+def meant(word: Any, words: Iterable[str]) -> str:
+    """Question after the word that is meant by a mistyped one, or nothing."""
+    known = {name.lower(): name for name in words}
+    near = get_close_matches(str(word).lower(), known, 1, _ALIKE)
+    return f"; did you mean {known[near[0]]}?" if near else ""
+
+
+def missing(path: Path, error: OSError) -> str:
+    """Reason why a file cannot be read; of one that is not there the name of a similar one."""
+    if not isinstance(error, FileNotFoundError):
+        return str(error.strerror)
+    if not path.parent.is_dir():
+        return f"no such file, nor a folder {str(path.parent)!r}"
+    return f"no such file{meant(path.name, (other.name for other in path.parent.iterdir()))}"

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.checks import file_word, is_number, positive
+from analytic.units import in_unit
 
 Array = NDArray[np.float64]
 
@@ -43,8 +44,12 @@ class Gait:
     def __post_init__(self) -> None:
         file_word("name of a gait", self.name)
         object.__setattr__(self, "stages", tuple(tuple(stage) for stage in self.stages))
-        if isinstance(self.ramp_time, Sequence):
-            object.__setattr__(self, "ramp_time", tuple(self.ramp_time))
+        times = self.ramp_time
+        if isinstance(times, str):
+            times = in_unit("ramp_time", times, "s")
+        elif isinstance(times, Sequence):
+            times = tuple(in_unit("ramp_time", t, "s") if isinstance(t, str) else t for t in times)
+        object.__setattr__(self, "ramp_time", times)
         if len(self.stages) < 2:
             raise ValueError(f"stages must be at least two, got {len(self.stages)}")
         for stage in self.stages:

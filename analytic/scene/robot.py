@@ -4,6 +4,7 @@ from dataclasses import dataclass, fields
 from itertools import accumulate
 
 from analytic.checks import positive
+from analytic.fields import in_si
 
 PSI = 6894.757293168  # Pa in a pound-force per square inch (NIST SP 811)
 GRAVITY = 9.81  # m/s^2
@@ -19,6 +20,8 @@ class Robot:
 
     The weight and the chamber height of the default robot are identified from two statements of
     [Majidi13] by `python -m studies.identification`; the other values are chosen.
+
+    A number may be a text with its unit, as in length="110 mm", and is in SI then.
 
     What was measured may be given in place of what it follows from: mass for weight_per_length,
     rigidity for modulus (both are turned into the other at once), curvature_per_pressure and
@@ -57,6 +60,7 @@ class Robot:
     """eta of (9), in place of what the chambers give [N m^2/Pa]"""
 
     def __post_init__(self) -> None:
+        in_si(self)
         if isinstance(self.segments, str) or not hasattr(self.segments, "__iter__"):
             raise ValueError(f"segments must be lengths, one per segment, got {self.segments!r}")
         object.__setattr__(self, "segments", tuple(self.segments))

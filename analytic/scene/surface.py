@@ -6,6 +6,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from analytic.checks import file_word, not_negative
+from analytic.fields import in_si
 
 TIP_FORCE = 0.034  # V0 [N]; chosen: Phi = V0 L^2 / D0 = 1.5 on the default robot
 REFERENCE_AREA = 0.040 * 0.130 / 3  # of one third of the default robot [m^2]
@@ -19,6 +20,8 @@ class Surface:
 
     Which of its numbers act is the friction law's matter, see analytic.friction.laws: constant
     bounds use tip_force and shear_strength, Coulomb friction the two coefficients.
+
+    A number may be a text with its unit, as in tip_force="30 mN", and is in SI then.
 
     Raises:
         ValueError: a value is negative or not finite, or the name is no file name.
@@ -48,6 +51,7 @@ class Surface:
 
     def __post_init__(self) -> None:
         file_word("name of a surface", self.name)
+        in_si(self)
         if self.tip_friction is None:
             object.__setattr__(self, "tip_friction", self.friction)
         for field in fields(self):

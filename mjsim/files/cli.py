@@ -3,6 +3,7 @@
 import contextlib
 import io
 import json
+import logging
 import math
 import re
 import sys
@@ -10,6 +11,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Annotated, NoReturn, TypeVar
 
 import tyro
+
+from analytic.checks import meant
+from mjsim.files.typed_options import TypedOptions
 
 Options = TypeVar("Options")
 Plugins = Annotated[
@@ -30,8 +34,16 @@ _PLAINER = str.maketrans({"Δ": "D", "×": "x", "±": "+-", "°": "deg"})
 _PATIENCE = 2.0  # s before a progress bar shows
 
 
+_typed: dict[str, TypedOptions] = {}  # of the command of this process, for its messages
+
+
 def fail(program: str, message: str) -> NoReturn:
-    """Print one line on stderr and exit with the code for bad input."""
+    """Print one line on stderr and exit with the code for bad input.
+
+    A message that begins with the key of an option that was typed begins with the option.
+    """
+    if program in _typed:
+        message = _typed[program].named(message)
     print(f"{program}: error: {' '.join(message.split())}", file=sys.stderr)
     sys.exit(BAD_INPUT)
 
@@ -39,6 +51,29 @@ def fail(program: str, message: str) -> NoReturn:
 def warn(program: str, message: str) -> None:
     """Print one line on stderr."""
     print(f"{program}: {message}", file=sys.stderr)
+
+
+class _Notes(logging.Handler):
+    """Notes of the logger "mjsim", such as on what was made of a file, as lines on stderr."""
+
+    def __init__(self, program: str) -> None:
+        super().__init__()
+        self._program, self._printed = program, set[str]()
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Print the note in one line, once."""
+        line = " ".join(record.getMessage().split())
+        if line not in self._printed:
+            warn(self._program, line)
+        self._printed.add(line)
+
+
+def _print_notes(program: str) -> None:
+    """Let notes be printed under the name of a command."""
+    log = logging.getLogger("mjsim")
+    for handler in [handler for handler in log.handlers if isinstance(handler, _Notes)]:
+        log.removeHandler(handler)
+    log.addHandler(_Notes(program))
 
 
 def say(text: str) -> None:
@@ -74,7 +109,9 @@ def choose(name: str, text: str, valid: Iterable[str]) -> list[str]:
     chosen = names if text == ALL else text.split(",")
     for word in chosen:
         if word not in names:
-            raise ValueError(f"{name} must be one of {', '.join(names)}, {ALL}; got {word!r}")
+            raise ValueError(
+                f"{name} must be one of {', '.join(names)}, {ALL}; got {word!r}{meant(word, names)}"
+            )
     return chosen
 
 
@@ -103,14 +140,17 @@ def parse(
         examples: that the help ends with, without the name of the command.
     """
     printed = io.StringIO()
+    _print_notes(program)
+    words = list(sys.argv[1:] if argv is None else argv)
+    _typed[program] = TypedOptions(kind, words)
     try:
         with contextlib.redirect_stderr(printed):
-            return tyro.cli(kind, prog=program, args=argv, config=(tyro.conf.FlagCreatePairsOff,))
+            return tyro.cli(kind, prog=program, args=words, config=(tyro.conf.FlagCreatePairsOff,))
     except SystemExit as stop:
         if stop.code == 0:
             say("\n".join(["examples:", *(f"  {program} {words}" for words in examples)]))
             raise
-    fail(program, _first_message(printed.getvalue()))
+    fail(program, _typed_message(_first_message(printed.getvalue()), _typed[program]))
 
 
 def _first_message(text: str) -> str:
@@ -123,17 +163,28 @@ def _first_message(text: str) -> str:
             body.append(inner)
         elif body:
             break
-    return _plain(" ".join(body) or words)
+    return " ".join(body) or words
 
 
-def _plain(message: str) -> str:
-    """Tyro's message of a word that is no number or no choice, in the words of analytic.checks."""
+def _typed_message(message: str, typed: TypedOptions) -> str:
+    """Tyro's message in the words of analytic.checks, with the option that was typed or meant."""
     number = re.fullmatch(
         r"(?i)Error parsing (?:--\S+/)?--([^\s/]+): .*\b(int|float)\b.*(?:: |from \[)('.*?')\]?\.?",
         message,
     )
     if number is not None:
         name, kind, word = number.groups()
-        name = name.rpartition(".")[2].replace("-", "_")
-        return f"{name} must be a {'whole ' if kind.lower() == 'int' else ''}number, got {word}"
+        whole = "whole " if kind.lower() == "int" else ""
+        return f"{typed.as_typed(f'--{name}')} must be a {whole}number, got {word}"
+    choice = re.fullmatch(
+        r"invalid choice '(.*)' for argument '(\S+?)'\. Expected one of \((.*)\)\.", message
+    )
+    if choice is not None:
+        word, name, listed = choice.groups()
+        valid = sorted(set(re.findall(r"'([^']*)'", listed)) - {"None"})
+        option = typed.as_typed(name.partition("/")[0])
+        return f"{option} must be one of {', '.join(valid)}; got {word!r}{meant(word, valid)}"
+    strange = re.fullmatch(r"Unrecognized options: (.*)", message)
+    if strange is not None:
+        message = typed.unknown(strange.group(1).split(", "))
     return f"{message} (see --help)"

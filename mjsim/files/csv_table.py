@@ -1,7 +1,8 @@
 """Tables of measured numbers: CSV whose heads name their units, as `time [s]` or `p1_kPa`.
 
-Columns are separated by commas, semicolons (then with decimal commas) or tabs; lines that begin
-with # are comments.
+Units may also stand as in `Time (in ms)`, `p1 / kPa`, `p1, psig` or `p1 kgf/cm2`. Columns are
+separated by commas, semicolons or tabs, then with decimal commas or points; lines that begin with #
+are comments.
 """
 
 import csv
@@ -13,10 +14,28 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.checks import missing
+from analytic.units import find, split_reference
 from mjsim.files.units import in_unit
 
-_UNIT = re.compile(r"(.*?)\s*[\[(]\s*(.+?)\s*[\])]\s*|.+_([A-Za-z]+)")
+_BRACKETS = re.compile(r"(.*?)\s*[\[({]\s*(?:in\s+)?(.+?)\s*[\])}]\s*")
+_BARE = re.compile(r"(.*?)(?:\s*[,/:]\s*|\s+in\s+|\s+|_)(\S+(?:\s*\(?(?:g|a|gauge|abs)\)?)?)\s*")
+_SINGLE = ("s", "m", "N", "%")  # units of one letter that need no brackets
 _EMPTY = ("", "nan", "na")
+
+
+class Head(NamedTuple):
+    """Title of a column.
+
+    Attributes:
+        name: without its unit.
+        unit: as written, empty where there is none.
+        absolute: whether it is of pressures over none, None where it does not say.
+    """
+
+    name: str
+    unit: str
+    absolute: bool | None
 
 
 class CsvTable(NamedTuple):
@@ -48,12 +67,17 @@ class CsvTable(NamedTuple):
                 number.
         """
         head = self.heads[column]
-        values = [
-            math.nan if gaps and row[column].lower() in _EMPTY
-            else self._number(line, head, row[column])
-            for line, row in self.rows
-        ]  # fmt: skip
-        return np.array(values) * (1.0 if unit == "1" else self._factor(head, unit, known))
+        cells = [row[column] for _, row in self.rows]
+        try:
+            values = np.array(cells).astype(float)
+        except ValueError:
+            values = np.array([math.nan])
+        if not np.isfinite(values).all():
+            values = np.array([
+                math.nan if gaps and cell.lower() in _EMPTY else self._number(line, head, cell)
+                for (line, _), cell in zip(self.rows, cells, strict=True)
+            ])  # fmt: skip
+        return values * (1.0 if unit == "1" else self._factor(head, unit, known))
 
     def _number(self, line: int, head: str, cell: str) -> float:
         try:
@@ -65,13 +89,13 @@ class CsvTable(NamedTuple):
         return value
 
     def _factor(self, head: str, unit: str, known: str) -> float:
-        match = _UNIT.fullmatch(head)
-        if match is None:
+        words = head_of(head).unit
+        if not words:
             raise ValueError(
                 f"{self.where}: column {head!r} must name its unit, such as {known}, in brackets"
             )
         try:
-            return in_unit(head, f"1 {match.group(2) or match.group(3)}", unit)
+            return in_unit(head, f"1 {words}", unit)
         except ValueError:
             raise ValueError(
                 f"{self.where}: column {head!r} must have a unit such as {known}"
@@ -92,7 +116,7 @@ def read_csv(path: Path, what: str) -> CsvTable:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        raise ValueError(f"{where} cannot be read: {error.strerror}") from error
+        raise ValueError(f"{where} cannot be read: {missing(path, error)}") from error
     except UnicodeDecodeError as error:
         raise ValueError(f"{where} is no text: {error}") from error
     lines = {
@@ -104,18 +128,58 @@ def read_csv(path: Path, what: str) -> CsvTable:
         raise ValueError(f"{where} is empty")
     first = next(iter(lines.values()))
     mark = next((mark for mark in ";\t" if mark in first), ",")
-    decimal = "," if mark == ";" else "."
+    decimal = "." if mark == "," else ","
     (_, heads), *rows = [
-        (number, [cell.strip().replace(decimal, ".") for cell in row])
+        (number, [cell.strip() for cell in row])
         for number, row in zip(lines, csv.reader(lines.values(), delimiter=mark), strict=True)
     ]
     for number, row in rows:
         if len(row) != len(heads):
             raise ValueError(f"{where}: line {number}: needs {len(heads)} numbers, got {len(row)}")
+    if decimal != ".":
+        rows = [(number, [cell.replace(decimal, ".") for cell in row]) for number, row in rows]
+    if rows and _are_units(rows[0][1]):  # a line of units below the names
+        (_, units), *rows = rows
+        heads = [
+            f"{head} [{unit}]" if unit else head for head, unit in zip(heads, units, strict=True)
+        ]
     return CsvTable(where, heads, rows)
 
 
+def _are_units(cells: list[str]) -> bool:
+    """Tell whether cells are units, or empty, and no numbers, which "1" is too."""
+    words = [cell for cell in cells if cell]
+    return bool(words) and all(
+        not word[0].isdigit() and find(split_reference(word)[0]) is not None for word in words
+    )
+
+
 def name_of(head: str) -> str:
-    """Name of a column without its unit in brackets."""
-    match = _UNIT.fullmatch(head)
-    return match.group(1) or head if match else head
+    """Name of a column without its unit."""
+    return head_of(head).name
+
+
+def head_of(head: str) -> Head:
+    """Name and unit of a column, told by brackets, or by a unit that is known behind the name."""
+    bare = _BARE.fullmatch(head)
+    match, words = _BRACKETS.fullmatch(head), ""
+    if match is not None:
+        name, words = match[1], match[2]
+        # the last brackets, where those before them are part of the name
+        inner = _BRACKETS.fullmatch(head[match.start(2) :])
+        while inner is not None and find(split_reference(words)[0]) is None:
+            name, words = head[: head.rindex(inner[2])].rstrip("[({ "), inner[2]
+            inner = _BRACKETS.fullmatch(head[head.rindex(inner[2]) :])
+    elif bare is not None and _is_unit(bare[2]):
+        name, words = bare[1], bare[2]
+    else:
+        return Head(head.strip(), "", None)
+    unit, absolute = split_reference(words)
+    return Head(name.strip(), unit, absolute)
+
+
+def _is_unit(words: str) -> bool:
+    """Tell whether the end of a head is a unit, and no part of its name as in `p_l` or `p_in`."""
+    if len(words) == 1 or words == "in":
+        return words in _SINGLE
+    return find(split_reference(words)[0]) is not None

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
+from analytic.checks import meant
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Surface
 from mjsim.files.limb_tables import KEYS as LIMB_KEYS
@@ -37,6 +38,14 @@ class GaitKeys:
     """run the stages backwards"""
     file: str | None = None
     """a TOML table of these keys, or a CSV of measured pressures"""
+    columns: tuple[str, ...] | None = None
+    """of a CSV, names of the columns of the chambers in their order, before them the time's if it
+    is given; a unit in brackets counts in place of the file's"""
+    cycle: float | None = None
+    """of a CSV, duration of a cycle in it, of which the last whole one repeats [s]"""
+    commands: bool = False
+    """pressures of the CSV are what valves are told, not what a sensor in the chambers measured:
+    [valves] acts on them"""
     repeats: bool = True
     """the stages are a cycle"""
     left: float = 1.0
@@ -53,6 +62,7 @@ class GroundKeys:
     """the ground rises towards +x by this angle [deg]"""
 
 
+OF_A_LOG = ("columns", "cycle", "commands")
 TRAPEZOID = ("lag", "duty", "ramp")
 SIDES = ("left", "right")  # of the quadruped
 SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation", "gravity",
@@ -82,4 +92,5 @@ def check_keys(name: str, table: Mapping[str, Any], where: str = "") -> None:
         if key not in KEYS[name]:
             raise ValueError(
                 f"{where}key {key!r} of [{name}] is unknown; known are {', '.join(KEYS[name])}"
+                f"{meant(key, KEYS[name])}"
             )

@@ -12,6 +12,7 @@ from analytic.scene.surface import SURFACES, Surface
 from mjsim.files import plugins
 from mjsim.files.cli import ALL, Plugins
 from mjsim.files.dataclass_options import given, optional, parts
+from mjsim.files.gait_files import is_file
 from mjsim.files.keys import (
     KEYS,
     SCENE_FIELDS,
@@ -21,7 +22,7 @@ from mjsim.files.keys import (
     GaitKeys,
     GroundKeys,
 )
-from mjsim.files.tables import FILES, Tables, merged, read_tables
+from mjsim.files.tables import Tables, merged, read_tables
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene
 from mjsim.scene.valves import Valves
@@ -32,7 +33,11 @@ _RobotOptions = optional(
     {"peak_pressure": "--pressure", "segments": "--segments"},
 )
 _SurfaceOptions = optional("SurfaceOptions", {Surface: SURFACE_FIELDS})
-_GaitOptions = optional("GaitOptions", {GaitKeys: ["stages", "ramp_time", *TRAPEZOID, "period"]})
+_GaitOptions = optional(
+    "GaitOptions",
+    {GaitKeys: ["stages", "ramp_time", *TRAPEZOID, "period", "columns", "cycle"]},
+    {"columns": "--columns", "cycle": "--cycle"},
+)
 _GroundOptions = optional("GroundOptions", {GroundKeys: ["slope_deg"]}, {"slope_deg": "--slope"})
 _NumericsOptions = optional(
     "NumericsOptions",
@@ -57,9 +62,12 @@ class SceneOptions:
     gait: Annotated[Optional[str], _bare] = None  # noqa: UP045
     """wave, full-wave, pulse: the order in which the segments inflate; of the quadruped spin and
     crawl too; a .toml file with stages and ramp_time; or a .csv file of measured pressures, time
-    and one column per segment, units in the heads"""
+    and one column per chamber, units in the heads"""
     reverse: bool = False
     """run the gait's stages backwards"""
+    commands: bool = False
+    """the pressures of the .csv file are commands of valves, on which --valves acts, and were not
+    measured in the chambers"""
     robot: Annotated[Optional[str], _bare] = None  # noqa: UP045
     """strip, or quadruped: a torso and four legs in space"""
     plugin: Plugins = ()
@@ -105,10 +113,15 @@ def tables_of(options: SceneOptions) -> list[Tables]:
         robot["segments"] = words if isinstance(words, tuple) else (words,)
     if "ramp_time" in gait:
         gait["ramp_time"] = parts(gait["ramp_time"])
+    if "columns" in gait:
+        words = parts(gait["columns"])
+        gait["columns"] = words if isinstance(words, tuple) else (words,)
     if "stages" in gait:
         gait["stages"] = _stages(gait["stages"])
     if options.gait is not None:
-        gait["file" if options.gait.endswith(FILES) else "name"] = options.gait
+        gait["file" if is_file(options.gait) else "name"] = options.gait
+    if options.commands:
+        gait["commands"] = True
     if options.reverse:
         gait["reverse"] = True
     layers = [read_tables(options.scene)] if options.scene else []

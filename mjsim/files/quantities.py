@@ -3,9 +3,10 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from analytic.checks import meant
 from analytic.scene.surface import SURFACES
 from mjsim.files.fields import field_docs, units
-from mjsim.files.keys import KINDS, NAMES, SURFACE_FIELDS, check_keys
+from mjsim.files.keys import KEYS, KINDS, NAMES, SURFACE_FIELDS, check_keys
 from mjsim.files.tables import Tables, merged
 from mjsim.files.typed import Table
 from mjsim.files.units import in_unit
@@ -18,9 +19,16 @@ def check_field(name: str) -> None:
     if table not in NAMES or not key:
         raise ValueError(
             f"field {name!r} is unknown; fields are a table ({', '.join(NAMES)}) and a key of it, "
-            "such as robot.modulus or ground.surface"
+            f"such as robot.modulus or ground.surface{_meant(name)}"
         )
     check_keys(table, {key: None})
+
+
+def _meant(name: str) -> str:
+    """Question after the field that may be meant, by its whole name or its key alone."""
+    fields = {f"{table}.{key}": key for table in NAMES for key in KEYS[table]}
+    same = next((field for field, key in fields.items() if key == name), None)
+    return f"; did you mean {same}?" if same else meant(name, fields)
 
 
 def field_unit(name: str) -> str:

@@ -15,11 +15,12 @@ Every table and every key is optional over the defaults. A number may be a text 
 length = "90 mm"; in tables all are SI once they are built.
 """
 
+import logging
 import math
 from dataclasses import replace
 from pathlib import Path
 
-from analytic.checks import one_of
+from analytic.checks import meant, one_of
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.ground import Patches
 from analytic.scene.limbs import ORDER, AnyRobot, LimbedRobot
@@ -27,8 +28,10 @@ from analytic.scene.quadruped_gaits import QUADRUPED_GAITS, undulation
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES, Ground, Surface
 from analytic.scene.trapezoid import trapezoid
+from mjsim.files.gait_files import is_log, shortest_ramp
 from mjsim.files.keys import (
     NAMES,
+    OF_A_LOG,
     SCENE_FIELDS,
     SIDES,
     SURFACE_FIELDS,
@@ -39,14 +42,14 @@ from mjsim.files.keys import (
 from mjsim.files.limb_tables import KEYS as LIMB_KEYS
 from mjsim.files.limb_tables import build_robot, of_limbs
 from mjsim.files.typed import Table, as_number, as_type, checked, make, read_toml
+from mjsim.scene.magnitudes import check_robot
 from mjsim.scene.numerics import Numerics
 from mjsim.scene.scene import Scene, resolved
 from mjsim.scene.valves import Valves
 
+LOG = logging.getLogger("mjsim")
 Tables = dict[str, Table]
 _STRIP = Robot()
-
-FILES = (".toml", ".csv")  # of gaits
 
 
 def read_tables(path: Path) -> Tables:
@@ -95,21 +98,33 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
         build_robot(table, f"{where}[robot] ") if of_limbs(table)
         else make(Robot, table, f"{where}[robot] ")
     )  # fmt: skip
-    gait, highest = _gait_of(tables.get("gait", {}), f"{where}[gait] ", robot)
+    try:
+        check_robot(robot, table)
+    except ValueError as error:
+        raise ValueError(f"{where}[robot] {error}") from error
+    values = tables.get("numerics", {})
+    check_keys("numerics", values, where)
+    rest = {key: value for key, value in values.items() if key not in SCENE_FIELDS}
+    numerics = make(Numerics, rest, f"{where}[numerics] ")
+    valves = make(Valves, tables.get("valves", {}), f"{where}[valves] ")
+    timed = tables.get("gait", {})
+    gait, highest = _gait_of(timed, f"{where}[gait] ", robot, numerics)
+    if highest is not None and not (valves.ideal or timed.get("commands", False)):
+        LOG.warning(
+            "gait %s: its pressures were measured in the chambers, so that [valves] does not "
+            "act; for commands of valves say commands = true, or --commands",
+            gait.name,
+        )
+        valves = Valves()
     if highest is not None and "peak_pressure" in table:
         gait = _of_peak(gait, highest, robot.peak_pressure, f"{where}[robot] ")
     elif highest is not None:
         robot = replace(robot, peak_pressure=highest)
     ground = tables.get("ground", {})
     slope = as_type(float, ground.get("slope_deg", 0.0), f"{where}[ground] slope_deg", "deg")
-    values = tables.get("numerics", {})
-    check_keys("numerics", values, where)
     scene_values = {key: value for key, value in values.items() if key in SCENE_FIELDS}
     checked_values = checked(Scene, scene_values, f"{where}[numerics] ")
-    valves = make(Valves, tables.get("valves", {}), f"{where}[valves] ")
     under = build_ground(ground, f"{where}[ground] ")
-    rest = {key: value for key, value in values.items() if key not in SCENE_FIELDS}
-    numerics = make(Numerics, rest, f"{where}[numerics] ")
     try:
         scene = Scene(robot=robot, gait=gait, ground=under, slope=math.radians(slope),
                       valves=valves, **checked_values)  # fmt: skip
@@ -197,7 +212,13 @@ def build_gait(table: Table, where: str = "", robot: AnyRobot = _STRIP) -> Gait:
         name, known = table.pop("name", "wave"), {**GAITS, **QUADRUPED_GAITS}
         if isinstance(robot, LimbedRobot) and not of_quadruped:
             raise ValueError(f"{where}stages must be given for {', '.join(robot.chambers)}")
-        one_of(f"{where}name of a gait without stages", name, known if of_quadruped else GAITS)
+        names = known if of_quadruped else GAITS
+        if name not in names and not meant(name, names):
+            raise ValueError(
+                f"{where}name must be one of {', '.join(names)}, or a file; "
+                f"got {name!r}: no such file"
+            )
+        one_of(f"{where}name", name, names)
         gait = replace(known[name], **checked(Gait, table, where)) if table else known[name]
     if sides and gait.segments != 3:
         raise ValueError(f"{where}{next(iter(sides))} is for gaits of three segments such as "
@@ -217,15 +238,27 @@ def _sides(table: Table, where: str) -> dict[str, float]:
     }
 
 
-def _gait_of(table: Table, where: str, robot: AnyRobot) -> tuple[Gait, float | None]:
+def _gait_of(
+    table: Table, where: str, robot: AnyRobot, numerics: Numerics
+) -> tuple[Gait, float | None]:
     """The gait, and the highest pressure if it was measured [Pa]."""
-    if not str(table.get("file", "")).endswith(".csv"):
+    file = str(table.get("file", ""))
+    if not file or not is_log(file):
+        for key in OF_A_LOG:
+            if key in table:
+                raise ValueError(
+                    f"{where}{key} is for a file of measured pressures, got {table[key]!r}"
+                )
         return build_gait(table, where, robot), None
     for key in table:
-        one_of(f"{where}key beside a .csv file", key, ("file", "reverse", "name"))
+        one_of(f"{where}key beside a .csv file", key, ("file", "reverse", "name", *OF_A_LOG))
     from mjsim.files.measured import read_gait  # needs scipy.linalg, which takes long to import
 
-    gait, highest = read_gait(Path(str(table["file"])), robot.chambers)
+    options = checked(GaitKeys, {key: table[key] for key in OF_A_LOG if key in table}, where)
+    shortest = shortest_ramp(numerics, robot)
+    gait, highest = read_gait(
+        Path(file), robot.chambers, options.get("columns", ()), options.get("cycle"), shortest
+    )
     gait = replace(gait, name=table.get("name", gait.name))
     return (gait.reversed() if table.get("reverse") else gait), highest
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from types import NoneType, UnionType
 from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from analytic.checks import one_of
+from analytic.checks import meant, missing, one_of
 from mjsim.files.fields import units
 from mjsim.files.units import in_unit
 
@@ -46,7 +46,9 @@ def checked(kind: type[Any], table: Mapping[str, Any], where: str) -> Table:
     values = {}
     for key, value in table.items():
         if key not in hints:
-            raise ValueError(f"{where}key {key!r} is unknown; known are {', '.join(hints)}")
+            raise ValueError(
+                f"{where}key {key!r} is unknown; known are {', '.join(hints)}{meant(key, hints)}"
+            )
         unit = _UNITS.get(key) or units(kind).get(key)
         values[key] = as_type(hints[key], value, f"{where}{key}", unit)
     return values
@@ -105,6 +107,6 @@ def read_toml(path: Path, what: str) -> Table:
     try:
         return tomllib.loads(path.read_bytes().decode("utf-8-sig"))  # Windows marks the byte order
     except OSError as error:
-        raise ValueError(f"{what} {str(path)!r} cannot be read: {error.strerror}") from error
+        raise ValueError(f"{what} {str(path)!r} cannot be read: {missing(path, error)}") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ValueError(f"{what} {str(path)!r} is no TOML: {error}") from error

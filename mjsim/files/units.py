@@ -1,8 +1,13 @@
-"""Conversion of values with a unit, `7 psi`, `90 mm`, `12 g`, to SI."""
+"""Conversion of values with a unit, `7 psi`, `90 mm`, `12 g`, to SI.
+
+The units are those of analytic.units; pint, which takes long to import, is asked for rarer ones.
+"""
 
 import re
 from functools import cache
 from typing import Any
+
+from analytic import units
 
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 _LARGEST = 60  # letters of a value; longer ones are no quantity
@@ -19,18 +24,14 @@ def in_unit(name: str, value: str, unit: str | None) -> float:
     Raises:
         ValueError: it is no number, or one with a unit of another kind.
     """
-    try:
-        return float(value)
-    except ValueError:
-        pass
     number = _NUMBER.match(value)
-    if number is None or len(value) > _LARGEST:
-        raise ValueError(_message(name, value, unit)) from None
-    words = value[number.end() :].strip()
+    words = value[number.end() :].strip() if number and len(value) <= _LARGEST else ""
+    if number is None or not words or units.find(units.split_reference(words)[0]) is not None:
+        return units.in_unit(name, value, unit)
     try:
         return float(number.group()) * _factor(words, "1" if unit is None else unit)
     except Exception as error:  # pint raises many kinds for words that are no unit
-        raise ValueError(_message(name, value, unit)) from error
+        raise ValueError(units.refusal(name, value, unit)) from error
 
 
 @cache
@@ -46,8 +47,3 @@ def _registry() -> Any:
     import pint
 
     return pint.UnitRegistry()
-
-
-def _message(name: str, value: str, unit: str | None) -> str:
-    kind = "a number" if unit in (None, "1") else f"a number of {unit}, or one with its unit"
-    return f"{name} must be {kind}, got {value!r}"

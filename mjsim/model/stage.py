@@ -11,7 +11,7 @@ from mjsim.files.assets import MODELS
 HERE = Path(__file__).parent
 LOOKS = HERE / "looks"
 _INF = float("inf")
-_REACH = 1.0  # m; how far the outer ones of several patches are shown; chosen
+_REACH = 1.0  # m; how far the outer ones of several patches are shown beyond seams; chosen
 
 
 def stage(ground: Ground) -> mujoco.MjSpec:
@@ -19,11 +19,13 @@ def stage(ground: Ground) -> mujoco.MjSpec:
     spec = mujoco.MjSpec.from_file(str(HERE / "stage.xml"))
     spec.texturedir = str(MODELS / "textures")
     extents = ground.extents() if isinstance(ground, Patches) else [(-_INF, _INF, ground.at(0.0))]
+    borders = [end for _, end, _ in extents[:-1]]
+    first, last = min([0.0, *borders]) - _REACH, max([0.0, *borders]) + _REACH
     for number, (begin, end, surface) in enumerate(extents):
         look = mujoco.MjSpec.from_file(str(look_of(surface)))
         look.texturedir = str(MODELS / "textures")
         if len(extents) > 1:
-            _cut(look, max(begin, -_REACH), min(end, _REACH), first=number == 0)
+            _cut(look, max(begin, first), min(end, last), first=number == 0)
         prefix = f"surface{number + 1 if number else ''}_"
         spec.attach(look, prefix=prefix, frame=spec.worldbody.add_frame())
     return spec

@@ -18,6 +18,7 @@ from mjsim.results.status import Status
 from mjsim.scene import Resolved, Scene
 
 if TYPE_CHECKING:
+    import pandas as pd  # type: ignore[import-untyped]
     import xarray as xr
 
     from mjsim.results.plots import Plots
@@ -155,6 +156,27 @@ class Trajectory:
             {name: row for name, row in rows if row[0] != (name,)},
             {name: row for name, row in rows if row[0] == (name,)},
         )
+
+    def to_pandas(self) -> "pd.DataFrame":
+        """What has one number per time step, or one per chamber, as a table along time [s].
+
+        Columns are those of `dataset` without those along the body; pressures are named by their
+        chambers, as pressure_left, and the units are in the attribute `units` of the table's attrs.
+        """
+        import pandas as pd
+
+        from mjsim.results.netcdf import variables
+
+        columns, of = {"x": self.line[:, 0, 0], "y": self.line[:, 0, 1]}, {"x": "m", "y": "m"}
+        for name, dims, values, unit, _ in variables(self):
+            if dims == ("time",) and name != "time":
+                columns[name], of[name] = values, unit
+            elif name == "pressure":
+                for chamber, column in zip(self.scene.robot.chambers, values.T, strict=True):
+                    columns[f"{name}_{chamber}"], of[f"{name}_{chamber}"] = column, unit
+        frame = pd.DataFrame(columns, index=pd.Index(self.time, name="time"))
+        frame.attrs["units"] = {"time": "s", **of}
+        return frame
 
     def save(self, path: Path | str, origin: dict[str, Any] | None = None) -> None:
         """Write netCDF with units; the file appears under its name only when it is whole.

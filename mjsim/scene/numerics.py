@@ -4,10 +4,12 @@ from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
 
 from analytic.checks import one_of, positive, whole
+from analytic.fields import in_si
 
 MIN_LINKS, MAX_LINKS = 6, 384
 FEWEST_IN_SPACE = 2  # of a limb
 LONGEST_STEP = 0.1  # s
+FEWEST_STEPS = 4  # of a ramp; with fewer the gait is not seen; chosen
 
 SHORT_STEPS = (0.005, 0.0025, 0.001, 0.0005, 0.00025)  # s; of fast gaits
 _SLOW = 1.0  # s; chambers that take as long to fill may have the usual time step; measured
@@ -77,6 +79,7 @@ class Numerics:
     contacts alike, which is weak where some are bound [s]; chosen"""
 
     def __post_init__(self) -> None:
+        in_si(self)
         one_of("integrator", self.integrator, INTEGRATORS)
         one_of("cone", self.cone, CONES)
         for item in fields(self):

@@ -2,22 +2,31 @@
 
 import itertools
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
 
 from analytic.checks import one_of, positive, slope, whole
+from analytic.fields import in_si
 from analytic.friction.laws import LAWS, Friction
 from analytic.scene import pneunet
 from analytic.scene.chain import CHAMBER_LAWS
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.ground import check_adhesion, check_for_limbs, depends_on_speed, surfaces_of
-from analytic.scene.limbs import AnyRobot, LimbedRobot, chambers_by_limb, limbs_of
+from analytic.scene.limbs import (
+    AnyRobot,
+    LimbedRobot,
+    chambers_by_limb,
+    limbs_of,
+    quadruped,
+)
 from analytic.scene.quadruped_gaits import for_robot
 from analytic.scene.robot import GRAVITY, Robot
 from analytic.scene.surface import SURFACES, Ground
 from mjsim.scene import registry
+from mjsim.scene.magnitudes import check_ground, check_robot
 from mjsim.scene.numerics import Numerics, Resolved, short_enough
 from mjsim.scene.valves import Valves
 
@@ -25,6 +34,8 @@ Chamber = Literal["linearized", "sealed", "constant-pressure"]
 Actuation = Literal["rest-angles", "actuators"]
 Contacts = Literal["auto", "ends", "all"]
 CONTACTS: tuple[str, ...] = ("auto", "ends", "all")
+ROBOTS: dict[str, Callable[[], AnyRobot]] = {"strip": Robot, "quadruped": quadruped}
+_LAWS = ("constant", "coulomb")
 _RISE = 2.0  # s; to the start of a gait that does not repeat; chosen
 ACTUATIONS: tuple[str, ...] = ("rest-angles", "actuators")
 
@@ -33,7 +44,9 @@ ACTUATIONS: tuple[str, ...] = ("rest-angles", "actuators")
 class Scene:
     """A robot that walks a gait on a ground.
 
-    A gait of three segments stands for the quadruped's too, see analytic.scene.quadruped_gaits.
+    Names of robots, gaits and grounds stand for them, as in Scene("quadruped", ground="felt"), and
+    a number may be a text with its unit, as in slope="5 deg". A gait of three segments stands for
+    the quadruped's too, see analytic.scene.quadruped_gaits.
 
     Raises:
         ValueError: a value is out of its range; the message names it and the valid ones.
@@ -70,6 +83,13 @@ class Scene:
     """at rest before the first cycle [s]; chosen"""
 
     def __post_init__(self) -> None:
+        in_si(self)
+        if isinstance(self.ground, str):
+            one_of("ground", self.ground, SURFACES)
+            object.__setattr__(self, "ground", SURFACES[self.ground])
+        if isinstance(self.robot, str):
+            one_of("robot", self.robot, ROBOTS)
+            object.__setattr__(self, "robot", ROBOTS[self.robot]())
         if self.body == "planar":
             raise ValueError("body 'planar' is now called 'chain'")
         one_of("body", self.body, registry.BODIES)
@@ -80,6 +100,8 @@ class Scene:
         whole("cycles", self.cycles, 1)
         object.__setattr__(self, "cycles", int(self.cycles))
         positive("gravity", self.gravity, "m/s^2")
+        check_robot(self.robot)
+        check_ground(self.ground, self.robot.length, self.cycles)
         positive("settle_time", self.settle_time, "s")
         chambers = self.robot.chambers
         object.__setattr__(self, "gait", for_robot(self.gait, self.robot))
@@ -105,11 +127,14 @@ class Scene:
             )
         check_adhesion(self.ground)
         acts = LAWS[self.friction].acts_on
-        if not any(acts(surface) or surface.viscosity for surface in surfaces_of(self.ground)):
+        surfaces = surfaces_of(self.ground)
+        if not any(acts(surface) or surface.viscosity for surface in surfaces):
+            acting = [law for law in _LAWS if any(map(LAWS[law].acts_on, surfaces))]
+            hint = "".join(f"add friction = {law!r}, or --friction {law}; or " for law in acting)
             raise ValueError(
                 f"surface {self.ground.name!r} resists by nothing under friction {self.friction}; "
-                "give tip_force, shear_strength or viscosity (constant), friction or tip_friction "
-                "(coulomb)"
+                f"{hint}give tip_force, shear_strength or viscosity (constant), friction or "
+                "tip_friction (coulomb)"
             )
 
     def _check_turns(self) -> None:

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass, fields
 
 from analytic.checks import not_negative
+from analytic.fields import in_si
 
 PerSegment = float | tuple[float, ...]
 
@@ -31,6 +32,7 @@ class Valves:
     given"""
 
     def __post_init__(self) -> None:
+        in_si(self)
         for field in fields(self):
             value = getattr(self, field.name)
             if value is None:

@@ -5,10 +5,10 @@ from numpy.typing import NDArray
 
 from analytic.scene.gait import Gait
 from mjsim.scene import Resolved, Scene
+from mjsim.scene.numerics import FEWEST_STEPS
 
 Array = NDArray[np.float64]
 
-FEWEST_STEPS = 4  # of a ramp; with fewer the gait is not seen; chosen
 MOST_STEPS = 5_000_000  # of a walk, 2 GB of states
 
 

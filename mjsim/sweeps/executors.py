@@ -130,8 +130,9 @@ def _adopting(registered: Carried, work: Callable[[Any], Any], job: Any) -> Any:
 
 
 def _begin() -> None:
-    """Silence warnings of divergence, and end this process when its driver ends."""
+    """Silence warnings of divergence and notes, and end this process when its driver ends."""
     logging.getLogger("absl").setLevel(logging.ERROR)
+    logging.getLogger("mjsim").setLevel(logging.ERROR)  # notes on files: the driver prints them
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()

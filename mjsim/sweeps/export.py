@@ -41,8 +41,9 @@ def described(base: sqlite3.Connection) -> dict[str, tuple[str, str]]:
 
 
 def with_unit(name: str, unit: str) -> str:
-    """Head or label of a column: its name, and its unit in brackets if it has one."""
-    return name if unit in ("", "1") else f"{name} [{unit}]"
+    """Head or label of a column: its name, and its unit in brackets if that is not in the name."""
+    named = name.endswith("_" + unit.replace("/", "_per_"))
+    return name if unit in ("", "1") or named else f"{name} [{unit}]"
 
 
 def _csv(base: sqlite3.Connection, path: Path) -> None:

@@ -9,12 +9,14 @@ from typing import Any
 import numpy as np
 
 from analytic.locomotion import direction
-from analytic.uncertainty import modes_error
+from analytic.shapes import Flag
+from analytic.uncertainty import UNSOUND, modes_error
 from mjsim.files.quantities import with_fields
 from mjsim.files.tables import Tables, build
 from mjsim.results.prediction import QUASI_STATIC, displacement, prediction, reference
 from mjsim.scene import Numerics, Scene
 
+_BOUNDED = 1e-3  # uncertainty over L up to which assumed contacts are no flag; chosen
 REFUSED, CRASHED = "refused", "crashed"  # a bad scene; one that broke its process
 
 OUTPUTS: dict[str, tuple[str, str, str]] = {  # column: type, unit, meaning
@@ -145,10 +147,13 @@ def _predicted(job: Job, scene: Scene, numerics: Numerics) -> Row:
         return _row(scene, flags, shift, None, height, theory.turn)
     walk = prediction(scene, job.model, states=job.states, bent=job.bent)
     length, shift = scene.robot.length, displacement(scene, walk)
-    flags = "+".join(flag.name.lower() for flag in walk.flags if flag.name) or "ok"
+    error = modes_error(walk) / length if job.model in ("modes", "lifted") else None
+    unsure = walk.flags
+    if error is not None and error <= _BOUNDED:  # what these flags may do is known, and little
+        unsure &= ~(UNSOUND | Flag.SEVERAL_ROOTS)
+    flags = "+".join(flag.name.lower() for flag in unsure if flag.name) or "ok"
     if not math.isfinite(shift):
         return {"status": flags}
-    error = modes_error(walk) / length if job.model in ("modes", "lifted") else None
     return _row(scene, flags, shift, error, float(np.nanmax(walk.shapes.amplitude)) / length)
 
 

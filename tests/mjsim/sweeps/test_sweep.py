@@ -229,7 +229,7 @@ def test_the_command_sweeps_and_exports_in_three_forms(tmp_path, capsys):
     assert table.schema.field("robot.length").metadata[b"unit"] == b"m"
     far = np.array([np.nan if v is None else v for v in table["displacement_m"].to_pylist()])
     np.testing.assert_array_equal(far, data["displacement_m"].values)
-    assert float(by_csv[0]["displacement_m [m]"]) == far[0]
+    assert float(by_csv[0]["displacement_m"]) == far[0]
     data.close()
 
 

@@ -1,0 +1,69 @@
+"""Documentation of the fields of a dataclass, the text below each, and the unit in it.
+
+Values of fields may be given with a unit, as in `Robot(length="110 mm")`: see `in_si`.
+"""
+
+import ast
+import inspect
+import re
+import sys
+from collections.abc import Mapping
+from dataclasses import fields
+from functools import cache
+from itertools import pairwise
+from typing import Any, get_args, get_type_hints
+
+from analytic.units import in_unit
+
+_CITATION = re.compile(r"[A-Z][a-z]+\d\d$")
+
+
+@cache
+def field_docs(kind: type) -> Mapping[str, str]:
+    """Text below each field of a dataclass, its documentation, in one line."""
+    module = ast.parse(inspect.getsource(sys.modules[kind.__module__]))
+    classes = {node.name: node for node in module.body if isinstance(node, ast.ClassDef)}
+    docs: dict[str, str] = {}
+    for statements in pairwise(classes[kind.__name__].body):
+        match statements:
+            case (
+                ast.AnnAssign(target=ast.Name(id=name)),
+                ast.Expr(value=ast.Constant(value=str(text))),
+            ):
+                docs[name] = " ".join(text.split())
+    return docs
+
+
+def units(kind: type) -> Mapping[str, str]:
+    """Unit of each field that has one in its documentation: [m], [Pa s/m], [1]."""
+    brackets = {name: re.findall(r"\[([^\]]+)\]", text) for name, text in field_docs(kind).items()}
+    texts = {name: [w for w in words if not _CITATION.match(w)] for name, words in brackets.items()}
+    return {name: words[0] for name, words in texts.items() if words}
+
+
+def in_si(record: Any) -> None:
+    """Convert the texts among the numbers of a frozen dataclass, `110 mm`, to SI.
+
+    Args:
+        record: of a class whose fields have their units in their documentation.
+
+    Raises:
+        ValueError: a text is no number, or has a unit of another kind.
+    """
+    texts = {
+        field.name: value for field in fields(record)
+        if isinstance(value := getattr(record, field.name), str | tuple | list)
+    }  # fmt: skip
+    if not any(isinstance(v, str) or any(isinstance(x, str) for x in v) for v in texts.values()):
+        return
+    hints, known = get_type_hints(type(record)), units(type(record))
+    for name, value in texts.items():
+        kinds = {hints[name], *get_args(hints[name])}
+        if isinstance(value, str) and float in kinds:
+            object.__setattr__(record, name, in_unit(name, value, known.get(name)))
+        elif not isinstance(value, str) and any(float in get_args(kind) for kind in kinds):
+            parts = tuple(
+                in_unit(name, part, known.get(name)) if isinstance(part, str) else part
+                for part in value
+            )
+            object.__setattr__(record, name, parts)
