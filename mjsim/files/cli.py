@@ -89,6 +89,28 @@ def bar(text: str, total: int) -> Iterator[Callable[[int], None]]:
         yield lambda steps: (progress.update(steps), None)[1]
 
 
+@contextlib.contextmanager
+def reference_bar(ground: str) -> Iterator[None]:
+    """Progress bar of what is solved for in this block, one path after another."""
+    from analytic.progress import listening
+
+    with bar(f"reference on {ground}", 100) as advance, listening(_Percent(advance)):
+        yield
+
+
+class _Percent:
+    """Listener that moves a bar of 100 steps, back to its beginning for another path."""
+
+    def __init__(self, advance: Callable[[int], None]) -> None:
+        self._advance, self._shown = advance, 0
+
+    def __call__(self, done: int, total: int) -> None:
+        percent = 100 * done // total
+        if percent != self._shown:
+            self._advance(percent - self._shown)
+            self._shown = percent
+
+
 def parse(
     kind: type[Options], program: str, argv: Sequence[str] | None, examples: Sequence[str] = ()
 ) -> Options:

@@ -18,6 +18,7 @@ from analytic.scene.limbs import limbs_of
 from analytic.solvers.limbs.path import Path
 from analytic.solvers.models import Elastica
 from mjsim.files import plugins
+from mjsim.files.processes import Pool
 from mjsim.files.tables import Tables, build
 from mjsim.fitting.observations import RUN, Run, Series
 from mjsim.fitting.parameters import with_values
@@ -230,7 +231,7 @@ def _number(series: Series, motion: Motion | None) -> float:
             "height": motion.height, "turn": motion.turn}[series.quantity]  # fmt: skip
 
 
-def processes(runs: int, parameters: int) -> ProcessPoolExecutor | None:
+def processes(runs: int, parameters: int) -> Pool | None:
     """Processes for the walks of a Jacobian, if they are many."""
     if runs * 2 * parameters < _MANY:
         return None
