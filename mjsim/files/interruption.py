@@ -108,11 +108,18 @@ def guarded(program: str, command: Callable[[], int]) -> int:
         if isinstance(error, BrokenPipeError):
             _end(program)
             return NO_READER
-        _end(program, f"error: {error}")
+        _end(program, f"error: {_told(error)}")
         return BAD_INPUT
     finally:
         _ignore()  # what is left is the end of the process
     return code
+
+
+def _told(error: OSError) -> str:
+    """Words of an error; what names no file is of the output, as that of files names them."""
+    if error.errno is None or error.filename:
+        return str(error)
+    return f"the output cannot be written: {error.strerror}"
 
 
 def _ignore() -> None:
@@ -124,7 +131,7 @@ def _end(program: str, line: str = "") -> None:
     try:
         sys.stdout.flush()
     except OSError as error:
-        line = line and f"error: the output cannot be written: {error.strerror}"
+        line = line and f"error: {_told(error)}"
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     if line:
         with contextlib.suppress(OSError):
