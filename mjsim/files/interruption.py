@@ -100,10 +100,12 @@ def guarded(program: str, command: Callable[[], int]) -> int:
         code = command()
         sys.stdout.flush()
     except KeyboardInterrupt as stop:
-        _ignore()
-        _end(program, f"interrupted; {stop}" if str(stop) else "interrupted")
-        return INTERRUPTED
-    except OSError as error:
+        return _interrupted(program, str(stop))
+    except Exception as error:
+        if _handler.since is not None:  # put off, and come to this in the meantime
+            return _interrupted(program)
+        if not isinstance(error, OSError):
+            raise
         _ignore()
         if isinstance(error, BrokenPipeError):
             _end(program)
@@ -115,6 +117,12 @@ def guarded(program: str, command: Callable[[], int]) -> int:
     return code
 
 
+def _interrupted(program: str, words: str = "") -> int:
+    _ignore()
+    _end(program, f"interrupted; {words}" if words else "interrupted")
+    return INTERRUPTED
+
+
 def _told(error: OSError) -> str:
     """Words of an error; what names no file is of the output, as that of files names them."""
     if error.errno is None or error.filename:
@@ -124,6 +132,8 @@ def _told(error: OSError) -> str:
 
 def _ignore() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if _TIMER:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
 
 
 def _end(program: str, line: str = "") -> None:
