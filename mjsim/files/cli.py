@@ -11,6 +11,8 @@ from typing import Annotated, NoReturn, TypeVar
 
 import tyro
 
+from mjsim.files.interruption import uninterrupted
+
 Options = TypeVar("Options")
 Plugins = Annotated[
     # tuple[str, ...] would be checked by typeguard, whose import takes as long as all of tyro
@@ -86,7 +88,12 @@ def bar(text: str, total: int) -> Iterator[Callable[[int], None]]:
     with tqdm(  # disable=None: where the file is no terminal
         total=total, desc=text, delay=_PATIENCE, leave=False, file=sys.stderr, disable=None
     ) as progress:
-        yield lambda steps: (progress.update(steps), None)[1]
+
+        def advance(steps: int) -> None:
+            with uninterrupted():  # half drawn, a bar is not wiped off
+                progress.update(steps)
+
+        yield advance
 
 
 @contextlib.contextmanager
