@@ -6,7 +6,6 @@ from typing import Any
 _EXTRAS = {  # package: extra of this distribution
     "cma": "optimise",
     "distributed": "cluster",
-    "gymnasium": "gym",
     "plotly": "report",
     "pyarrow": "parquet",
 }
