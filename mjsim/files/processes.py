@@ -86,12 +86,16 @@ class Pool(ProcessPoolExecutor):
 
 def _begin(watched: Connection, begin: Callable[..., None] | None, arguments: Any) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(os, "setpgrp"):
+        os.setpgrp()  # a group of its own, with what it starts
     threading.Thread(target=_end_with, args=(watched,), daemon=True).start()
     if begin is not None:
         begin(*arguments)
 
 
 def _end_with(watched: Connection) -> None:
-    """End this process when nobody is at the other end of a pipe."""
+    """End this process, and what it started, when nobody is at the other end of a pipe."""
     watched.poll(None)
+    if hasattr(os, "killpg"):
+        os.killpg(0, signal.SIGKILL)
     os._exit(1)

@@ -112,13 +112,17 @@ def test_a_command_under_nohup_is_not_interrupted(tmp_path):
 
 
 WORKERS = """
-import os, sys, time
+import os, subprocess, sys, time
 from mjsim.files.interruption import guarded
 from mjsim.files.processes import Pool, clean_start
 
+def begun():
+    child = subprocess.Popen(["sleep", "50"])
+    return os.getpid(), child.pid
+
 def command():
     with Pool(2, clean_start()) as pool:
-        print(*[pool.submit(os.getpid).result() for _ in range(2)], flush=True)
+        print(*pool.submit(begun).result(), flush=True)
         [pool.submit(time.sleep, 50) for _ in range(8)]
         pool.submit(time.sleep, 50).result()
     return 0
@@ -129,7 +133,7 @@ if __name__ == "__main__":
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
-def test_workers_end_with_the_process_that_started_them(number, tmp_path):
+def test_workers_and_what_they_start_end_with_the_process_that_started_them(number, tmp_path):
     path = tmp_path / "script.py"
     path.write_text(WORKERS)
     driver = subprocess.Popen(
