@@ -9,9 +9,13 @@ What a user needs, imported when it is first used:
     print(walk.status, measure(walk).displacement, reference(scene).displacement[0])
 """
 
-from typing import Any
+from __future__ import annotations
 
 from analytic.lazy import lazily
+
+TYPE_CHECKING = False  # see analytic.lazy
+if TYPE_CHECKING:
+    from typing import Any
 
 _attribute, __dir__, __all__ = lazily(
     __name__,

@@ -2,7 +2,7 @@
 
 import sys
 
-from mjsim.commands.run import main
+from mjsim.commands.undulator import start
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(start(["run", *sys.argv[1:]]))

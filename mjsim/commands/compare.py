@@ -16,7 +16,7 @@ from analytic.scene.limbs import ORDER, AnyRobot, LimbedRobot
 from analytic.scene.quadruped_gaits import QUADRUPED_GAITS
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
-from analytic.solvers.models import REFERENCE, SOLVERS
+from analytic.solvers.models import SOLVERS
 from analytic.uncertainty import modes_error
 from mjsim.files import plugins
 from mjsim.files.cli import ALL, Plugins, bar, choose, fail, parse, say, strict_json
@@ -34,6 +34,7 @@ from mjsim.results.prediction import (
     error_bars,
     prediction,
     reference,
+    reference_name,
 )
 from mjsim.scene import Numerics, Scene, registry
 
@@ -102,7 +103,7 @@ def compare(scene: Scene, models: Sequence[str], numerics: Numerics | None = Non
     exact = _reference(scene, numerics)
     rows = []
     for model in models:
-        if model == _reference_of(scene):
+        if model == reference_name(scene):
             row = exact
         elif model in SOLVERS:
             row = _weak(scene, model)
@@ -118,10 +119,6 @@ def compare(scene: Scene, models: Sequence[str], numerics: Numerics | None = Non
         }  # fmt: skip
         rows.append(row)
     return rows
-
-
-def _reference_of(scene: Scene) -> str:
-    return QUASI_STATIC if scene.in_space else REFERENCE
 
 
 def _reference(scene: Scene, numerics: Numerics | None) -> Row:
@@ -192,14 +189,23 @@ def main(argv: Sequence[str] | None = None) -> int:
     except ValueError as error:
         fail(PROGRAM, str(error))
     rows: list[Row] = []
-    with bar("comparing", len(cases)) as advance:
-        for scene, numerics in cases:
-            rows += compare(scene, chosen, numerics)
-            advance(1)
+    done, stopped = 0, False
+    try:
+        with bar("comparing", len(cases)) as advance:
+            for scene, numerics in cases:
+                rows += compare(scene, chosen, numerics)
+                done += 1
+                advance(1)
+    except KeyboardInterrupt:
+        if not rows:
+            raise
+        stopped = True
     if options.json:
-        say(strict_json({"reference": _reference_of(cases[0][0]), "rows": rows}))
+        say(strict_json({"reference": reference_name(cases[0][0]), "rows": rows}))
     else:
         say(table(rows))
+    if stopped:
+        raise KeyboardInterrupt(f"{done} of {len(cases)} scenes were compared")
     return 0
 
 

@@ -1,5 +1,6 @@
 """Fit fields of a scene to what was measured: `undulator fit`."""
 
+import contextlib
 import math
 import time
 from collections.abc import Sequence
@@ -101,8 +102,7 @@ def _fit(options: Options, base: Tables) -> "tuple[Estimate, dict[str, Any]]":
     series = read_observations(options.data, options.zero or "")
     walk, second = WALKS[options.model], next(k for k in WALKS if k != options.model)
     runs = {run for line in series if line.quantity != "angle" for run in line.runs}
-    pool = processes(len(runs), len(free))
-    try:
+    with processes(len(runs), len(free)) or contextlib.nullcontext() as pool:
         fine = Predictor(base, series, walk, pool=pool)
         rough = fine
         start = {parameter.name: parameter.start for parameter in free}
@@ -110,9 +110,6 @@ def _fit(options: Options, base: Tables) -> "tuple[Estimate, dict[str, Any]]":
             rough = Predictor(base, series, walk, coarse, pool=pool)
         fit = estimate(rough, free, refined=fine if rough is not fine else None)
         apart = _apart(fit, Predictor(base, series, WALKS[second], pool=pool))
-    finally:
-        if pool is not None:
-            pool.shutdown()
     walks = fine.walks + (rough.walks if rough is not fine else 0)
     seconds = time.perf_counter() - began
     return fit, {"model": options.model, "confirmed_by": second, "apart_over_noise": apart,

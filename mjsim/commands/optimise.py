@@ -73,10 +73,19 @@ def main(argv: Sequence[str] | None = None) -> int:
         objective = _objective(options, [scene for scene, _ in built], built[0][1])
         check_folder(options.out)
         began = time.perf_counter()
-        history, best, start = _search(options, objective, workers)
+        history: list[Generation] = []
+        try:
+            best, start = _search(options, objective, workers, history)
+        except KeyboardInterrupt as error:
+            if not history:
+                raise
+            path, _ = _write(options, objective, history)
+            raise KeyboardInterrupt(
+                f"the best of {history[-1].evaluations} gaits is in {path}"
+            ) from error
         seconds = time.perf_counter() - began
         files = _write(options, objective, history)
-    except (ValueError, OSError) as error:
+    except (ValueError, OSError, ModuleNotFoundError) as error:
         fail(PROGRAM, str(error))
     record = _record(options, objective, history[-1], best, start) | {
         "wall_time_s": seconds, "files": files}  # fmt: skip
@@ -113,8 +122,9 @@ def _model(options: Options, in_space: bool) -> str:
 
 
 def _search(
-    options: Options, objective: "Objective", workers: int
-) -> "tuple[list[Generation], list[Confirmation], list[Confirmation]]":
+    options: Options, objective: "Objective", workers: int, history: "list[Generation]"
+) -> "tuple[list[Confirmation], list[Confirmation]]":
+    """Confirmations of the best gait and of the scene's own; generations are added to a list."""
     from mjsim.files.plugins import processes
     from mjsim.optimising.confirm import confirm
     from mjsim.optimising.search import search
@@ -123,7 +133,6 @@ def _search(
     scene = objective.scene
     space = Space(len(scene.robot.chambers), scene.gait.period, options.aim == "speed")
     with processes("mjsim.optimising.confirm", workers) as pool:
-        history: list[Generation] = []
         with bar("search", options.evaluations) as advance:
             for generation in search(objective, space, options.evaluations, options.seed, pool):
                 advance(generation.evaluations - (history[-1].evaluations if history else 0))
@@ -133,7 +142,7 @@ def _search(
         gaits = [history[-1].best] * len(surfaces) + [scene.gait] * len(surfaces)
         jobs = zip([objective] * len(gaits), gaits, surfaces * 2, strict=True)
         confirmed = list(pool.map(confirm, *zip(*jobs, strict=True)))
-    return history, confirmed[: len(surfaces)], confirmed[len(surfaces) :]
+    return confirmed[: len(surfaces)], confirmed[len(surfaces) :]
 
 
 def _write(options: Options, objective: "Objective", history: "list[Generation]") -> list[str]:

@@ -41,6 +41,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     except ValueError as error:
         fail(PROGRAM, str(error))
     video = options.trajectory.with_suffix(".mp4")
-    film([walk], [video])
+    try:
+        film([walk], [video])
+    except OSError as error:
+        fail(PROGRAM, f"the video cannot be written: {error}")
     print(video)
     return 0

@@ -10,6 +10,7 @@ import tyro
 
 from mjsim.files import plugins
 from mjsim.files.cli import FAILED, Plugins, bar, fail, parse, warn
+from mjsim.files.extras import optional
 from mjsim.files.files import check_folder, whole
 from mjsim.pictures import gl
 
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from mjsim.results.trajectory import Trajectory
 
 PROGRAM = "undulator report"
-_EXTRA = "it needs plotly: pip install 'undulator[report]'"
 
 
 @dataclass(frozen=True)
@@ -54,13 +54,18 @@ def main(argv: Sequence[str] | None = None) -> int:
     except ValueError as error:
         fail(PROGRAM, str(error))
     try:
-        from mjsim.pictures.document import Entry, page
-        from mjsim.results.record import record
-        from mjsim.simulation.second_walks import doubts
-    except ModuleNotFoundError:
-        warn(PROGRAM, _EXTRA)
+        optional("plotly", "a page")
+    except ModuleNotFoundError as error:
+        warn(PROGRAM, str(error))
         return FAILED
-    videos = [None] * len(loaded) if options.no_video else _films([walk for walk, _ in loaded])
+    from mjsim.pictures.document import Entry, page
+    from mjsim.results.record import record
+    from mjsim.simulation.second_walks import doubts
+
+    try:
+        videos = [None] * len(loaded) if options.no_video else _films([walk for walk, _ in loaded])
+    except OSError as error:
+        fail(PROGRAM, f"a video cannot be made: {error}; --no-video makes none")
     entries = []
     with bar("theory", len(loaded)) as advance:
         for path, (walk, origin), video in zip(options.trajectories, loaded, videos, strict=True):

@@ -14,11 +14,13 @@ from analytic.scene.limbs import ORDER, quadruped
 from analytic.scene.quadruped_gaits import QUADRUPED_GAITS, for_robot
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
-from mjsim.files.cli import FAILED, bar, fail, parse, say, strict_json, warn
+from mjsim.files.cli import FAILED, bar, fail, parse, reference_bar, say, strict_json, warn
 from mjsim.files.files import check_folder
+from mjsim.files.interruption import uninterrupted
 from mjsim.files.options import SceneOptions, tables_of
 from mjsim.files.tables import Tables, build
 from mjsim.pictures import gl
+from mjsim.results.status import WALKED
 from mjsim.scene import Numerics, Scene, resolved
 from mjsim.scene.auto import check_tolerance
 
@@ -27,7 +29,6 @@ if TYPE_CHECKING:
 
 PROGRAM = "undulator run"
 AUTO = "auto"  # the body that is picked from measurements on many scenes
-WALKED = ("ok", "slid")  # statuses of a walk that did not fail
 EXAMPLES = (
     "--surface gelatin --cycles 2 --reverse",
     "--robot quadruped --surface all",
@@ -60,29 +61,43 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv, EXAMPLES)
     gl.prepare()
+    records: list[dict[str, Any]] = []
+    walks: list[Trajectory] = []
+    joint, end = None, None
     try:
-        tables = tables_of(options)
-        tables, tolerance = _bodies(tables, options.tolerance)
-        cases = [build(table) for table in tables]
-        check_folder(options.out)
-        records, walks = _walk(cases, options, tolerance)
-    except (ValueError, OSError) as error:
-        fail(PROGRAM, str(error))
-
-    if not options.json:
+        _walk(options, records, walks)
+    except (ValueError, OSError, KeyboardInterrupt) as error:
+        end = error  # of what was not done yet; what was done is printed first
+    if records and not options.json:
         from mjsim.results.record import table
 
         say(table(records))
         sys.stdout.flush()  # the numbers come before any video is made
-    joint = None if options.no_video else _film(walks, records, options.out)
+    if end is None and not options.no_video:
+        try:
+            joint = _film(walks, records, options.out)
+        except (OSError, KeyboardInterrupt) as error:
+            end = _of_film(error)
+    if records:
+        _print(options, records, joint)
+    if isinstance(end, KeyboardInterrupt):
+        raise end
+    if end is not None:
+        fail(PROGRAM, str(end))
+    return 0 if all(row["status"] in WALKED for row in records) else FAILED
+
+
+def _print(options: Options, records: list[dict[str, Any]], joint: Path | None) -> None:
+    """All of the runs as JSON, or their files."""
     if options.json:
         say(strict_json({"runs": records} if len(records) > 1 else records[0]))
-    else:
-        for row in records:
-            print(*(row[key] for key in ("trajectory", "video") if row[key]))
-        if joint:
-            print(joint)
-    return 0 if all(row["status"] in WALKED for row in records) else FAILED
+        return
+    for row in records:
+        files = [row[key] for key in ("trajectory", "video") if row[key]]
+        if files:
+            print(*files)
+    if joint:
+        print(joint)
 
 
 def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables], float | None]:
@@ -107,28 +122,62 @@ def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables]
     return tables, tolerance
 
 
-def _walk(
-    cases: list[tuple[Scene, Numerics]], options: Options, tolerance: float | None
-) -> "tuple[list[dict[str, Any]], list[Trajectory]]":
-    """Simulate each scene and save its walk."""
-    from mjsim.results.provenance import provenance
-    from mjsim.results.record import record
-    from mjsim.simulation.second_walks import doubts
+def _walk(options: Options, records: list[dict[str, Any]], walks: "list[Trajectory]") -> None:
+    """Simulate each scene and save its walk; add both to lists, that outlive an error.
 
-    records, walks = [], []
+    Raises:
+        ValueError: bad input.
+        OSError: a walk cannot be saved.
+        KeyboardInterrupt: with what was stopped, if anything was done before.
+    """
+    tables, tolerance = _bodies(tables_of(options), options.tolerance)
+    cases = [build(table) for table in tables]
+    check_folder(options.out)
+    from mjsim.results.provenance import provenance
+
     for scene, numerics in cases:
-        walk, note = _simulate(scene, numerics, tolerance)
+        try:
+            walk, note = _simulate(scene, numerics, tolerance)
+        except KeyboardInterrupt as error:
+            if not walks:
+                raise
+            raise KeyboardInterrupt(f"on {scene.ground.name} it did not walk") from error
         origin = provenance(walk.scene, walk.numerics)
         failed = walk.status not in WALKED
         path = options.out / f"{file_name(walk.scene, walk.numerics)}{'-failed' * failed}.nc"
-        walk.save(path, origin)
-        row = {**record(walk), "trajectory": str(path), "video": None, "provenance": origin}
-        row["prediction_notes"] += [*doubts(walk, row), *note]
-        if failed:
+        end: Exception | KeyboardInterrupt | None = None
+        try:
+            with uninterrupted():
+                walk.save(path, origin)
+        except OSError as error:
+            end = error
+        row, stopped = _recorded(walk)
+        if stopped:
+            end = end or KeyboardInterrupt(f"the reference on {scene.ground.name} was stopped")
+        row |= {"trajectory": None if isinstance(end, OSError) else str(path), "video": None,
+                "provenance": origin}  # fmt: skip
+        row["prediction_notes"] += note
+        if failed and end is None:
             warn(PROGRAM, _failure(walk, path))
         records.append(row)
         walks.append(walk)
-    return records, walks
+        if end is not None:
+            raise end
+
+
+def _recorded(walk: "Trajectory") -> tuple[dict[str, Any], bool]:
+    """The record of a walk, and whether its reference was stopped by Ctrl-C."""
+    from mjsim.results.record import record
+    from mjsim.simulation.second_walks import doubts
+
+    row = None
+    try:
+        with reference_bar(walk.scene.ground.name):
+            row = record(walk)
+            row["prediction_notes"] += doubts(walk, row)
+            return row, False
+    except KeyboardInterrupt:
+        return row or record(walk, without="it was stopped"), True
 
 
 def _simulate(
@@ -165,13 +214,17 @@ def _film(walks: "list[Trajectory]", records: list[dict[str, Any]], out: Path) -
     if len(shown) > 1 and not walks[0].scene.in_space:
         _, _, words = paths[0].stem.partition("-")  # after the surface
         joint = out / (f"all-{words}".rstrip("-") + ".mp4")
-    try:
-        film([walks[i] for i in shown], paths, joint)
-    except OSError as error:
-        fail(PROGRAM, f"a video cannot be written: {error}")
+    film([walks[i] for i in shown], paths, joint)
     for i, path in zip(shown, paths, strict=True):
         records[i]["video"] = str(path)
     return joint
+
+
+def _of_film(error: OSError | KeyboardInterrupt) -> OSError | KeyboardInterrupt:
+    """What ended the videos, in words."""
+    if isinstance(error, OSError):
+        return OSError(f"a video cannot be written: {error}; --no-video makes none")
+    return KeyboardInterrupt("undulator replay makes the video of a walk that is saved")
 
 
 def file_name(scene: Scene, numerics: Numerics) -> str:

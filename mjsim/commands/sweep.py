@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 PROGRAM = "undulator sweep"
 EXAMPLES = ("--example > plan.toml", "plan.toml --out results.sqlite --export results.csv")
-INTERRUPTED = 130
+_ON = "the same command goes on from there"
 
 
 @dataclass(frozen=True)
@@ -82,23 +82,32 @@ def main(argv: Sequence[str] | None = None) -> int:
         workers = _workers(options)
         try:
             with Store(options.out, plan) as store:
-                record = sweep(plan, store, workers)
+                record = _swept(plan, store, workers)
                 code, why = _end(record, store)
         finally:
             workers.close()
         if options.export:
             export(options.out, options.export)
-    except (ValueError, OSError) as error:
+    except (ValueError, OSError, ModuleNotFoundError) as error:
         fail(PROGRAM, str(error))
-    except (LostError, KeyboardInterrupt) as error:
-        why = str(error) or "interrupted"
-        warn(PROGRAM, f"{why}; the same command goes on from there")
-        return FAILED if isinstance(error, LostError) else INTERRUPTED
+    except LostError as error:
+        warn(PROGRAM, f"{error}; {_ON}")
+        return FAILED
     files = [str(path) for path in (options.out, options.export) if path]
     say(strict_json({**record, "files": files}) if options.json else _text(record, files))
     if why:
         warn(PROGRAM, f"error: {why}")
     return code
+
+
+def _swept(plan: "Plan", store: "Store", workers: "Workers") -> dict[str, Any]:
+    """Sweep; errors after which the same command goes on say so."""
+    try:
+        return sweep(plan, store, workers)
+    except KeyboardInterrupt as error:
+        raise KeyboardInterrupt(_ON) from error
+    except OSError as error:
+        raise OSError(f"{error}; {_ON}") from error
 
 
 def _end(record: dict[str, Any], store: "Store") -> tuple[int, str]:

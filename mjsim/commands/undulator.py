@@ -2,10 +2,8 @@
 
 import sys
 from collections.abc import Sequence
-from difflib import get_close_matches
-from importlib import import_module
 
-from mjsim.files.cli import fail, say
+from mjsim.files.interruption import guarded
 
 PROGRAM = "undulator"
 COMMANDS = {  # module of mjsim.commands, and the line of the help
@@ -23,8 +21,26 @@ COMMANDS = {  # module of mjsim.commands, and the line of the help
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Call the command that is named first; returns its exit code."""
-    words = list(sys.argv[1:] if argv is None else argv)
+    """Call the command that is named first; returns its exit code.
+
+    Args:
+        argv: what was typed; that of this process if None, which Ctrl-C then ends in one line.
+    """
+    return call(argv) if argv is not None else start(sys.argv[1:])
+
+
+def start(words: Sequence[str]) -> int:
+    """Call the command as the one work of this process, whose Ctrl-C is taken over."""
+    name = f"{PROGRAM} {words[0]}" if words and words[0] in COMMANDS else PROGRAM
+    return guarded(name, lambda: call(words))
+
+
+def call(words: Sequence[str]) -> int:
+    """Call the command that is the first of the words; returns its exit code."""
+    from importlib import import_module
+
+    from mjsim.files.cli import fail, say
+
     name = words[0] if words else "--help"
     if name in ("-h", "--help"):
         say(_help())
@@ -35,6 +51,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         say("\n".join(f"{package} {version}" for package, version in versions().items()))
         return 0
     if name not in COMMANDS:
+        from difflib import get_close_matches
+
         near = get_close_matches(name, COMMANDS, 1)
         hint = f"; did you mean {near[0]}?" if near else ""
         fail(PROGRAM, f"command must be one of {', '.join(COMMANDS)}; got {name!r}{hint}")

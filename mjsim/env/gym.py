@@ -5,7 +5,12 @@ Importing this registers Undulator/Felt-v0, /Polyethylene-v0, /Gelatin-v0 and /A
 
 from typing import Any
 
-import gymnasium
+try:
+    import gymnasium
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError(
+        "mjsim.env.gym needs gymnasium: pip install 'undulator[gym]'", name=error.name
+    ) from error
 import mujoco
 import numpy as np
 from gymnasium.utils import seeding

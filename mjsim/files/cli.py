@@ -13,6 +13,7 @@ from typing import Annotated, NoReturn, TypeVar
 import tyro
 
 from analytic.checks import meant
+from mjsim.files.interruption import uninterrupted
 from mjsim.files.typed_options import TypedOptions
 
 Options = TypeVar("Options")
@@ -123,7 +124,34 @@ def bar(text: str, total: int) -> Iterator[Callable[[int], None]]:
     with tqdm(  # disable=None: where the file is no terminal
         total=total, desc=text, delay=_PATIENCE, leave=False, file=sys.stderr, disable=None
     ) as progress:
-        yield lambda steps: (progress.update(steps), None)[1]
+
+        def advance(steps: int) -> None:
+            with uninterrupted():  # half drawn, a bar is not wiped off
+                progress.update(steps)
+
+        yield advance
+
+
+@contextlib.contextmanager
+def reference_bar(ground: str) -> Iterator[None]:
+    """Progress bar of what is solved for in this block, one path after another."""
+    from analytic.progress import listening
+
+    with bar(f"reference on {ground}", 100) as advance, listening(_Percent(advance)):
+        yield
+
+
+class _Percent:
+    """Listener that moves a bar of 100 steps, back to its beginning for another path."""
+
+    def __init__(self, advance: Callable[[int], None]) -> None:
+        self._advance, self._shown = advance, 0
+
+    def __call__(self, done: int, total: int) -> None:
+        percent = 100 * done // total
+        if percent != self._shown:
+            self._advance(percent - self._shown)
+            self._shown = percent
 
 
 def parse(

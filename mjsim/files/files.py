@@ -12,16 +12,25 @@ def whole(path: Path) -> Iterator[Path]:
     """Make a hidden file beside `path`, of the same ending, to write to.
 
     It takes the name of `path` when the block ends without an error, and else is removed.
+
+    Raises:
+        OSError: it cannot be written; the message names `path`.
     """
-    handle, name = tempfile.mkstemp(suffix=path.suffix, prefix=".part-", dir=path.parent)
-    os.close(handle)
-    part = Path(name)
+    part: Path | None = None
     try:
+        handle, name = tempfile.mkstemp(suffix=path.suffix, prefix=".part-", dir=path.parent)
+        part = Path(name)
+        os.close(handle)
         yield part
         part.chmod(0o666 & ~_umask())
         os.replace(part, path)
+    except OSError as error:
+        if error.errno is None or (part and error.filename not in (None, str(part))):
+            raise
+        raise OSError(error.errno, error.strerror, str(path)) from error
     finally:
-        part.unlink(missing_ok=True)
+        if part is not None:
+            part.unlink(missing_ok=True)
 
 
 def check_folder(folder: Path) -> None:

@@ -7,17 +7,15 @@ reach it by pickle, which refers to the module of their class, the main one incl
 import hashlib
 import importlib
 import importlib.util
-import os
 import pickle
 import sys
 from collections.abc import Callable, Iterable
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from analytic.friction.laws import LAWS
 from analytic.registry import Registry
-from mjsim.files.processes import clean_start
+from mjsim.files.processes import Pool, clean_start
 from mjsim.scene.registry import BODIES
 
 _KINDS: dict[str, Registry[Any]] = {"friction": LAWS, "body": BODIES}  # as a scene calls them
@@ -128,7 +126,7 @@ def _refusal(kind: str, name: str, why: str, group: str) -> str:
 
 def processes(
     preload: str, count: int | None = None, begin: Callable[[], None] | None = None
-) -> ProcessPoolExecutor:
+) -> Pool:
     """Start a pool of processes with the laws and bodies that are registered here now.
 
     Args:
@@ -136,10 +134,7 @@ def processes(
         count: number of processes; one per core if None.
         begin: function that each calls first.
     """
-    return ProcessPoolExecutor(
-        count or os.cpu_count(), mp_context=clean_start(preload),
-        initializer=_begin, initargs=(begin, carried()),
-    )  # fmt: skip
+    return Pool(count, clean_start(preload), _begin, begin, carried())
 
 
 def _begin(begin: Callable[[], None] | None, registered: Carried) -> None:

@@ -19,6 +19,7 @@ from analytic.scene.limbs import limbs_of
 from analytic.solvers.limbs.path import Path
 from analytic.solvers.models import Elastica
 from mjsim.files import plugins
+from mjsim.files.processes import Pool
 from mjsim.files.tables import Tables, build
 from mjsim.fitting.observations import RUN, Run, Series
 from mjsim.fitting.parameters import robot_of, with_values
@@ -258,7 +259,7 @@ def _number(series: Series, motion: Motion | None) -> float:
             "height": motion.height, "turn": motion.turn}[series.quantity]  # fmt: skip
 
 
-def processes(runs: int, parameters: int) -> ProcessPoolExecutor | None:
+def processes(runs: int, parameters: int) -> Pool | None:
     """Processes for the walks of a Jacobian, if they are many."""
     if runs * 2 * parameters < _MANY:
         return None

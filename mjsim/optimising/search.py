@@ -4,11 +4,11 @@ from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from typing import NamedTuple
 
-import cma
 import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.gait import Gait
+from mjsim.files.extras import optional
 from mjsim.optimising.objective import Objective
 from mjsim.optimising.space import Space
 
@@ -52,7 +52,11 @@ def search(
         seed: of the random numbers.
         pool: processes, if there are any.
         begin: points to begin at, in turn as restarts; the middle of the space if none.
+
+    Raises:
+        ModuleNotFoundError: cma is not installed.
     """
+    cma = optional("cma", "the search")
     evaluate = pool.map if pool else map
     starts = list(begin) or [space.middle()]
     best, most, count = space.gait(starts[0]), -np.inf, 0

@@ -4,8 +4,10 @@ Physics and picture are two models: the picture is posed, and its actuators, whi
 the sliders.
 """
 
+import contextlib
 import threading
 import time as clock
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -15,6 +17,7 @@ import numpy as np
 
 from analytic.scene.ground import Patches
 from analytic.scene.surface import SURFACES, Ground
+from mjsim.files.interruption import uninterrupted
 from mjsim.model.parts import PREFIX
 from mjsim.pictures.camera import hide_aids, look
 from mjsim.pictures.live_session import Session
@@ -70,10 +73,7 @@ class _Window:
         shown_look, session = self._look, self._session
         self._pose()
         frames, simulated = 0, 0.0
-        threads = set(threading.enumerate())
-        with mujoco.viewer.launch_passive(
-            shown_look.model, shown_look.data, key_callback=self._keys.append, show_left_ui=False
-        ) as viewer:
+        with self._opened(shown_look) as viewer:
             self._aim(viewer)
             opened = previous = clock.perf_counter()
             while viewer.is_running():
@@ -91,10 +91,22 @@ class _Window:
                 viewer.sync()
                 frames += 1
                 clock.sleep(max(0.0, _FRAME - (clock.perf_counter() - begun)))
-            shown = Shown(frames, clock.perf_counter() - opened, simulated)
-        for thread in set(threading.enumerate()) - threads:
-            thread.join(_PATIENCE)  # while it draws a last frame its window must be there
-        return shown
+            return Shown(frames, clock.perf_counter() - opened, simulated)
+
+    @contextlib.contextmanager
+    def _opened(self, shown: Look) -> Iterator[Any]:
+        """MuJoCo's viewer; when it is left, by Ctrl-C too, it draws no more."""
+        threads = set(threading.enumerate())
+        try:
+            with uninterrupted():
+                viewer = mujoco.viewer.launch_passive(
+                    shown.model, shown.data, key_callback=self._keys.append, show_left_ui=False
+                )
+            with viewer:
+                yield viewer
+        finally:
+            for thread in set(threading.enumerate()) - threads:
+                thread.join(_PATIENCE)  # while it draws a last frame its window must be there
 
     def _obey(self, viewer: Any) -> None:
         """Keys, then sliders that somebody moved."""

@@ -6,19 +6,18 @@ frames that exist.
 
 import multiprocessing
 import os
-import subprocess
 import tempfile
-import warnings
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import ExitStack
 from pathlib import Path
 
-import imageio_ffmpeg
 import numpy as np
 
 from mjsim.files.files import whole
-from mjsim.pictures.frames import FPS, HEIGHT, WIDTH, Frame, Times, frame_times, how_much_faster
+from mjsim.files.processes import Pool
+from mjsim.pictures.ffmpeg import Encoder, stack
+from mjsim.pictures.frames import HEIGHT, WIDTH, Frame, Times, frame_times, how_much_faster
 from mjsim.pictures.limb_film import LimbCamera
 from mjsim.pictures.limb_overlay import LimbOverlay
 from mjsim.pictures.overlay import Overlay, StripOverlay
@@ -48,22 +47,32 @@ def film(walks: Sequence[Trajectory], paths: Sequence[Path], joint: Path | None 
     if not walks:
         return
     until = max(float(walk.time[-1]) for walk in walks)
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, ExitStack() as unfinished:
         bands = [Path(folder) / f"{i}.mp4" if joint else None for i in range(len(walks))]
-        jobs = list(zip(walks, paths, bands, [until] * len(walks), strict=True))
+        # their files are this process's, which removes them if it ends the others
+        each = [unfinished.enter_context(ExitStack()) for _ in paths]
+        parts = [own.enter_context(whole(path)) for own, path in zip(each, paths, strict=True)]
+        jobs = list(zip(walks, parts, bands, [until] * len(walks), strict=True))
         # never in this process, which may have imported mujoco without OpenGL
         context = multiprocessing.get_context("spawn")
         workers = min(len(walks), os.cpu_count() or 1)
-        with ProcessPoolExecutor(workers, mp_context=context) as pool:
-            for future in [pool.submit(_draw, *job) for job in jobs]:
-                future.result()
+        with Pool(workers, context) as pool:
+            futures = [pool.submit(_draw, *job) for job in jobs]
+            try:
+                for future, own in zip(futures, each, strict=True):
+                    future.result()
+                    own.close()
+            except BrokenProcessPool as error:
+                raise OSError("the process that drew it was killed") from error
         if joint:
-            _stack([band for band in bands if band], joint)
+            with whole(joint) as part:
+                stack([band for band in bands if band], part, _JOINT_WIDTH, _JOINT_QUALITY)
 
 
 def write_video(walk: Trajectory, path: Path) -> int:
     """Write a video of one walk in this process; returns the number of frames."""
-    return _draw(walk, path, None, float(walk.time[-1]))
+    with whole(path) as part:
+        return _draw(walk, part, None, float(walk.time[-1]))
 
 
 def pictures(walk: Trajectory, times: Times) -> Iterator[tuple[Frame, int]]:
@@ -93,40 +102,19 @@ def overlay_of(walk: Trajectory, scale: float = 1.0, faster: float = 1.0) -> Ove
 
 def _draw(walk: Trajectory, path: Path, band: Path | None, until: float) -> int:
     """Write the video of a walk, shown until a time [s], and its band; the number of frames."""
-    import mediapy
-
-    mediapy.set_ffmpeg(imageio_ffmpeg.get_ffmpeg_exe())
     in_space, duration = walk.scene.in_space, float(walk.time[-1])
     faster = how_much_faster(duration) if in_space else 1.0
     times = frame_times(duration if in_space else until, faster)
     overlay, small = overlay_of(walk, faster=faster), overlay_of(walk, _BAND_SCALE)
-    with ExitStack() as stack, warnings.catch_warnings():
-        warnings.simplefilter("ignore", ResourceWarning)  # mediapy leaves ffmpeg's pipes
-
-        def writer(part: Path, lines: int, quality: int) -> mediapy.VideoWriter:
-            video = mediapy.VideoWriter(part, (lines, WIDTH), fps=FPS, crf=quality)
-            return stack.enter_context(video)
-
-        part = stack.enter_context(whole(path))
-        video = writer(part, HEIGHT, _IN_SPACE if in_space else _QUALITY)
-        narrow = band and writer(band, _BAND.stop - _BAND.start, _BAND_QUALITY)
+    with ExitStack() as videos:
+        video = videos.enter_context(
+            Encoder(path, WIDTH, HEIGHT, _IN_SPACE if in_space else _QUALITY)
+        )
+        narrow = band and videos.enter_context(
+            Encoder(band, WIDTH, _BAND.stop - _BAND.start, _BAND_QUALITY)
+        )
         for frame, step in pictures(walk, times):
-            video.add_image(overlay.draw(frame, step))
+            video.add(overlay.draw(frame, step))
             if narrow:
-                narrow.add_image(small.draw(frame[_BAND], step))
+                narrow.add(small.draw(frame[_BAND], step))
     return len(times)
-
-
-def _stack(bands: Sequence[Path], path: Path) -> None:
-    """One video of several above each other, by ffmpeg."""
-    inputs = [word for band in bands for word in ("-i", str(band))]
-    stacked = f"vstack=inputs={len(bands)},scale={_JOINT_WIDTH}:-2"
-    with whole(path) as part:
-        run = subprocess.run(
-            [imageio_ffmpeg.get_ffmpeg_exe(), "-y", "-loglevel", "error", *inputs,
-             "-filter_complex", stacked, "-c:v", "libx264",
-             "-crf", str(_JOINT_QUALITY), "-pix_fmt", "yuv420p", str(part)],
-            capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
-        )  # fmt: skip
-        if run.returncode:
-            raise OSError(f"{path}: {run.stderr.strip()}")

@@ -28,17 +28,18 @@ _FEET = 3  # that stand without falling, if a robot of limbs has so many
 _LINKS, _STATES = 30, 25  # of the elastica that finds the end of the branch
 
 
-def cautions(walk: Trajectory, theory: Reference, row: dict[str, Any]) -> list[str]:
+def cautions(walk: Trajectory, theory: Reference | None, row: dict[str, Any]) -> list[str]:
     """Notes on a walk beside its reference.
 
     Args:
-        walk, theory: the walk and its reference.
+        walk, theory: the walk and its reference, None if it has none.
         row: its record, see mjsim.results.record.
     """
-    if not isinstance(theory.walk, Prediction):
+    if walk.scene.in_space:
         return _of_limbs(walk, row)
-    if row["predicted_displacement_over_L"] is None:
+    if theory is None or row["predicted_displacement_over_L"] is None:
         return []
+    assert isinstance(theory.walk, Prediction)
     return [
         *between_ends(walk.scene),
         *_later(walk.scene, theory.walk),

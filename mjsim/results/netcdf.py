@@ -6,7 +6,7 @@ method="nearest")`, `data.pressure.sel(segment="left")`.
 
 import io
 import json
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from analytic.scene.chain import link_lengths, node_positions
 from analytic.scene.limbs import limbs_of
 from mjsim.files.files import whole
+from mjsim.files.interruption import uninterrupted
 from mjsim.results.mechanics import balance, bending, slip
 
 if TYPE_CHECKING:
@@ -147,22 +148,37 @@ def write(
     Raises:
         OSError: the file cannot be written.
     """
-    # by h5py, since h5netcdf takes five times as long for as many variables
-    content = io.BytesIO()  # HDF5 does not survive a disk that is full
     versions = provenance.get("versions", {})
+    content = packed(rows, {
+        "Conventions": CONVENTIONS,
+        "title": title,
+        "source": " ".join(f"{name} {number}" for name, number in versions.items()),
+        "history": f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} simulated",
+        "references": _REFERENCE,
+        "status": status,
+        "provenance": json.dumps(provenance),
+    })  # fmt: skip
+    with whole(path) as part:
+        part.write_bytes(content)
+
+
+def packed(rows: Iterable[Variable], attributes: Mapping[str, str]) -> bytes:
+    """Content of a netCDF file: its variables and attributes.
+
+    In memory, as HDF5 does not survive a disk that is full.
+    """
+    content = io.BytesIO()
     scales: dict[str, Any] = {}  # of netCDF's dimensions, which are dimension scales of HDF5
-    with h5py.File(content, "w", track_order=True) as file:
-        file.attrs["Conventions"] = CONVENTIONS
-        file.attrs["title"] = title
-        file.attrs["source"] = " ".join(f"{name} {number}" for name, number in versions.items())
-        file.attrs["history"] = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} simulated"
-        file.attrs["references"] = _REFERENCE
-        file.attrs["status"] = status
-        file.attrs["provenance"] = json.dumps(provenance)
+    # by h5py, since h5netcdf takes five times as long for as many variables
+    with uninterrupted(), h5py.File(content, "w", track_order=True) as file:
+        for name, text in attributes.items():
+            file.attrs[name] = text
         for name, dimensions, values, units, text in rows:
             kind = h5py.string_dtype() if values.dtype == object else None
             variable = file.create_dataset(name, dtype=kind, data=values, track_order=True)
-            variable.attrs["units"], variable.attrs["long_name"] = units, text
+            if units:
+                variable.attrs["units"] = units
+            variable.attrs["long_name"] = text
             if dimensions == (name,):
                 variable.make_scale(name)
                 scales[name] = variable
@@ -173,5 +189,4 @@ def write(
                     scales[dimension] = file.create_dataset(dimension, (size,), "f4")
                     scales[dimension].make_scale(f"{_NO_VARIABLE}{size:10}")
                 variable.dims[axis].attach_scale(scales[dimension])
-    with whole(path) as part:
-        part.write_bytes(content.getvalue())
+    return content.getvalue()

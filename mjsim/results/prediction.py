@@ -53,6 +53,11 @@ class Reference(NamedTuple):
         return max(float(rest.nodes[:, 2].max()) for rest in self.walk.rests)
 
 
+def reference_name(scene: Scene) -> str:
+    """Name of the reference of a scene, REFERENCE or QUASI_STATIC."""
+    return QUASI_STATIC if scene.in_space else REFERENCE
+
+
 def reference(
     scene: Scene, numerics: Numerics | None = None, finer: float = 1.0, bent: bool = True,
     path: Array | None = None, times: Array | None = None,

@@ -13,19 +13,29 @@ from mjsim.files.text_table import Column, text_table
 from mjsim.results import prediction
 from mjsim.results.cautions import APART, cautions, tied
 from mjsim.results.measures import measure, slid_over_length
-from mjsim.results.prediction import HALF, STATES, Reference, error_bars
+from mjsim.results.prediction import HALF, STATES, Reference, error_bars, reference_name
+from mjsim.results.status import WALKED
 from mjsim.results.trajectory import Trajectory
 
 _OPEN = 1e-4  # undecided displacement, over L, from which on it is printed; less is rounding
 
 
-def record(walk: Trajectory) -> dict[str, Any]:
-    """The run as plain data; quantities that do not exist are None, never a number."""
+def record(walk: Trajectory, without: str = "") -> dict[str, Any]:
+    """The run as plain data; quantities that do not exist are None, never a number.
+
+    Args:
+        walk: what is described, beside its reference; one that failed has none.
+        without: why no reference is computed; it is if empty.
+    """
     scene, numerics, length = walk.scene, walk.numerics, walk.scene.robot.length
-    theory, numbers = reference(walk), measure(walk)
-    ahead, aside = theory.displacement.tolist()
-    predicted = math.isfinite(ahead)
-    bar, turn_bar = error_bars(scene, theory, reference(walk, HALF)) if predicted else (None, 0.0)
+    without = without or ("" if walk.status in WALKED else "the walk failed")
+    theory, numbers = None if without else reference(walk), measure(walk)
+    ahead, aside = theory.displacement.tolist() if theory else (math.nan, math.nan)
+    bar, turn_bar, undecided = None, 0.0, None
+    if theory and math.isfinite(ahead):
+        bar, turn_bar = error_bars(scene, theory, reference(walk, HALF))
+        undecided = _undecided(walk, theory)
+    predicted = theory if math.isfinite(ahead) else None
     simulated = float(len(walk.time) * numerics.timestep)
     shift = numbers and numbers.displacement
     turn = numbers and math.degrees(numbers.turn)
@@ -49,19 +59,19 @@ def record(walk: Trajectory) -> dict[str, Any]:
         "aside_over_L": numbers and numbers.aside,
         "turn_deg": turn,
         "radius_over_L": _number(numbers and numbers.radius),
-        "predicted_by": theory.name,
+        "predicted_by": reference_name(scene),
         "predicted_displacement_over_L": _number(ahead),
-        "predicted_by_cycle_over_L": theory.by_cycle.tolist() if predicted else None,
+        "predicted_by_cycle_over_L": predicted.by_cycle.tolist() if predicted else None,
         "prediction_uncertainty_over_L": bar,
         "predicted_direction": direction(ahead, 1.0, bar or 0.0) if predicted else None,
         "predicted_aside_over_L": _number(aside),
-        "predicted_turn_deg": math.degrees(theory.turn) if predicted else None,
+        "predicted_turn_deg": math.degrees(predicted.turn) if predicted else None,
         "prediction_uncertainty_deg": math.degrees(turn_bar) if predicted else None,
-        "prediction_undecided_over_L": _undecided(walk, theory) if predicted else None,
-        "prediction_flags": [flag.upper() for flag in theory.flags],
+        "prediction_undecided_over_L": undecided,
+        "prediction_flags": [flag.upper() for flag in theory.flags] if theory else [],
         "prediction_notes": [],
         "error_over_L": shift - ahead if shift is not None and predicted else None,
-        "error_deg": None if turn is None or not predicted else turn - math.degrees(theory.turn),
+        "error_deg": None if turn is None or not predicted else turn - math.degrees(predicted.turn),
         "unexplained_over_L": _number(numbers and numbers.unexplained),
         "heading_deg": numbers and math.degrees(numbers.heading),
         "sideways_over_L": numbers and numbers.sideways,
@@ -73,7 +83,8 @@ def record(walk: Trajectory) -> dict[str, Any]:
         "realtime_factor": simulated / walk.wall_time,
         "status": str(walk.status),
     }
-    return {**row, "prediction_notes": cautions(walk, theory, row)}
+    notes = [f"no reference: {without}"] if without else []
+    return {**row, "prediction_notes": notes + cautions(walk, theory, row)}
 
 
 def _undecided(walk: Trajectory, theory: Reference) -> float | None:

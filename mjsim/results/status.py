@@ -16,3 +16,6 @@ class Status(StrEnum):
     SLID = "slid"  # the whole strip slid down the slope: nothing anchored it
     TURNED = "turned"  # it left its plane: turned away or fell sideways
     UNSETTLED = "unsettled"  # it was not at rest when the first cycle began
+
+
+WALKED = (Status.OK, Status.SLID)  # statuses of a walk that did not fail

@@ -75,9 +75,6 @@ def simulate_all(
             return [future.result() for future in futures]
         except BrokenProcessPool as error:
             raise RuntimeError(_UNGUARDED) from error
-        except KeyboardInterrupt:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
 
 
 def _attempt(scene: Scene, numerics: Numerics | None) -> Trajectory | Refused:

@@ -1,15 +1,14 @@
 """Workers of a sweep: processes of this machine, or a Dask cluster."""
 
 import logging
-import multiprocessing
 import os
-import threading
 from collections.abc import Callable
-from concurrent.futures import CancelledError, Executor, Future
-from multiprocessing.connection import wait as wait_for
+from concurrent.futures import CancelledError, Future
 from typing import Any, Protocol
 
+from mjsim.files.extras import optional
 from mjsim.files.plugins import Carried, adopt, carried, processes
+from mjsim.files.processes import Pool
 
 _PATIENCE = "10s"  # for a scheduler to answer
 
@@ -48,15 +47,15 @@ class Processes:
 
     def __init__(self, count: int | None = None) -> None:
         self._count = count or os.cpu_count() or 1
-        self._pool: Executor = self._new()
+        self._pool = self._new()
 
     @property
     def count(self) -> int:
         """See Workers.count."""
         return self._count
 
-    def _new(self) -> Executor:
-        return processes("mjsim.sweeps.rows", self._count, _begin)
+    def _new(self) -> Pool:
+        return processes("mjsim.sweeps.rows", self._count, _silence)
 
     def submit(self, work: Callable[[Any], Any], job: Any) -> "Future[Any]":
         """See Workers.submit."""
@@ -72,7 +71,7 @@ class Processes:
 
     def close(self) -> None:
         """See Workers.close."""
-        self._pool.shutdown(wait=True, cancel_futures=True)
+        self._pool.stop()
 
 
 class Cluster:
@@ -82,18 +81,16 @@ class Cluster:
         address: of the scheduler, as tcp://host:8786.
 
     Raises:
-        ValueError: Dask is not installed, or no scheduler answers there.
+        ModuleNotFoundError: Dask is not installed.
+        ValueError: no scheduler answers there.
     """
 
     def __init__(self, address: str) -> None:
-        try:
-            from distributed import Client
-        except ImportError as error:
-            raise ValueError("a scheduler needs Dask: pip install 'undulator[cluster]'") from error
+        client = optional("distributed", "a scheduler").Client
         for name in ("distributed", "distributed.client", "distributed.comm", "tornado"):
             logging.getLogger(name).setLevel(logging.CRITICAL)  # LostError says it in one line
         try:
-            self._client: Any = Client(address, timeout=_PATIENCE, set_as_default=False)
+            self._client: Any = client(address, timeout=_PATIENCE, set_as_default=False)
         except (OSError, ValueError) as error:
             raise ValueError(f"no scheduler answers at {address!r}: {error}") from error
         self._executor = self._client.get_executor(pure=False)
@@ -129,15 +126,7 @@ def _adopting(registered: Carried, work: Callable[[Any], Any], job: Any) -> Any:
     return work(job)
 
 
-def _begin() -> None:
-    """Silence warnings of divergence and notes, and end this process when its driver ends."""
+def _silence() -> None:
+    """Silence warnings of divergence, and notes on files, which the driver prints."""
     logging.getLogger("absl").setLevel(logging.ERROR)
-    logging.getLogger("mjsim").setLevel(logging.ERROR)  # notes on files: the driver prints them
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()
-
-
-def _end_with(sentinel: int) -> None:
-    wait_for([sentinel])
-    os._exit(1)
+    logging.getLogger("mjsim").setLevel(logging.ERROR)

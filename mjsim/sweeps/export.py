@@ -7,6 +7,7 @@ from contextlib import closing
 from pathlib import Path
 from typing import Any
 
+from mjsim.files.extras import optional
 from mjsim.files.files import whole
 
 _MANY = 10_000  # rows at a time
@@ -16,7 +17,8 @@ def export(results: Path, out: Path) -> None:
     """Write a sweep's rows to a file, by its ending: .csv, .nc or .parquet.
 
     Raises:
-        ValueError: the ending is none of these, or what writes it is not installed.
+        ModuleNotFoundError: what writes it is not installed.
+        ValueError: the ending is none of these.
     """
     check_ending(out)
     with closing(sqlite3.connect(results)) as base, whole(out) as part:
@@ -24,14 +26,11 @@ def export(results: Path, out: Path) -> None:
 
 
 def check_ending(out: Path) -> None:
-    """Raise ValueError for a file of another kind, or one whose writer is not installed."""
+    """Raise ValueError for a file of another kind, ModuleNotFoundError for want of its writer."""
     if out.suffix not in _WRITERS:
         raise ValueError(f"export must end in {', '.join(_WRITERS)}, got {str(out)!r}")
     if out.suffix == ".parquet":
-        try:
-            import pyarrow  # noqa: F401
-        except ImportError as error:
-            raise ValueError("parquet needs pyarrow: pip install 'undulator[parquet]'") from error
+        optional("pyarrow", "parquet")
 
 
 def described(base: sqlite3.Connection) -> dict[str, tuple[str, str]]:
@@ -58,25 +57,24 @@ def _csv(base: sqlite3.Connection, path: Path) -> None:
 
 def _netcdf(base: sqlite3.Connection, path: Path) -> None:
     import numpy as np
-    import xarray as xr
+
+    from mjsim.results.netcdf import Variable, packed
 
     def column(name: str) -> list[Any]:
         return [value for (value,) in base.execute(f'select "{name}" from scenes order by id')]
 
     units = described(base)
-    columns = {}
+    number = np.array(column("id"), dtype=int)
+    rows = [Variable("scene", ("scene",), number, "", "number in the plan")]
     for _, name, kind, *_ in base.execute("pragma table_info(scenes)").fetchall()[1:]:
         if kind == "REAL":
             values: Any = np.array(column(name), dtype=float)  # None becomes NaN
         else:
             values = np.array(["" if v is None else str(v) for v in column(name)], dtype=object)
         unit, text = units[name]
-        attributes = {"long_name": text} | ({"units": unit} if unit else {})
-        columns[name] = ("scene", values, attributes)
+        rows.append(Variable(name, ("scene",), values, unit, text))
     notes = base.execute("select key, value from plan where value is not null")
-    attributes = {key: str(value) for key, value in notes}
-    data = xr.Dataset(columns, coords={"scene": column("id")}, attrs=attributes)
-    data.to_netcdf(path, engine="h5netcdf")
+    path.write_bytes(packed(rows, {key: str(value) for key, value in notes}))
 
 
 def _parquet(base: sqlite3.Connection, path: Path) -> None:

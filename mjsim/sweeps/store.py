@@ -10,7 +10,8 @@ driver writes, whole chunks in one transaction each, so that a crash leaves whol
 import json
 import sqlite3
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import IO, Any
@@ -49,7 +50,7 @@ class Store:
         except OSError as error:
             self._lock.close()
             raise ValueError(f"out {str(path)!r} is being written by another sweep") from error
-        self._base = sqlite3.connect(path)
+        self._base = sqlite3.connect(path, isolation_level=None)  # see _transaction
         try:
             self._open(plan)
         except (sqlite3.DatabaseError, ValueError) as error:
@@ -75,7 +76,7 @@ class Store:
                         f"was made with {name} {stored.get(name)}, here is {version}: give another "
                         "file"
                     )
-        with self._base:
+        with self._transaction():
             if not tables:
                 self._create(plan)
             now = datetime.now(UTC).isoformat(timespec="seconds")
@@ -102,10 +103,24 @@ class Store:
         columns += [(n, "output", unit, text) for n, (_, unit, text) in OUTPUTS.items()]
         self._base.executemany("insert into columns values (?, ?, ?, ?)", columns)
 
+    @contextmanager
+    def _transaction(self) -> Iterator[None]:
+        """Write all of a block or nothing, tables too, whatever ends it.
+
+        Raises:
+            OSError: the file cannot be written.
+        """
+        try:
+            with self._base:
+                self._base.execute("begin immediate")
+                yield
+        except sqlite3.OperationalError as error:
+            raise OSError(f"out {str(self.path)!r} cannot be written: {error}") from error
+
     def note(self, key: str, value: str | None = None) -> str | None:
         """Value of a key of the table `plan`, written first if it is given."""
         if value is not None:
-            with self._base:
+            with self._transaction():
                 self._base.execute("insert or replace into plan values (?, ?)", (key, value))
         row = self._base.execute("select value from plan where key = ?", (key,)).fetchone()
         return row and row[0]
@@ -125,13 +140,13 @@ class Store:
             [row["id"], *(_plain({**row, **points[row["id"]]}.get(name)) for name in self._columns)]
             for row in rows
         ]
-        with self._base:
+        with self._transaction():
             self._base.executemany(f"insert into scenes (id, {names}) values ({marks})", values)
 
     def confirm(self, rows: Iterable[Row]) -> None:
         """Write rows of scenes that were walked again, finer."""
         values = [(row["id"], row["status"], row.get("displacement_over_L")) for row in rows]
-        with self._base:
+        with self._transaction():
             self._base.executemany("insert into confirmations values (?, ?, ?)", values)
 
     def select(self, query: str, values: Sequence[Any] = ()) -> list[tuple[Any, ...]]:

@@ -12,6 +12,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from analytic.progress import counted
 from analytic.scene.ground import durations
 from analytic.shapes import Flag
 from analytic.solvers.elastica.continuation import follow
@@ -70,7 +71,7 @@ class Branch:
     def points(self) -> list[Point]:
         """States at the rows of the path, and two more on either side of changes of contacts."""
         points = [Point(-1.0, self._path[0], self._chain.flat())]
-        for row in range(len(self._path) - 1):
+        for row in counted(range(len(self._path) - 1)):
             changes = 0
             while points[-1].row < row:
                 changes += 1

@@ -96,6 +96,7 @@ class Tree:
         for joint in range(1, count):
             self._above[joint] |= self._above[self.parent[joint]]
         self.carried = self._above[2 * movers]
+        self._carries = self.carried.T.astype(float)
 
     def pose(self, q: Array) -> Pose:
         """Places of nodes and joints."""
@@ -145,10 +146,12 @@ class Tree:
 
     def heights(self, pose: Pose) -> Array:
         """Slopes of the heights of nodes by the coordinates, (P, Q)."""
-        arm = pose.nodes[:, None] - pose.centres[None]
-        rise = pose.axes[:, 0] * arm[..., 1] - pose.axes[:, 1] * arm[..., 0]
+        (x, y, _), (a, b, _) = pose.nodes.T, pose.axes.T
+        rise = np.multiply.outer(y, a) - np.multiply.outer(x, b)
+        rise += b * pose.centres[:, 0] - a * pose.centres[:, 1]
         rise[:, :3] = pose.axes[:3, 2]
-        return np.where(self.carried, rise, 0.0)
+        rise *= self.carried
+        return rise
 
     def bending(self, pose: Pose, force: Array) -> Array:
         """Second derivatives of the sum of forces (P, 3) times places, (Q, Q).
@@ -156,9 +159,11 @@ class Tree:
         Of two joints the one nearer to the trunk, i, turns what the other, j, moves:
         f . (a_i x (a_j x r)) = (a_i . r)(f . a_j) - (f . r)(a_i . a_j).
         """
-        arm = pose.nodes[:, None] - pose.centres[None]  # (P, Q, 3)
-        arm = np.where(self.carried[..., None], arm, 0.0)
-        moment = (arm.reshape(len(arm), -1).T @ force).reshape(-1, 3, 3)
+        # sum over nodes of arm times force, (Q, 3, 3), without the arms of all nodes and joints
+        products = np.concatenate([(pose.nodes[:, :, None] * force[:, None]).reshape(-1, 9), force],
+                                  axis=1)  # fmt: skip
+        sums = self._carries @ products
+        moment = sums[:, :9].reshape(-1, 3, 3) - pose.centres[:, :, None] * sums[:, None, 9:]
         trace = moment[:, 0, 0] + moment[:, 1, 1] + moment[:, 2, 2]
         turned = (moment @ pose.axes[..., None])[..., 0] - trace[:, None] * pose.axes
         inner = pose.axes @ turned.T  # (i, j)

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.progress import counted
 from analytic.scene.surface import Ground
 from analytic.solvers.limbs.contacts import Contact, Contacts, spans_of
 from analytic.solvers.limbs.friction import ContactFriction
@@ -152,7 +153,7 @@ class _StickSlip:
             _State(pressures[0], times[0], first, contacts, weights, bounds,
                    viscous, np.zeros((len(bounds), 2)), bounds > 0)
         )  # fmt: skip
-        for row, time, span in zip(pressures[1:], times[1:], spans, strict=True):
+        for row, time, span in counted(list(zip(pressures[1:], times[1:], spans, strict=True))):
             self._go(row, time, span)
         q = np.array([state.rest.q for state in self._states])
         place, heading = q[:, :2] - q[0, :2], q[:, 3] - q[0, 3]

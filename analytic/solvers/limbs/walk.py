@@ -13,6 +13,7 @@ from analytic.checks import one_of, times_of, whole
 from analytic.friction.contact_length import PASSIVE
 from analytic.friction.dissipation_in_plane import least_dissipation_in_plane
 from analytic.friction.laws import LAWS
+from analytic.progress import counted
 from analytic.scene.gait import Gait
 from analytic.scene.limbs import LimbedRobot, rotation
 from analytic.scene.surface import Ground
@@ -42,7 +43,7 @@ def shapes(
     tree = Tree(robot, elements)
     statics = Statics(tree, chamber)
     rest, rests = statics.flat(), []
-    for row in pressures:
+    for row in counted(list(pressures)):
         rest = statics.equilibrium(row, rest)
         rests.append(rest)
     return tree, rests

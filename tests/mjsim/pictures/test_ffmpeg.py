@@ -1,0 +1,42 @@
+"""A broken ffmpeg is told in one line that names it."""
+
+import numpy as np
+import pytest
+
+from mjsim.pictures.ffmpeg import Encoder, stack
+
+FRAME = np.zeros((64, 96, 3), np.uint8)
+
+
+def encode(path, count=40):
+    with Encoder(path, 96, 64, 30) as video:
+        for _ in range(count):
+            video.add(FRAME)
+
+
+@pytest.mark.parametrize(
+    ("program", "why"),
+    [
+        ("/bin/false", "ffmpeg failed: it ended with exit code 1"),
+        ("/no/ffmpeg", "ffmpeg cannot be started: .*No such file"),
+        ("/", "ffmpeg cannot be started: .*Permission denied"),
+    ],
+)
+def test_another_program_in_its_place_is_named(program, why, tmp_path, monkeypatch):
+    monkeypatch.setenv("IMAGEIO_FFMPEG_EXE", program)
+    for write in (encode, lambda path: stack([path], path, 96, 30)):
+        with pytest.raises(OSError, match=why) as caught:
+            write(tmp_path / "x.mp4")
+        assert f"(IMAGEIO_FFMPEG_EXE is '{program}')" in str(caught.value)
+        assert "\n" not in str(caught.value)
+
+
+def test_its_own_words_are_passed_on(tmp_path):
+    with pytest.raises(OSError, match=r"ffmpeg failed: .*No such file"):
+        encode(tmp_path / "no folder" / "x.mp4")
+
+
+def test_videos_are_stacked(tmp_path):
+    encode(tmp_path / "x.mp4")
+    stack([tmp_path / "x.mp4"] * 2, tmp_path / "two.mp4", 96, 30)
+    assert (tmp_path / "two.mp4").stat().st_size > 500
