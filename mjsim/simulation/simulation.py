@@ -45,6 +45,8 @@ class Simulation(Copied):
     Attributes:
         scene, numerics: as simulated, with a number for everything.
         model, data: MuJoCo's; the model is as compiled after each reset, whatever was set in it.
+        unconverged: number of time steps of the last play in which MuJoCo's solver came to its
+            limit of iterations.
 
     Raises:
         ValueError: the scene and the numerics do not go together.
@@ -93,7 +95,7 @@ class Simulation(Copied):
         self._rows: list[tuple[float, ...]] = []
         self._pressures: list[Array] = []
         self._wall = self._cpu = 0.0
-        self._stopped, self._dropped = False, 0
+        self._stopped, self._dropped, self.unconverged = False, 0, 0
         self._unsettled = not self._settle()
         self._first = 1 - len(self._rows) - self._dropped
         return self.observe()
@@ -219,6 +221,7 @@ class Simulation(Copied):
         apply, before_step, after_step = self._joints.apply, ground.before_step, ground.after_step
         step_model, stands, qpos = mujoco.mj_step, ground.stands, data.qpos
         record = self._recorder and self._recorder.record
+        iterations, most, self.unconverged = data.solver_niter, model.opt.iterations, 0
 
         started, worked = clock.perf_counter(), clock.process_time()
         for step, (load, contact) in enumerate(zip(loads, prepared, strict=True)):
@@ -227,6 +230,8 @@ class Simulation(Copied):
             step_model(model, data)
             if record:
                 record()
+            if iterations.item(0) >= most:
+                self.unconverged += 1
             rows.append(after_step())
             coordinates[step] = qpos
             if not stands():

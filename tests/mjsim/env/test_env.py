@@ -1,6 +1,7 @@
 """Environments walk as simulations do, one robot as many, and keep Gymnasium's rules."""
 
 import copy
+import importlib
 import os
 import pickle
 import subprocess
@@ -14,7 +15,8 @@ from gymnasium.utils.env_checker import check_env
 import mjsim.env
 from analytic.scene.gait import GAITS
 from mjsim.env.gym import WalkEnv, WalkVectorEnv
-from mjsim.env.task import Settings
+from mjsim.env.settings import Settings
+from mjsim.pictures import painter
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.simulation import simulate
 
@@ -26,24 +28,25 @@ RANDOM = {
 
 
 def test_gymnasiums_checker_passes():
-    env = gymnasium.make("Undulator/AnyGround-v0", duration=1.0)
+    env = gymnasium.make("Undulator/AnyGround-v1", duration=1.0)
     check_env(env.unwrapped, skip_render_check=True)
 
 
 @pytest.mark.parametrize("name", ["Felt", "Polyethylene", "Gelatin", "AnyGround"])
 def test_registered_names_make_one_and_many(name):
-    env = gymnasium.make(f"Undulator/{name}-v0")
+    env = gymnasium.make(f"Undulator/{name}-v1")
     _, info = env.reset(seed=0)
     assert name == "AnyGround" or info["surface"] == name.lower()
-    many = gymnasium.make_vec(f"Undulator/{name}-v0", num_envs=2)
+    many = gymnasium.make_vec(f"Undulator/{name}-v1", num_envs=2)
     observations, _ = many.reset(seed=0)
     assert observations.shape == (2, *env.observation_space.shape)
     assert many.observation_space.contains(observations)
 
 
-def test_many_robots_are_each_the_single_one_of_its_seed_through_resets():
-    many = WalkVectorEnv(num_envs=3, **RANDOM)
-    ones = [WalkEnv(**RANDOM) for _ in range(3)]
+@pytest.mark.parametrize("contacts", ["all", "ends"])
+def test_many_robots_are_each_the_single_one_of_its_seed_through_resets(contacts):
+    many = WalkVectorEnv(num_envs=3, contacts=contacts, **RANDOM)
+    ones = [WalkEnv(contacts=contacts, **RANDOM) for _ in range(3)]
     actions = np.random.default_rng(1).random((25, 3, 3)).astype(np.float32)
     felt, _ = many.reset(seed=5)
     for i, one in enumerate(ones):
@@ -88,7 +91,7 @@ def test_a_copy_in_an_episode_goes_on_as_its_original_would(library, way):
             env = mjsim.env.load("gelatin", "felt", seed=3, duration=3.0)
             env.reset()
         else:
-            env = gymnasium.make("Undulator/AnyGround-v0", duration=3.0)
+            env = gymnasium.make("Undulator/AnyGround-v1", duration=3.0)
             env.reset(seed=3)
         return env
 
@@ -123,13 +126,13 @@ def test_dm_controls_own_copy_is_one_and_shares_no_model():
 @WAYS
 def test_many_side_by_side_refuse_to_be_copied(way):
     with pytest.raises(TypeError, match="side by side cannot be copied"):
-        way(WalkVectorEnv(num_envs=2))
+        way(WalkVectorEnv(num_envs=2, contacts="ends"))
 
 
 def test_a_gait_as_actions_goes_as_far_as_its_simulation():
-    numerics = Numerics(links=12, timestep=0.01)
     gait = GAITS["wave"]
-    env = WalkEnv(control_period=0.01, duration=10.0, surfaces=("felt",))
+    env = WalkEnv(control_period=0.01, duration=10.0, surfaces=("felt",),
+                  base={"valves": {"fill_time": 0.0}})  # fmt: skip
     env.reset(seed=0)
     total, late = 0.0, False
     for fractions in gait.fractions(np.arange(1, 1001) * 0.01):
@@ -137,7 +140,7 @@ def test_a_gait_as_actions_goes_as_far_as_its_simulation():
         total += reward
     assert late
     assert not fallen
-    walk = simulate(Scene(), numerics)
+    walk = simulate(Scene(contacts="all"), env.settings.resolved)
     x = walk.line[:, [0, -1], 0].mean(axis=1)
     assert total == pytest.approx((x[-1] - x[walk.start]) / 0.13, abs=1e-7)
 
@@ -152,18 +155,27 @@ def test_scenes_are_drawn_within_their_ranges_and_by_the_seed():
     assert again == scenes[3]
 
 
-def test_friction_between_the_ends_is_for_single_environments():
-    env = WalkEnv(surfaces=("felt",), contacts="all", duration=0.5)
+def test_friction_acts_at_all_contacts_and_chambers_fill_in_time_unless_the_base_says_else():
+    usual, own = Settings(), Settings(base={"valves": {"fill_time": 0.2}})
+    assert usual.scene({}).between
+    assert usual.scene({}).valves.time_constant == 0.5
+    assert own.scene({}).valves.time_constant == 0.2
+    drawn = Settings(randomise={"valves.fill_time": (0.3, 0.4)}).draw(np.random.default_rng(0))
+    assert 0.3 <= drawn.valves.time_constant <= 0.4
+
+
+def test_pressures_follow_actions_by_the_time_constant():
+    env = WalkEnv()
     env.reset(seed=0)
-    felt, *_ = env.step([1.0, 0.0, 1.0])
-    assert np.isfinite(felt).all()
-    with pytest.raises(ValueError, match="contacts must be ends side by side"):
-        WalkVectorEnv(num_envs=2, contacts="all")
+    for step in range(1, 4):
+        felt, *_ = env.step([1.0, 1.0, 1.0])
+        assert felt[:3] == pytest.approx(1 - np.exp(-0.1 * step / 0.5), abs=1e-6)
 
 
 def test_a_strip_that_falls_ends_its_episode_alone_and_among_many():
-    settings = {"surfaces": ("felt",), "base": {"robot": {"weight_per_length": 0.05}},
-                "duration": 20.0}  # fmt: skip
+    settings = {"surfaces": ("felt",), "duration": 20.0, "contacts": "ends",
+                "base": {"robot": {"weight_per_length": 0.05}, "valves": {"fill_time": 0.0},
+                         "numerics": {"links": 12}}}  # fmt: skip
     one, many = WalkEnv(**settings), WalkVectorEnv(num_envs=2, **settings)
     one.reset(seed=0), many.reset(seed=0)
     rng, fell = np.random.default_rng(0), None
@@ -177,6 +189,38 @@ def test_a_strip_that_falls_ends_its_episode_alone_and_among_many():
             assert reward == rewards[0] == -1.0
             break
     assert fell is not None
+
+
+def test_a_robot_that_is_thrown_ends_its_episode_and_info_says_how():
+    base = {"robot": {"weight_per_length": 0.1}, "valves": {"fill_time": 0.0}}
+    env = WalkEnv(surfaces=("felt",), base=base)
+    _, info = env.reset(seed=0)
+    assert info["status"] == "ok"
+    assert info["flying"] == 0.0
+    for step in range(20):
+        *_, fallen, _, info = env.step([step % 2] * 3)
+        if fallen:
+            break
+    assert fallen
+    assert info["status"] == "toppled"
+    assert set(info) == {"surface", "status", "sinking", "flying", "unconverged"}
+
+
+def test_environments_of_version_0_are_refused_with_the_reason():
+    for make in (gymnasium.make, gymnasium.make_vec):
+        with (
+            pytest.warns(DeprecationWarning, match="out of date"),
+            pytest.raises(gymnasium.error.DeprecatedEnv, match="friction at the ends alone"),
+        ):
+            make("mjsim.env.gym:Undulator/Felt-v0")
+
+
+def test_without_gymnasium_one_line_says_what_to_install(monkeypatch):
+    for name in ("mjsim.env.gym", "mjsim.env.gym_binding"):
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    monkeypatch.setitem(sys.modules, "gymnasium", None)
+    with pytest.raises(ModuleNotFoundError, match=r"pip install 'undulator\[gym\]'"):
+        importlib.import_module("mjsim.env.gym")
 
 
 def test_without_dm_control_one_line_says_why(monkeypatch):
@@ -207,21 +251,32 @@ def test_bad_settings_are_named(settings, words):
         Settings(**settings)
 
 
-def test_a_picture_shows_the_robot():
+def test_pictures_show_the_robot_without_a_screen_and_without_mujoco_gl():
     program = (
-        "from mjsim.env.gym import WalkEnv\n"
-        "env = WalkEnv(render_mode='rgb_array'); env.reset(seed=0)\n"
+        "import mujoco, gymnasium\n"
+        "env = gymnasium.make('mjsim.env.gym:Undulator/Gelatin-v1', render_mode='rgb_array')\n"
+        "env.reset(seed=0)\n"
         "a = env.render()\n"
         "for _ in range(10): env.step([1.0, 1.0, 0.0])\n"
         "b = env.render(); env.close()\n"
         "print(a.shape, (abs(a.astype(int) - b).max(axis=2) > 30).sum())\n"
     )
-    environment = {**os.environ, "MUJOCO_GL": "egl"}
+    without = ("MUJOCO_GL", "PYOPENGL_PLATFORM", "DISPLAY")
+    environment = {name: value for name, value in os.environ.items() if name not in without}
     done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True,
                           text=True, check=True)  # fmt: skip
     shape, changed = done.stdout.rsplit(maxsplit=1)
     assert shape == "(240, 480, 3)"
     assert int(changed) > 500
+
+
+def test_where_nothing_renders_one_line_says_so(monkeypatch):
+    monkeypatch.setattr(painter, "_backend", lambda: None)
+    env = WalkEnv(render_mode="rgb_array")
+    env.reset(seed=0)
+    for _ in range(2):
+        with pytest.raises(gymnasium.error.DependencyNotInstalled, match="install libegl1"):
+            env.render()
 
 
 @pytest.mark.slow
