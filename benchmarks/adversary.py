@@ -108,7 +108,7 @@ def random(rng: np.random.Generator) -> Cycle:
 
 
 def mutated(cycle: Cycle, other: Cycle, rng: np.random.Generator) -> Cycle:
-    """A cycle that is a little other: in some pressures, in its length, or with a part of another."""
+    """A cycle changed in some pressures or its length, or with a part of another."""
     new = cycle.copy()
     kind = int(rng.integers(_KINDS))
     begin = int(rng.integers(len(new)))

@@ -4,13 +4,16 @@ from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from typing import NamedTuple
 
-import cma
 import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.gait import Gait
+from mjsim.files.extras import needed
 from mjsim.optimising.objective import Objective
 from mjsim.optimising.space import Space
+
+with needed("a search", "cma", "optimise"):
+    import cma
 
 Array = NDArray[np.float64]
 

@@ -8,6 +8,7 @@ import os
 import pickle
 import subprocess
 import sys
+from contextlib import suppress
 from functools import cache
 from typing import IO, Any
 
@@ -85,10 +86,8 @@ class Painter:
 
 
 def _shut(pipe: IO[bytes]) -> None:
-    try:
+    with suppress(BrokenPipeError):  # of what a process that ended did not read
         pipe.close()
-    except BrokenPipeError:  # of what a process that ended did not read
-        pass
 
 
 def serve() -> None:
