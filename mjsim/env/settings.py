@@ -19,7 +19,7 @@ Range = tuple[float, float] | Sequence[str]
 
 _WHOLE = 1e-9  # of a control period in time steps
 # with these, what policies earn is within 10 % of 24 links and 1 ms: benchmarks/adversary.py
-_STRIP = Numerics(links=24, timestep=0.01, contact_time=2.0, steep_contact_time=8.0)
+_STRIP = Numerics(links=24, timestep=0.01, contact_time=2.0, steep_contact_time=16.0)
 _LIMBS = Numerics(links=4, timestep=0.02)
 
 
