@@ -28,8 +28,8 @@ ROWS = Path(__file__).with_name("adversary.csv")
 GROUNDS = ("gelatin", "felt", "polyethylene")
 FINE = Numerics(links=24, timestep=0.001)
 LEVELS = "0123456789X"  # tenths of the peak pressure
-SEARCHES = {"wave": 6, "bang-bang": 120, "random": 40, "evolution": 400}  # cycles to try
-AGAIN = 4  # of the best of each search, how many are walked by the finer model
+SEARCHES = {"wave": 6, "bang-bang": 80, "random": 20, "evolution": 240}  # cycles to try
+AGAIN = 3  # of the best of each search, how many are walked by the finer model
 WITHIN, LEAST = 0.1, 0.006  # of the finer model's reward, and L: a tenth of what the wave earns
 _LONGEST = 60  # control periods of a cycle
 _PARENTS, _CHILDREN = 12, 24

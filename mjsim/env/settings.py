@@ -19,7 +19,7 @@ Range = tuple[float, float] | Sequence[str]
 
 _WHOLE = 1e-9  # of a control period in time steps
 # with these, what policies earn is within 10 % of 24 links and 1 ms: benchmarks/adversary.py
-_STRIP = Numerics(links=24, timestep=0.01, contact_time=2.0, steep_contact_time=16.0)
+_STRIP = Numerics(links=24, timestep=0.01, contact_path="curved")
 _LIMBS = Numerics(links=4, timestep=0.02)
 
 
@@ -97,9 +97,13 @@ class Settings:
         """Numerics with a number for everything."""
         scene, given = build(self.base)
         usual = _LIMBS if scene.in_space else _STRIP
+        # strips side by side know straight paths alone, as other numerics do
+        if self.contacts == "ends" or (given.integrator, given.cone) != ("discrete", "elliptic"):
+            usual = replace(usual, contact_path="straight")
+        stated = self.base.get("numerics", {})
         missing = {
             item.name: getattr(usual, item.name) for item in fields(given)
-            if getattr(given, item.name) is None
+            if item.name not in stated
         }  # fmt: skip
         return resolved(scene, self.numerics or replace(given, **missing))
 

@@ -22,6 +22,7 @@ from mjsim.results.status import AT_REST, Status
 from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Scene, registry, resolved
 from mjsim.simulation.copies import Copied
+from mjsim.simulation.curved_paths import curved_paths
 from mjsim.simulation.kinematics import nodes_of, positions
 from mjsim.simulation.observation import Observation, Policy
 from mjsim.simulation.schedule import before_start, check_steps, walking, walking_steps
@@ -85,7 +86,7 @@ class Simulation(Copied):
             else registry.find(scene.body).bind(model, self.data, scene, numerics)
         )  # fmt: skip
         self._footing = footing(scene, numerics, model, self.data, self._joints)
-        self._pads = pads_of(model, scene)
+        self._pads, self._curved = pads_of(model, scene), curved_paths(scene, numerics, model)
         self._chambers = ChamberPressures(
             scene.valves, len(scene.robot.chambers), numerics.timestep
         )
@@ -219,7 +220,8 @@ class Simulation(Copied):
         coordinates = np.empty((len(valves), model.nq))
         rows: list[tuple[float, ...]] = []
         apply, before_step, after_step = self._joints.apply, ground.before_step, ground.after_step
-        step_model, stands, qpos = mujoco.mj_step, ground.stands, data.qpos
+        step_model = self._curved.step if self._curved else mujoco.mj_step
+        stands, qpos = ground.stands, data.qpos
         record = self._recorder and self._recorder.record
         iterations, most, self.unconverged = data.solver_niter, model.opt.iterations, 0
 
