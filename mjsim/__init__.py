@@ -28,7 +28,7 @@ _attribute, __dir__, __all__ = lazily(
         "analytic.scene.quadruped_gaits": ("QUADRUPED_GAITS", "undulation"),
         "analytic.scene.robot": ("Robot",),
         "analytic.scene.surface": ("SURFACES", "Ground", "Surface"),
-        "mjsim.env.task": ("Settings",),
+        "mjsim.env.settings": ("Settings",),
         "mjsim.files.tables": ("build", "read_tables"),
         "mjsim.files.written": ("as_tables", "as_toml"),
         "mjsim.fitting.estimate": ("Estimate", "estimate"),

@@ -1,5 +1,6 @@
 """The best gait for a ground: `undulator optimise`."""
 
+import itertools
 import math
 import os
 import time
@@ -12,6 +13,7 @@ from analytic.checks import whole
 from analytic.scene.gait import Gait
 from analytic.scene.surface import SURFACES, Surface
 from mjsim.files.cli import FAILED, bar, fail, parse, say, strict_json
+from mjsim.files.extras import MissingExtraError
 from mjsim.files.files import check_folder
 from mjsim.files.files import whole as whole_file
 from mjsim.files.options import SceneOptions, tables_of
@@ -36,9 +38,10 @@ EXAMPLES = (
 class Options(SceneOptions):
     """Search for the gait that goes farthest, fastest, or for the least air, on given ground.
 
-    Prints how finer models walk it, and with pressure and friction 10 % off; docs/output.md
-    explains the columns. Writes best.toml, a gait for --gait, and best.png. Exit code 0: done; 2:
-    bad input; 3: nothing goes that way.
+    Of several grounds the worst counts, and of friction at the ends alone or at all contacts the
+    worse, unless --contacts says which. Prints how finer models walk it, and with pressure and
+    friction 10 % off; docs/output.md explains the columns. Writes best.toml, a gait for --gait, and
+    best.png. Exit code 0: done; 2: bad input; 3: nothing goes that way.
     """
 
     aim: Literal["displacement", "speed", "air", "work"] = "displacement"
@@ -85,7 +88,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             ) from error
         seconds = time.perf_counter() - began
         files = _write(options, objective, history)
-    except (ValueError, OSError, ModuleNotFoundError) as error:
+    except (ValueError, OSError, MissingExtraError) as error:
         fail(PROGRAM, str(error))
     record = _record(options, objective, history[-1], best, start) | {
         "wall_time_s": seconds, "files": files}  # fmt: skip
@@ -139,10 +142,11 @@ def _search(
                 history.append(generation)
         surfaces = [*objective.surfaces,
                     *(s for s in SURFACES.values() if s not in objective.surfaces)]  # fmt: skip
-        gaits = [history[-1].best] * len(surfaces) + [scene.gait] * len(surfaces)
-        jobs = zip([objective] * len(gaits), gaits, surfaces * 2, strict=True)
+        jobs = list(itertools.product(
+            [objective], [history[-1].best, scene.gait], surfaces, objective.contacts
+        ))  # fmt: skip
         confirmed = list(pool.map(confirm, *zip(*jobs, strict=True)))
-    return confirmed[: len(surfaces)], confirmed[len(surfaces) :]
+    return confirmed[: len(jobs) // 2], confirmed[len(jobs) // 2 :]
 
 
 def _write(options: Options, objective: "Objective", history: "list[Generation]") -> list[str]:
@@ -197,8 +201,9 @@ def _text(record: dict[str, Any]) -> str:
         for row, start in zip(record["surfaces"], record["start"], strict=True)
     ]
     columns = (
-        Column("surface", "surface"), Column("searched", "searched", "+.4f"),
-        Column("reference", "reference", "+.4f"), Column("MuJoCo", "mujoco", "+.4f"),
+        Column("surface", "surface"), Column("friction at", "contacts"),
+        Column("searched", "searched", "+.4f"), Column("reference", "reference", "+.4f"),
+        Column("MuJoCo", "mujoco", "+.4f"),
         Column("10 % off: from", "lowest", "+.4f"), Column("to", "highest", "+.4f"),
         Column("start", "start", "+.4f"), Column("status", "status"),
     )  # fmt: skip

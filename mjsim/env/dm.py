@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from mjsim.env.dm_binding import control, specs, wrapper
 from mjsim.env.dm_binding import mujoco as dm_mujoco
-from mjsim.env.task import Settings, Walker
+from mjsim.env.settings import Settings
+from mjsim.env.task import Walker
 from mjsim.scene import Scene
 
 Array = NDArray[np.float64]

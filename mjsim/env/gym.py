@@ -1,27 +1,20 @@
-"""Task of mjsim.env.task for Gymnasium: one robot, or a batch by mujoco.batch.Batch.
+"""Task of mjsim.env.task for Gymnasium: one robot, or many.
 
-Importing this registers Undulator/Felt-v0, /Polyethylene-v0, /Gelatin-v0 and /AnyGround-v0.
+Importing this registers Undulator/Felt-v1, /Polyethylene-v1, /Gelatin-v1 and /AnyGround-v1;
+gymnasium.make("mjsim.env.gym:Undulator/Gelatin-v1") imports it.
 """
 
 from typing import Any
 
-try:
-    import gymnasium
-except ModuleNotFoundError as error:
-    raise ModuleNotFoundError(
-        "mjsim.env.gym needs gymnasium: pip install 'undulator[gym]'", name=error.name
-    ) from error
-import mujoco
 import numpy as np
-from gymnasium.utils import seeding
-from gymnasium.vector import AutoresetMode, VectorEnv
-from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from analytic.scene.surface import SURFACES
-from mjsim.env.task import FALL, Settings, Walker, commands, middle, sense
+from mjsim.env.gym_binding import AutoresetMode, VectorEnv, batch_space, gymnasium, seeding
+from mjsim.env.many import walkers
+from mjsim.env.settings import Settings
+from mjsim.env.task import Walker
 from mjsim.scene import Scene
-from mjsim.simulation.batch_strips import StripBatch
 
 Array = NDArray[np.float64]
 Observation = NDArray[np.float32]
@@ -45,7 +38,7 @@ class WalkEnv(gymnasium.Env):  # type: ignore[misc]
 
     Args:
         render_mode: "rgb_array", or None.
-        settings: see mjsim.env.task.Settings.
+        settings: see mjsim.env.settings.Settings.
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 10}  # noqa: RUF012 - Gymnasium's
@@ -67,7 +60,7 @@ class WalkEnv(gymnasium.Env):  # type: ignore[misc]
         else:
             self._walker.reset()
         self._count = 0
-        return self._sense(self._walker), {"surface": scene.ground.name}
+        return self._sense(self._walker), self._walker.info()
 
     def step(self, action: Any) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Command the valves for a control period."""
@@ -76,21 +69,19 @@ class WalkEnv(gymnasium.Env):  # type: ignore[misc]
         walker.play(action, self.settings.steps)
         self._count += 1
         late = self._count >= self.settings.length
-        return self._sense(walker), walker.reward, walker.fallen, late, {}
+        return self._sense(walker), walker.reward, walker.fallen, late, walker.info()
 
     def render(self) -> Any:
         """Picture from the side, (H, W, 3) bytes."""
         if self.render_mode is None or self._walker is None:
             return None
         if self._picture is None:
-            from mjsim.pictures.still import Still
+            from mjsim.pictures.painter import Painter
 
             try:
-                self._picture = Still(self._walker.scene, self.settings.resolved)
-            except mujoco.FatalError as error:
-                raise gymnasium.error.DependencyNotInstalled(
-                    "no OpenGL: set MUJOCO_GL=egl (without a screen) before Python starts"
-                ) from error
+                self._picture = Painter(self._walker.scene, self.settings.resolved)
+            except OSError as error:
+                raise gymnasium.error.DependencyNotInstalled(str(error)) from error
         pressures = self._observation[: self.settings.chambers]
         simulation = self._walker.simulation
         return self._picture.draw(simulation.nodes(), simulation.data.qpos, pressures)
@@ -110,40 +101,37 @@ class WalkEnv(gymnasium.Env):  # type: ignore[misc]
 
 
 class WalkVectorEnv(VectorEnv):  # type: ignore[misc]
-    """Batch of strips; each is the WalkEnv of its seed. Robots of limbs are not stepped so.
+    """Batch of robots; each is the WalkEnv of its seed.
 
-    A robot that does not come to rest in the time of the scene, as where it slides downhill, begins
-    as it is, where WalkEnv waits longer.
+    Strips with contacts="ends" are stepped side by side, twice as fast; then `info` names the
+    grounds alone, and a strip that does not come to rest in the time of the scene, as where it
+    slides downhill, begins as it is, where WalkEnv waits longer.
 
     Args:
         num_envs: number of robots.
-        threads: of MuJoCo.
-        settings: see mjsim.env.task.Settings.
+        threads: of MuJoCo, of strips side by side.
+        settings: see mjsim.env.settings.Settings.
     """
 
     metadata = {"autoreset_mode": AutoresetMode.NEXT_STEP}  # noqa: RUF012 - Gymnasium's
 
     def __init__(self, num_envs: int = 1, threads: int = 1, **settings: Any) -> None:
         self.settings, self.num_envs = Settings(**settings), num_envs
-        if self.settings.contacts != "ends":
-            raise ValueError(f"contacts must be ends side by side, got {self.settings.contacts}")
         self.single_observation_space, self.single_action_space = spaces(self.settings)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self.metadata = {**self.metadata, "render_modes": []}
-        base = self.settings.scene(self.settings.grounds[0])
-        numerics = self.settings.resolved
-        self._strips = StripBatch([base] * num_envs, numerics, threads)
-        self._numerics, self.render_mode = numerics, None
+        self.render_mode = None
+        self._walkers = walkers(self.settings, num_envs, threads)
         self._rngs: list[np.random.Generator] = []
-        self._place, self._count = np.zeros(num_envs), np.zeros(num_envs, dtype=int)
+        self._count = np.zeros(num_envs, dtype=int)
         self._over = np.zeros(num_envs, dtype=bool)
         self._observation = np.zeros(self.observation_space.shape, np.float32)
 
     def reset(
         self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
-        """Draw a scene for each, lay the strips on their grounds and let them settle."""
+        """Draw a scene for each, lay the robots on their grounds and let them settle."""
         if seed is not None or not self._rngs:
             seeds: list[int | None] = (
                 list(seed) if isinstance(seed, list)
@@ -151,52 +139,50 @@ class WalkVectorEnv(VectorEnv):  # type: ignore[misc]
             )  # fmt: skip
             self._rngs = [seeding.np_random(each)[0] for each in seeds]
         self._begin(np.arange(self.num_envs))
-        return self._observation.copy(), {}
+        return self._observation.copy(), self._walkers.infos()
 
     def step(self, actions: Any) -> tuple[Observation, Array, Any, Any, dict[str, Any]]:
         """Command all valves for a control period; ended episodes begin anew."""
         rewards, fallen = np.zeros(self.num_envs), np.zeros(self.num_envs, dtype=bool)
         ended, walking = np.flatnonzero(self._over), np.flatnonzero(~self._over)
         if len(walking):
-            scenes = [self._strips.scenes[i] for i in walking]
-            valves = np.array([
-                np.tile(commands(scene, action), (self.settings.steps, 1))
-                for scene, action in zip(scenes, np.asarray(actions)[walking], strict=True)
-            ])  # fmt: skip
-            steps = self._strips.play(valves, walking)
-            fallen[walking] = self._strips.stopped[walking]
+            numbers, rewards[walking], fallen[walking] = self._walkers.play(
+                walking, np.asarray(actions)[walking]
+            )
+            self._observation[walking] = _within(numbers, self.single_observation_space)
             self._count[walking] += 1
-            place = self._sense(walking, steps.contact[:, -1])
-            rewards[walking] = np.where(fallen[walking], FALL, place - self._place[walking])
-            self._place[walking] = place
         if len(ended):
             self._begin(ended)
         late = self._count >= self.settings.length
         self._over = fallen | late
-        return self._observation.copy(), rewards, fallen, late, {}
+        return self._observation.copy(), rewards, fallen, late, self._walkers.infos()
 
     def scenes(self) -> list[Scene]:
         """Scenes of the current episodes."""
-        return list(self._strips.scenes)
+        return list(self._walkers.scenes)
 
     def _begin(self, rows: NDArray[np.int_]) -> None:
         scenes = [self.settings.draw(self._rngs[row]) for row in rows.tolist()]
-        *_, settled = self._strips.reset(rows, scenes)
+        numbers = self._walkers.reset(rows, scenes)
         self._count[rows], self._over[rows] = 0, False
-        self._place[rows] = self._sense(rows, settled.contact[:, -1])
-
-    def _sense(self, rows: NDArray[np.int_], contact: Array) -> Array:
-        """Take the observations of strips; returns their places over L."""
-        scenes = [self._strips.scenes[row] for row in rows]
-        qpos = self._strips.coordinates(rows)
-        numbers = sense(scenes, self._numerics, self._strips.pressure[rows], qpos, contact)
         self._observation[rows] = _within(numbers, self.single_observation_space)
-        return middle(scenes, self._numerics, qpos)
 
 
 def _within(numbers: Array, space: gymnasium.spaces.Box) -> Observation:
     """Observation within its space, also of a strip that fell."""
     return np.clip(np.nan_to_num(numbers), space.low, space.high).astype(np.float32)
+
+
+def refuse(**settings: Any) -> None:
+    """Refuse the environments of version 0.
+
+    Raises:
+        gymnasium.error.DeprecatedEnv: always.
+    """
+    raise gymnasium.error.DeprecatedEnv(
+        "version 0 paid for what no robot does (friction at the ends alone, chambers that fill at "
+        "once): take version 1, as mjsim.env.gym:Undulator/Gelatin-v1"
+    )
 
 
 _NAMED = {
@@ -205,6 +191,10 @@ _NAMED = {
 }
 for _name, _surfaces in _NAMED.items():
     gymnasium.register(
-        f"Undulator/{_name}-v0", entry_point="mjsim.env.gym:WalkEnv",
+        f"Undulator/{_name}-v1", entry_point="mjsim.env.gym:WalkEnv",
         vector_entry_point="mjsim.env.gym:WalkVectorEnv", kwargs={"surfaces": _surfaces},
+    )  # fmt: skip
+    gymnasium.register(
+        f"Undulator/{_name}-v0", entry_point="mjsim.env.gym:refuse",
+        vector_entry_point="mjsim.env.gym:refuse",
     )  # fmt: skip

@@ -6,163 +6,31 @@ angle by which each segment is bent, by stretch sensors; the inclination of a st
 and roll of a trunk, by accelerometers; the length of side contact of a strip's ends, or of each
 limb, by electrodes. The place on the ground is none.
 
-Friction acts at the two ends of a strip, as in every scene whose gait keeps the middle up. A policy
-may let it down: then the middle has normal forces but no friction, unless contacts is "all" (the
-single environments; slower). At a robot of limbs it acts at all contacts.
+What a policy earns shall be what its pressures earn on a finer model, since a policy that learns
+looks for the places where they differ. So friction acts wherever the robot touches the ground (at
+the ends alone, pressing chambers fully on and off by turns goes one length in 13 s, and most of it
+the other way with friction in the middle); chambers fill and vent with a time constant that was
+measured (mjsim.scene.valves); an episode ends as the robot topples or is thrown, by the detector of
+every simulation; contacts are soft for long enough that ends which swing do not hop for a step.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from functools import cached_property
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.checks import is_number, positive
 from analytic.scene.chain import segment_overlap
-from analytic.scene.limbs import LimbedRobot, limbs_of, rotation
-from mjsim.files.quantities import check_field, field_value, with_fields
-from mjsim.files.tables import Tables, build
+from analytic.scene.limbs import limbs_of, rotation
+from mjsim.env.settings import Settings
 from mjsim.results.status import Status
-from mjsim.scene import Numerics, Resolved, Scene, resolved
-from mjsim.scene.scene import Contacts
+from mjsim.scene import Resolved, Scene
 from mjsim.simulation.observation import Observation
 from mjsim.simulation.simulation import Simulation
 
 Array = NDArray[np.float64]
-Range = tuple[float, float] | Sequence[str]
 
-FALL = -1.0  # reward of the step in which the strip falls [L]; chosen
-_WHOLE = 1e-9  # of a control period in time steps
-
-
-@dataclass(frozen=True)
-class Settings:
-    """Settings of an environment.
-
-    Raises:
-        ValueError: a value is out of its range; the message names it.
-    """
-
-    surfaces: tuple[str, ...] | None = None
-    """names of the grounds, one of which is drawn at each reset; if not given the base's own, or
-    gelatin"""
-    control_period: float = 0.1
-    """time between actions [s]"""
-    duration: float = 20.0
-    """duration of an episode [s]"""
-    randomise: Mapping[str, Range] = field(default_factory=dict)
-    """fields of the scene, as robot.modulus, and their ranges, from which a number is drawn evenly
-    at each reset; or words, one of which is drawn"""
-    base: Tables = field(default_factory=dict)
-    """tables of the scene that all start from"""
-    numerics: Numerics | None = None
-    """of all episodes; if not given those of the base, which has 12 links and 0.01 s unless it
-    says otherwise, within 2 % of the distance for the default robot and gait, and of a robot of
-    limbs 4 of each limb and 0.02 s"""
-    contacts: Contacts = "ends"
-    """places of a strip's friction: ends, or all for environments that are not vectorised"""
-
-    def __post_init__(self) -> None:
-        positive("control_period", self.control_period, "s")
-        positive("duration", self.duration, "s")
-        ground = self.base.get("ground", {}).keys() - {"slope_deg"}
-        if self.surfaces is None and not ground:
-            object.__setattr__(self, "surfaces", ("gelatin",))
-        elif self.surfaces is not None and not self.surfaces:
-            raise ValueError("surfaces must be one name at least, got none")
-        elif self.surfaces and ground:
-            raise ValueError(
-                f"surfaces {', '.join(self.surfaces)} would replace the base's ground: give one of "
-                f"them; the base has {', '.join(sorted(ground))}"
-            )
-        steps = self.control_period / self.resolved.timestep
-        if not (round(steps) >= 1 and abs(steps - round(steps)) < _WHOLE * steps):
-            raise ValueError(
-                f"control_period must be whole time steps of {self.resolved.timestep:g} s, got "
-                f"{self.control_period:g} s"
-            )
-        for name, choice in self.randomise.items():
-            check_field(name)
-            if not choice or not (all(isinstance(v, str) for v in choice) or _is_range(choice)):
-                raise ValueError(f"range of {name} must be two numbers or words, got {choice!r}")
-        for ground_values in self.grounds:
-            self.scene(ground_values)
-
-    @property
-    def steps(self) -> int:
-        """Number of time steps of a control period."""
-        return round(self.control_period / self.resolved.timestep)
-
-    @property
-    def length(self) -> int:
-        """Number of actions of an episode."""
-        return max(1, round(self.duration / self.control_period))
-
-    @property
-    def grounds(self) -> list[dict[str, str]]:
-        """Values of the fields of a scene, on each of the grounds."""
-        return [{"ground.surface": name} for name in self.surfaces] if self.surfaces else [{}]
-
-    @cached_property
-    def resolved(self) -> Resolved:
-        """Numerics with a number for everything."""
-        scene, given = build(self.base)
-        links, timestep = (4, 0.02) if scene.in_space else (12, 0.01)
-        usual = replace(
-            given, links=given.links or links,
-            timestep=timestep if given.timestep is None else given.timestep,
-        )  # fmt: skip
-        return resolved(scene, self.numerics or usual)
-
-    @cached_property
-    def names(self) -> "Names":
-        """Parts of the observations."""
-        robot = self.scene({}).robot
-        chambers, limbs = len(robot.chambers), len(limbs_of(robot))
-        contacts = limbs if isinstance(robot, LimbedRobot) else 2
-        return Names(pressure=chambers, bend=chambers, inclination=2, side_contact=contacts)
-
-    @property
-    def chambers(self) -> int:
-        """Number of chambers of the robot."""
-        return self.names.pressure
-
-    def scene(self, values: Mapping[str, Any]) -> Scene:
-        """Scene with other values of some fields.
-
-        Raises:
-            ValueError: they do not make one, or it is not of body chain.
-        """
-        scene, _ = build(with_fields(self.base, values))
-        if scene.body != "chain":
-            raise ValueError(f"environments are of body chain, got {scene.body}")
-        return scene if scene.in_space else replace(scene, contacts=self.contacts)
-
-    def draw(self, rng: np.random.Generator) -> Scene:
-        """Draw a scene for an episode."""
-        values: dict[str, Any] = dict(self.grounds[int(rng.integers(len(self.grounds)))])
-        for name, choice in self.randomise.items():
-            if not _is_range(choice):
-                values[name] = str(rng.choice([str(word) for word in choice]))
-            else:
-                low, high = (float(field_value(name, value)) for value in choice)
-                values[name] = float(rng.uniform(low, high))
-        return self.scene(values)
-
-
-def _is_range(choice: Sequence[Any]) -> bool:
-    return len(choice) == 2 and all(is_number(value) for value in choice)
-
-
-class Names(NamedTuple):
-    """Parts of an observation in order, and the count of numbers of each."""
-
-    pressure: int
-    bend: int
-    inclination: int
-    side_contact: int
+FALL = -1.0  # reward of the step in which the robot topples or is thrown [L]; chosen
 
 
 def sense(
@@ -248,6 +116,21 @@ class Walker:
         """True of a robot that stands no more."""
         return self.seen.status not in (Status.OK, Status.UNSETTLED)
 
+    def info(self) -> dict[str, Any]:
+        """State of the model, which a robot could not measure, after the last action.
+
+        Returns:
+            surface: name of the ground. status: of the simulation. sinking: depth of the deepest
+            place under the ground, over L. flying: height of the lowest place over the ground, over
+            L; 0 where any touches. unconverged: number of the action's time steps in which MuJoCo's
+            solver came to its limit of iterations.
+        """
+        return {
+            "surface": self.scene.ground.name, "status": str(self.seen.status),
+            "sinking": max(-self._lowest, 0.0), "flying": max(self._lowest, 0.0),
+            "unconverged": self.simulation.unconverged,
+        }  # fmt: skip
+
     def sense(self) -> Array:
         """Measurements of the robot, in the order of Names."""
         if self.scene.in_space:
@@ -270,13 +153,9 @@ class Walker:
         )  # fmt: skip
 
     def _look(self, seen: Observation) -> None:
-        self.seen = seen
-        if self.scene.in_space:
-            ends = self.simulation.nodes()[0][[0, -1], :2]
-            self.place = float(ends.mean(axis=0) @ self._ahead) / self.scene.robot.length
-        else:
-            numerics = self.simulation.numerics
-            (self.place,) = middle([self.scene], numerics, self._coordinates()).tolist()
+        nodes, length = self.simulation.nodes(), self.scene.robot.length
+        self.seen, self._lowest = seen, float(nodes[..., 2].min()) / length
+        self.place = float(nodes[0][[0, -1], :2].mean(axis=0) @ self._ahead) / length
 
     def _coordinates(self) -> Array:
         return np.array(self.simulation.data.qpos)[None]

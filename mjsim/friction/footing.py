@@ -12,7 +12,7 @@ from mjsim.friction.in_plane import LimbFooting
 from mjsim.friction.traction import BoundedEnds, ContactFriction
 from mjsim.model.body import Joints
 from mjsim.model.pads import pads_by_node
-from mjsim.results.status import FALLEN
+from mjsim.results.status import FALLEN, THROWN
 from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
@@ -75,8 +75,9 @@ class StripFooting:
         self._lengths = data.ten_length
         pads = pads_by_node(model)
         self._feet = int(pads[0, 0]), int(pads[-1, 0])
-        self._height = data.geom_xpos[:, 2]
+        self._data, self._nodes, self._height = data, pads[:, 0], data.geom_xpos[:, 2]
         self._low, self._high = feet_may_be(scene, numerics)
+        self._thrown = thrown(scene, numerics)
 
     def prepare(self, pressures: Array) -> Sequence[Any]:
         """Tell whether each end may lie on its side at each step, by its pressure."""
@@ -96,9 +97,11 @@ class StripFooting:
         return law.contact_left, law.contact_right, law.left_slip, law.drift
 
     def stands(self) -> bool:
-        """Tell whether both ends are still feet."""
+        """Tell whether both ends are still feet, and the strip is not thrown."""
         low, high, (left, right), height = self._low, self._high, self._feet, self._height
-        return low < height.item(left) < high and low < height.item(right) < high
+        if not (low < height.item(left) < high and low < height.item(right) < high):
+            return False
+        return self._data.ncon > 0 or bool(height[self._nodes].min() < self._thrown)
 
     def places(self) -> Array:
         """Lengths of the tendons to the ends [m]."""
@@ -109,6 +112,11 @@ def feet_may_be(scene: Scene, numerics: Resolved) -> tuple[float, float]:
     """Heights between which the pad of a strip's end is while it is still a foot [m]."""
     reach = FALLEN * scene.robot.length
     return numerics.pad_radius - reach, numerics.pad_radius + reach
+
+
+def thrown(scene: Scene, numerics: Resolved) -> float:
+    """Height of the lowest pad from which on all of a strip has left the ground [m]."""
+    return numerics.pad_radius + THROWN * scene.robot.length
 
 
 def footing(

@@ -11,16 +11,18 @@ from mjsim.optimising.objective import Objective
 from mjsim.results.measures import measure
 from mjsim.results.prediction import reference
 from mjsim.scene import Scene
+from mjsim.scene.scene import Contacts
 from mjsim.simulation.checked import walk_checked
 
 _PARTS = (0.9, 1.0, 1.1)  # of pressure and of either strength of the ground
 
 
 class Confirmation(NamedTuple):
-    """A gait on one surface; displacements per cycle over L, towards +x.
+    """A gait on one surface, friction at some contacts; displacements per cycle over L, to +x.
 
     Attributes:
         surface: name of the surface.
+        contacts: where friction acts, see mjsim.scene.Scene.
         searched: by the model of the search, less the change that rests on flagged states.
         reference: by the quasi-static reference, which friction bends; NaN if it has none.
         mujoco: by MuJoCo, links and time step checked; NaN if it failed.
@@ -29,6 +31,7 @@ class Confirmation(NamedTuple):
     """
 
     surface: str
+    contacts: Contacts
     searched: float
     reference: float
     mujoco: float
@@ -37,22 +40,24 @@ class Confirmation(NamedTuple):
     highest: float
 
 
-def confirm(objective: Objective, gait: Gait, surface: Surface) -> Confirmation:
+def confirm(objective: Objective, gait: Gait, surface: Surface, contacts: Contacts) -> Confirmation:
     """Predict a gait on a surface by all models.
 
     Args:
         objective: of the search, with its model and its scene.
-        gait, surface: to be confirmed.
+        gait, surface, contacts: to be confirmed.
     """
-    scene = replace(objective.scene, gait=gait, ground=surface)
-    searched = objective.sign * objective.sure(scene.robot, gait, [surface])[0]
+    scene = replace(objective.scene, gait=gait, ground=surface, contacts=contacts)
+    searched = objective.sign * objective.sure_at(contacts, scene.robot, gait, [surface])[0]
     try:
         predicted = float(reference(scene, objective.numerics).displacement[0])
     except ValueError:
         predicted = math.nan
     mujoco, status = _simulated(scene)
     off = [objective.sign * shift for shift in _perturbed(objective, scene, surface)]
-    return Confirmation(surface.name, searched, predicted, mujoco, status, min(off), max(off))
+    return Confirmation(
+        surface.name, contacts, searched, predicted, mujoco, status, min(off), max(off)
+    )
 
 
 def _simulated(scene: Scene) -> tuple[float, str]:
@@ -76,5 +81,5 @@ def _perturbed(objective: Objective, scene: Scene, surface: Surface) -> list[flo
     shifts: list[float] = []
     for part in _PARTS:
         robot = replace(scene.robot, peak_pressure=part * scene.robot.peak_pressure)
-        shifts += objective.sure(robot, scene.gait, grounds)
+        shifts += objective.sure_at(scene.contacts, robot, scene.gait, grounds)
     return [shift if math.isfinite(shift) else math.nan for shift in shifts]

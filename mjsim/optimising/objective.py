@@ -1,5 +1,9 @@
 """Objective of the search for a gait, safe against holes of the model.
 
+Whether friction acts at the ends alone, as in [Majidi13], or at every place that touches is a
+choice of the model that moves some gaits by half their distance. Where the scene leaves it open a
+gait is worth what it does by the worse of both.
+
 Of a displacement, the part that rests on flagged states is subtracted (see
 analytic.uncertainty.flagged_change), so that the search gains nothing where a model's assumptions
 break.
@@ -19,6 +23,7 @@ from analytic.scene.surface import Surface
 from analytic.solvers.models import SOLVERS, Elastica
 from analytic.uncertainty import flagged_change
 from mjsim.scene import Numerics, Scene
+from mjsim.scene.scene import Contacts
 
 Aim = Literal["displacement", "speed", "air", "work"]
 _LONGEST, _STEPS = 0.01, 20  # of MuJoCo: time step [s], and steps of the shortest ramp; chosen
@@ -49,6 +54,9 @@ class Objective:
         model: mujoco, coarse, or one of the quasi-static solvers.
         states: of a quasi-static solver in a ramp from no pressure to the peak.
         numerics: whose links a reference in space takes, see mjsim.results.prediction.
+
+    Raises:
+        ValueError: the model cannot walk the scene.
     """
 
     scene: Scene
@@ -58,6 +66,20 @@ class Objective:
     model: str = "elastica"
     states: int = 10
     numerics: Numerics | None = None
+
+    def __post_init__(self) -> None:
+        if self.scene.in_space and self.model != "mujoco":
+            raise ValueError(f"model of a robot of limbs must be mujoco, got {self.model}")
+
+    @property
+    def contacts(self) -> tuple[Contacts, ...]:
+        """Places where friction may act, each of which counts: more than one where it is open.
+
+        Of the models without contacts between the ends the ends alone.
+        """
+        if self.scene.in_space or self.scene.contacts != "auto":
+            return (self.scene.contacts,)
+        return ("ends", "all") if self.model in ("elastica", "mujoco") else ("ends",)
 
     @property
     def sign(self) -> float:
@@ -82,20 +104,32 @@ class Objective:
         return -used / (shift * robot.length)
 
     def sure(self, robot: AnyRobot, gait: Gait, surfaces: Sequence[Surface]) -> list[float]:
-        """Displacement the right way over L that rests on no flagged state, on each surface."""
+        """Displacement the right way over L that rests on no flagged state, on each surface.
+
+        Of the places where friction may act, those count at which it is least.
+        """
+        each = [self.sure_at(contacts, robot, gait, surfaces) for contacts in self.contacts]
+        return [min(shifts) for shifts in zip(*each, strict=True)]
+
+    def sure_at(
+        self, contacts: Contacts, robot: AnyRobot, gait: Gait, surfaces: Sequence[Surface]
+    ) -> list[float]:
+        """As `sure`, with friction at some contacts."""
+        try:
+            scene = replace(self.scene, robot=robot, gait=gait, contacts=contacts)
+        except ValueError:  # a gait at which the strip would close into a circle
+            return [-math.inf] * len(surfaces)
         if self.model == "mujoco":
-            return self._walked(robot, gait, surfaces)
-        if isinstance(robot, LimbedRobot):
-            raise ValueError(f"model of a robot of limbs must be mujoco, got {self.model}")
+            return self._walked(scene, surfaces)
+        assert not isinstance(robot, LimbedRobot)
         solver = SOLVERS[self.model]()
         if isinstance(solver, Elastica):
             solver = Elastica(_LINKS, self.scene.chamber)
         try:
-            scene = replace(self.scene, robot=robot, gait=gait)
             walks = predict_grounds(
                 robot, gait, surfaces, solver, self.states, friction=scene.reference_friction
             )
-        except ValueError:  # a gait at which the strip would close into a circle
+        except ValueError:  # the solver refuses the gait
             return [-math.inf] * len(surfaces)
         return [
             (self.sign * walk.locomotion.per_cycle - flagged_change(walk)) / robot.length
@@ -103,16 +137,13 @@ class Objective:
             for walk in walks
         ]  # fmt: skip
 
-    def _walked(self, robot: AnyRobot, gait: Gait, surfaces: Sequence[Surface]) -> list[float]:
+    def _walked(self, scene: Scene, surfaces: Sequence[Surface]) -> list[float]:
         """Displacement in MuJoCo, whose states have no flags; minus infinity of a fall."""
         from mjsim.results.measures import measure
         from mjsim.results.trajectory import Trajectory
         from mjsim.simulation.batch_simulate import simulate_batch
 
-        try:
-            scenes = [replace(self.scene, robot=robot, gait=gait, ground=g) for g in surfaces]
-        except ValueError:
-            return [-math.inf] * len(surfaces)
+        scenes = [replace(scene, ground=ground) for ground in surfaces]
         walks = simulate_batch(scenes, coarse(scenes[0]))
         measures = [measure(walk) if isinstance(walk, Trajectory) else None for walk in walks]
         return [self.sign * m.displacement if m else -math.inf for m in measures]

@@ -16,12 +16,16 @@ _SLOW = 1.0  # s; chambers that take as long to fill may have the usual time ste
 
 Integrator = Literal["discrete", "Euler", "implicitfast", "implicit", "RK4"]
 Cone = Literal["elliptic", "pyramidal"]
+Path = Literal["straight", "curved"]
 INTEGRATORS: tuple[str, ...] = get_args(Integrator)
 CONES: tuple[str, ...] = get_args(Cone)
+PATHS: tuple[str, ...] = get_args(Path)
 
+_WORDS = ("integrator", "cone", "contact_path")
 OF_SPACE = ("contact_softness", "tie_time")
 OF_THE_PLANE = ("integrator", "side_angle", "steep_contact_time", "steep_angle", "cone",
-                 "impratio", "contact_depth", "edge_time", "tie_bound")  # fmt: skip
+                 "impratio", "contact_depth", "contact_path", "edge_time",
+                 "tie_bound")  # fmt: skip
 
 # contact times that the classic integrators need: at least so many steps, and so long; measured
 _STIFF_STEPS, _STEEP_STEPS = 2.0, 4.0
@@ -66,6 +70,9 @@ class Numerics:
     """of Coulomb friction: stiffness of friction over that of the normal force; chosen"""
     contact_depth: float = 4e-5
     """of Coulomb friction: depth in which contacts stiffen [m]; chosen"""
+    contact_path: Path = "straight"
+    """path along which a contact's height is foreseen in a step: straight, as MuJoCo does; or
+    curved, of a chain in the plane with discrete, in fast gaits: ends that swing do not hop"""
     edge_time: float | None = None
     """time constant of the rod's edges [timestep]; 0.5 with discrete, else 2"""
     tie_bound: float = 1.5
@@ -82,9 +89,10 @@ class Numerics:
         in_si(self)
         one_of("integrator", self.integrator, INTEGRATORS)
         one_of("cone", self.cone, CONES)
+        one_of("contact_path", self.contact_path, PATHS)
         for item in fields(self):
             value = getattr(self, item.name)
-            if item.name not in ("links", "integrator", "cone") and value is not None:
+            if item.name not in ("links", *_WORDS) and value is not None:
                 positive(item.name, value)
                 object.__setattr__(self, item.name, float(value))
         if self.contact_softness >= 1:
@@ -99,6 +107,12 @@ class Numerics:
             ValueError: the links are not such as the robot can have.
         """
         _check_links(self.links, in_space)
+        chosen_so = (body, self.integrator, self.cone)
+        if self.contact_path == "curved" and chosen_so != ("chain", "discrete", "elliptic"):
+            raise ValueError(
+                "contact_path curved needs body chain, integrator discrete and cone elliptic, got "
+                + ", ".join(chosen_so)
+            )
         # links of the cable have a width to shake by: its steep ends need a softer ground
         chosen: dict[str, float] = {
             "links": 6 if in_space else 24,

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from analytic.friction.contact_length import may_lie_flat
 from analytic.scene.chain import joint_springs
-from mjsim.friction.footing import feet_may_be
+from mjsim.friction.footing import feet_may_be, thrown
 from mjsim.model.chambers import ChamberPressures
 from mjsim.model.pads import pads_by_node
 from mjsim.results.status import AT_REST
@@ -79,7 +79,7 @@ class StripBatch:
         pads = pads_by_node(self.model)[:, 0]
         self._feet = pads[[0, -1]]
         self._ends = BoundedEndsBatch(scenes, numerics, batch, self.model)
-        self._limits = np.array([feet_may_be(scene, numerics) for scene in scenes])
+        self._nodes, self._limits = pads, np.array([_limits(s, numerics) for s in scenes])
         self.pressure = np.zeros((len(scenes), len(scenes[0].strip.segments)))
         self.stopped = np.zeros(len(scenes), dtype=bool)
         self._chambers: list[ChamberPressures] = [self._at_rest(scene) for scene in scenes]
@@ -117,7 +117,7 @@ class StripBatch:
                 self.scenes[row] = scene
             write(self._batch, rows.tolist(), models(scenes, self.numerics))
             self._ends.replace(rows, scenes)
-            self._limits[rows] = [feet_may_be(scene, self.numerics) for scene in scenes]
+            self._limits[rows] = [_limits(scene, self.numerics) for scene in scenes]
         self._lay(rows)
         valves = np.array([before_start(self.scenes[row], self.numerics) for row in rows])
         late = max(1, round(0.1 * self.scenes[0].settle_time / self.numerics.timestep))
@@ -158,10 +158,11 @@ class StripBatch:
             block.coordinates[active, step] = self._qpos[moving]
             block.contact[active, step] = ends.contact[moving]
             block.left_slip[active, step] = ends.left_slip[moving]
-            low, high = self._limits[moving].T
+            low, high, thrown_from = self._limits[moving].T
             height = self._place[moving[:, None], self._feet, 2]
-            stands = (low[:, None] < height) & (height < high[:, None])
-            fallen = ~stands.all(axis=1)
+            stands = ((low[:, None] < height) & (height < high[:, None])).all(axis=1)
+            lowest = self._place[moving[:, None], self._nodes, 2].min(axis=1)
+            fallen = ~(stands & (lowest < thrown_from))
             if fallen.any():
                 block.steps[active[fallen]] = step + 1
                 self.stopped[moving[fallen]] = True
@@ -181,3 +182,8 @@ class StripBatch:
         ]
         stiffness, rest = (np.array(part).swapaxes(0, 1) for part in zip(*each, strict=True))
         return list(zip(stiffness, rest, strict=True))
+
+
+def _limits(scene: Scene, numerics: Resolved) -> tuple[float, float, float]:
+    """Heights between which the ends' pads stand, and from which on the lowest is thrown [m]."""
+    return *feet_may_be(scene, numerics), thrown(scene, numerics)

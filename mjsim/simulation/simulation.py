@@ -22,6 +22,7 @@ from mjsim.results.status import AT_REST, Status
 from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Scene, registry, resolved
 from mjsim.simulation.copies import Copied
+from mjsim.simulation.curved_paths import curved_paths
 from mjsim.simulation.kinematics import nodes_of, positions
 from mjsim.simulation.observation import Observation, Policy
 from mjsim.simulation.schedule import before_start, check_steps, walking, walking_steps
@@ -45,6 +46,8 @@ class Simulation(Copied):
     Attributes:
         scene, numerics: as simulated, with a number for everything.
         model, data: MuJoCo's; the model is as compiled after each reset, whatever was set in it.
+        unconverged: number of time steps of the last play in which MuJoCo's solver came to its
+            limit of iterations.
 
     Raises:
         ValueError: the scene and the numerics do not go together.
@@ -83,7 +86,7 @@ class Simulation(Copied):
             else registry.find(scene.body).bind(model, self.data, scene, numerics)
         )  # fmt: skip
         self._footing = footing(scene, numerics, model, self.data, self._joints)
-        self._pads = pads_of(model, scene)
+        self._pads, self._curved = pads_of(model, scene), curved_paths(scene, numerics, model)
         self._chambers = ChamberPressures(
             scene.valves, len(scene.robot.chambers), numerics.timestep
         )
@@ -93,7 +96,7 @@ class Simulation(Copied):
         self._rows: list[tuple[float, ...]] = []
         self._pressures: list[Array] = []
         self._wall = self._cpu = 0.0
-        self._stopped, self._dropped = False, 0
+        self._stopped, self._dropped, self.unconverged = False, 0, 0
         self._unsettled = not self._settle()
         self._first = 1 - len(self._rows) - self._dropped
         return self.observe()
@@ -217,8 +220,10 @@ class Simulation(Copied):
         coordinates = np.empty((len(valves), model.nq))
         rows: list[tuple[float, ...]] = []
         apply, before_step, after_step = self._joints.apply, ground.before_step, ground.after_step
-        step_model, stands, qpos = mujoco.mj_step, ground.stands, data.qpos
+        step_model = self._curved.step if self._curved else mujoco.mj_step
+        stands, qpos = ground.stands, data.qpos
         record = self._recorder and self._recorder.record
+        iterations, most, self.unconverged = data.solver_niter, model.opt.iterations, 0
 
         started, worked = clock.perf_counter(), clock.process_time()
         for step, (load, contact) in enumerate(zip(loads, prepared, strict=True)):
@@ -227,6 +232,8 @@ class Simulation(Copied):
             step_model(model, data)
             if record:
                 record()
+            if iterations.item(0) >= most:
+                self.unconverged += 1
             rows.append(after_step())
             coordinates[step] = qpos
             if not stands():

@@ -17,7 +17,8 @@ from walks import coarsen
 from analytic.scene.limbs import quadruped
 from mjsim import load
 from mjsim.commands import analysis, compare, export, fit, optimise, run, sweep
-from mjsim.env.task import Settings, Walker
+from mjsim.env.settings import Settings
+from mjsim.env.task import Walker
 from mjsim.files.tables import build, merged, read_tables
 from mjsim.optimising.objective import Objective, coarse
 from mjsim.optimising.space import Space

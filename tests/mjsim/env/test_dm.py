@@ -8,7 +8,7 @@ import pytest
 
 import mjsim.env
 from mjsim.env.gym import WalkEnv
-from mjsim.env.task import Names
+from mjsim.env.settings import Names
 
 pytest.importorskip("mjsim.env.dm_binding", exc_type=ImportError)
 from dm_control.mujoco.wrapper.mjbindings import sizes
@@ -37,7 +37,9 @@ def test_dm_controls_environment_walks_as_gymnasiums():
 
 
 def test_a_strip_that_falls_ends_its_episode_as_gymnasiums_does():
-    settings = {"base": {"robot": {"weight_per_length": 0.05}}, "duration": 20.0}
+    base = {"robot": {"weight_per_length": 0.05}, "valves": {"fill_time": 0.0},
+            "numerics": {"links": 12}}  # fmt: skip
+    settings = {"base": base, "duration": 20.0, "contacts": "ends"}
     gym, dm = WalkEnv(surfaces=("felt",), **settings), mjsim.env.load("felt", **settings)
     gym.reset(seed=0), dm.reset()
     rng, fallen = np.random.default_rng(0), False

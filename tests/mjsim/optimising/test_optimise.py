@@ -1,7 +1,9 @@
 """A search finds better gaits, finds no holes of its model, and what it finds is confirmed."""
 
 import json
+import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -137,8 +139,6 @@ def test_aims_rank_gaits_by_what_they_say():
      ("polyethylene_forward", {"polyethylene": 0.033})],
 )  # fmt: skip
 def test_gaits_that_were_found_go_as_far_as_the_pages_say(name, least):
-    from pathlib import Path
-
     path = Path(__file__).parents[3] / "examples" / "gaits" / f"{name}.toml"
     scene, _ = build({"gait": {"file": str(path)}})
     walks = predict_grounds(scene.robot, scene.gait, THREE, Elastica(), 25,
@@ -146,6 +146,40 @@ def test_gaits_that_were_found_go_as_far_as_the_pages_say(name, least):
     for ground, walk in zip(THREE, walks, strict=True):
         shift = walk.locomotion.per_cycle / scene.robot.length
         assert shift > least.get(ground.name, -1.0)
+
+
+@pytest.mark.parametrize("contacts", ["ends", "all"])
+def test_where_friction_acts_is_what_the_scene_says(contacts):
+    scene, gelatin = Scene(contacts=contacts), SURFACES["gelatin"]
+    objective = Objective(scene, (gelatin,), states=6)
+    (sure,) = objective.sure(Robot(), GAITS["wave"].reversed(), [gelatin])
+    friction = replace(scene.reference_friction, tension=0.0)
+    walk = predict(Robot(), GAITS["wave"].reversed(), gelatin, Elastica(36), 6, friction=friction)
+    assert sure == pytest.approx(walk.locomotion.per_cycle / 0.13, abs=1e-9)
+
+
+def test_a_gait_is_worth_what_it_does_by_the_worse_place_of_friction_where_that_is_open():
+    path = Path(__file__).parents[3] / "examples" / "gaits" / "gelatin_forward.toml"
+    scene, _ = build({"gait": {"file": str(path)}})
+    gelatin = SURFACES["gelatin"]
+    worth = {
+        contacts: Objective(Scene(contacts=contacts), (gelatin,), states=6)(scene.gait)
+        for contacts in ("auto", "ends", "all")
+    }
+    assert worth["auto"] == min(worth["ends"], worth["all"])
+    assert worth["ends"] < 0.75 * worth["all"]
+    assert Objective(Scene(), (gelatin,), model="lifted").contacts == ("ends",)
+
+
+def test_a_search_without_cma_says_what_to_install_in_one_line(monkeypatch, capsys, tmp_path):
+    monkeypatch.delitem(sys.modules, "mjsim.optimising.search", raising=False)
+    monkeypatch.setitem(sys.modules, "cma", None)
+    with pytest.raises(SystemExit) as stop:
+        main(["--evaluations", "2", "--out", str(tmp_path)])
+    assert stop.value.code == 2
+    error = capsys.readouterr().err
+    assert "pip install 'undulator[optimise]'" in error
+    assert error.count("\n") == 1
 
 
 @pytest.mark.slow
