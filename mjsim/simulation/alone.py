@@ -8,7 +8,9 @@ from numpy.typing import NDArray
 
 from analytic.scene.chain import segment_overlap
 from analytic.scene.gait import Gait
+from mjsim.model.shoes import refusal
 from mjsim.model.standalone import standalone_spec
+from mjsim.results.prediction import reference
 from mjsim.scene import Numerics, Resolved, Scene, resolved
 from mjsim.simulation.schedule import before_start, walking
 
@@ -64,7 +66,9 @@ def _follow(
 def measured(scene: Scene, numerics: Numerics | None = None) -> str:
     """What a file of the scene goes in a cycle, in one line.
 
-    At RAMP_TIMES where the gait has ramps of one duration, else at its own times.
+    At RAMP_TIMES where the gait has ramps of one duration, else at its own times. Beside constant
+    bounds that shoes carry stands what the bounds themselves give, since shoes know contact lengths
+    nearly.
     """
     model = standalone_spec(scene, numerics).compile()
     if not model.nu:
@@ -76,4 +80,8 @@ def measured(scene: Scene, numerics: Numerics | None = None) -> str:
     for time in times:
         (shift,) = distance(scene, time, numerics, model=model)
         told.append(f"{shift:+.3f} L at {time:g} s per ramp" if time else f"{shift:+.3f} L")
-    return f"measured with mj_step alone, one cycle of gait {gait.name}: {', '.join(told)}"
+    line = f"measured with mj_step alone, one cycle of gait {gait.name}: {', '.join(told)}"
+    if refusal(scene) is None:
+        bounds = reference(replace(scene, chamber="constant-pressure"))
+        line += f"; quasi-statically by these bounds: {bounds.displacement[0]:+.3f} L"
+    return line

@@ -94,6 +94,7 @@ def test_a_robot_in_another_scene_walks_as_its_file_and_brings_no_floor_along():
     assert walk(model, "a_")[0] == pytest.approx(walk(alone)[0], abs=0.002)
 
 
+@pytest.mark.slow
 def test_two_robots_in_one_scene_go_each_its_way():
     scene = mujoco.MjSpec.from_string(FLOOR)
     attach = script("attach").attach
