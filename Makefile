@@ -2,8 +2,11 @@ PY := .venv/bin/python
 
 # the newest that was tested; the default is in constraints.txt
 MUJOCO_4 := 4.0.0
+# the oldest that reads models/
+MUJOCO_OLD := 3.13.0
 
-.PHONY: run test check check-mujoco4 numbers scenes reach auto promises fast quadruped loop price startup bench regression \
+.PHONY: run test check check-mujoco4 check-mujoco-old numbers scenes reach auto promises fast quadruped loop price startup \
+	bench regression \
 	identify models gallery figures charts chart maps reference architecture clean
 
 run: .venv/ready
@@ -13,7 +16,7 @@ test: .venv/ready
 	$(PY) -m pytest
 
 # what .ci/run runs after `make test`
-check: .venv/ready check-mujoco4
+check: .venv/ready check-mujoco4 check-mujoco-old
 	$(PY) -m ruff check .
 	$(PY) -m ruff format --check .
 	$(PY) -m mypy
@@ -24,6 +27,10 @@ check-mujoco4: .venv/mujoco4/ready
 	PYTHONPATH=$(CURDIR)/.venv/mujoco4 $(PY) benchmarks/regression/check.py cable rod planar actuators
 	PYTHONPATH=$(CURDIR)/.venv/mujoco4 $(PY) -m pytest tests/mjsim/model/test_bodies.py \
 		tests/mjsim/commands/test_export.py tests/mjsim/limbs/test_walks_of_limbs.py
+
+# the files of models/ load and walk in the oldest MuJoCo that reads them
+check-mujoco-old: .venv/mujoco-old/ready
+	PYTHONPATH=$(CURDIR)/.venv/mujoco-old $(PY) models/check.py
 
 numbers: .venv/ready
 	$(PY) benchmarks/convergence.py
@@ -109,6 +116,12 @@ architecture: .venv/ready
 	rm -rf $(@D)
 	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps --target $(@D) \
 		mujoco==$(MUJOCO_4) mujoco-core==$(MUJOCO_4) mujoco-studio==$(MUJOCO_4)
+	touch $@
+
+.venv/mujoco-old/ready: .venv/ready Makefile
+	rm -rf $(@D)
+	$(PY) -m pip install --quiet --disable-pip-version-check --no-deps --target $(@D) \
+		mujoco==$(MUJOCO_OLD)
 	touch $@
 
 clean:

@@ -23,7 +23,7 @@ def main() -> float:
         mujoco.mj_step(model, data)
     mujoco.mj_forward(model, data)
     shift = (float(data.sensor("left_position").data[0]) - start) / Robot().length
-    print(f"{shift:+.4f} L in a cycle under Coulomb friction")
+    print(f"{shift:+.4f} L in a cycle")
     return shift
 
 

@@ -5,7 +5,7 @@ import numpy as np
 
 from analytic.scene.limbs import chambers_by_limb, plan
 from mjsim.model.limbs import limbed, link_prefix
-from mjsim.model.skin import add_strip_skins
+from mjsim.model.skin import PER_CELL, add_strip_skins
 from mjsim.scene import Resolved, Scene
 
 CAMERA = "above"
@@ -20,12 +20,21 @@ def add_camera(spec: mujoco.MjSpec, scene: Scene) -> None:
     camera.quat = (np.cos(half), np.sin(half), 0.0, 0.0)
 
 
-def add_skins(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
-    """Give each chamber of a robot that lies flat the skin of a pneu-net, in a gait's order."""
+def add_skins(
+    spec: mujoco.MjSpec, scene: Scene, numerics: Resolved, per_cell: int = PER_CELL
+) -> None:
+    """Give each chamber of a robot that lies flat the skin of a pneu-net, in a gait's order.
+
+    Args:
+        spec: the robot on its ground.
+        scene, numerics: of the robot.
+        per_cell: stations along a cell of a chamber.
+    """
     robot = limbed(scene)
     flat = plan(robot)
     for limb, part in zip(robot.limbs, chambers_by_limb(robot), strict=True):
         names = [f"skin_{chamber}" for chamber in robot.chambers[part]]
         origin = (*flat[limb.name][0], 0.0)
         bodies = link_prefix(limb.name)
-        add_strip_skins(spec, limb.strip, numerics, names, bodies, origin, limb.angle)
+        add_strip_skins(spec, limb.strip, numerics, names, bodies, origin, limb.angle,
+                        per_cell)  # fmt: skip

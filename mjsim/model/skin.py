@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 PALE_SKIN = (*PALE, 1.0)
 CELLS = 6  # pneu-net chambers drawn per segment; chosen, the theory needs only their fraction
-_PER_CELL = 8  # stations along a cell
+PER_CELL = 8  # stations along a cell
 _CORNER = 5  # points round each upper corner
 
 
@@ -42,7 +42,7 @@ def add_skins(spec: mujoco.MjSpec, robot: Robot, numerics: Resolved) -> None:
 
 def add_strip_skins(
     spec: mujoco.MjSpec, strip: Robot, numerics: Resolved, names: Sequence[str], bodies: str,
-    origin: Sequence[float] = ORIGIN, angle: float = 0.0,
+    origin: Sequence[float] = ORIGIN, angle: float = 0.0, per_cell: int = PER_CELL,
 ) -> None:  # fmt: skip
     """Give a flat strip its skins.
 
@@ -53,13 +53,14 @@ def add_strip_skins(
         bodies: names of the links before their numbers.
         origin: of its left end in the world, (3,) [m].
         angle: from the world's x to it, about z [rad].
+        per_cell: stations along a cell of it.
     """
     c, s = np.cos(angle), np.sin(angle)
     turned = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     starts = node_positions(strip, numerics.links)
     half = (np.cos(angle / 2), 0.0, 0.0, np.sin(angle / 2))
     for segment, name in enumerate(names):
-        shape = segment_skin(strip, numerics.links, segment, numerics.pad_radius)
+        shape = segment_skin(strip, numerics.links, segment, numerics.pad_radius, per_cell)
         skin = spec.add_skin(name=name, rgba=PALE_SKIN)
         skin.vert, skin.face = (shape.vertex @ turned.T + origin).ravel(), shape.face.ravel()
         skin.bodyname = [f"{bodies}{link}" for link, _, _ in shape.bones]
@@ -71,9 +72,11 @@ def add_strip_skins(
         skin.vertweight = [weight.tolist() for _, _, weight in shape.bones]
 
 
-def segment_skin(robot: Robot, links: int, segment: int, below: float) -> Skin:
+def segment_skin(
+    robot: Robot, links: int, segment: int, below: float, per_cell: int = PER_CELL
+) -> Skin:
     """Skin of a segment (0 is the left one) whose underside lies `below` the neutral line [m]."""
-    count = CELLS * _PER_CELL + 1
+    count = CELLS * per_cell + 1
     begin, end = (robot.length * border for border in robot.borders[segment : segment + 2])
     s = np.linspace(begin, end, count)
     rib = np.cos(2 * np.pi * CELLS * (s - begin) / (end - begin))

@@ -1,11 +1,14 @@
 """Scenes as MJCF that walk by themselves: no Python between their steps.
 
-Friction is MuJoCo's own, by load; pressures are the controls of actuators, in Pa, of chambers at
-constant pressure. What the loop of mjsim does besides is left out: the outermost pads keep the
-friction of tips while an end lies on its side, and anchors drift by the integrator's first order.
+Pressures are the controls of actuators, in Pa, of chambers at constant pressure. Friction is
+MuJoCo's own. Constant bounds are carried by shoes, see mjsim.model.shoes, where these serve the
+scene; else friction is by load at the pads. What the loop of mjsim does besides is left out there:
+the outermost pads keep the friction of tips while an end lies on its side, and anchors drift by the
+integrator's first order.
 """
 
 import shutil
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -21,6 +24,7 @@ from mjsim.files.assets import MODELS
 from mjsim.files.files import whole
 from mjsim.model.builder import scene_spec
 from mjsim.model.parts import PALE, PREFIX
+from mjsim.model.shoes import add_shoes, refusal
 from mjsim.model.standalone_limbs import allow_rounding, spec_in_space
 from mjsim.scene import Numerics, Resolved, Scene, resolved
 
@@ -52,18 +56,39 @@ def walking_scene(scene: Scene) -> Scene:
                    chamber="constant-pressure")  # fmt: skip
 
 
+def law_of(scene: Scene) -> str:
+    """The friction law that the file of a scene has, in one line."""
+    reason = refusal(scene)
+    if reason is None:
+        return ("friction: constant bounds at tips and by area on sides, as [Majidi13] has them, "
+                "carried by shoes that springs and chambers press on the ground")  # fmt: skip
+    ground = uniform(walking_scene(scene).ground)
+    by_load = (f"friction: by load (mu N) at every pad, {ground.tip_friction:.3g} at tips and "
+               f"{ground.friction:.3g} on sides, not the constant bounds of [Majidi13]; momentum "
+               "has a part in distance and direction")  # fmt: skip
+    return by_load if scene.friction == "coulomb" else f"{by_load} ({reason})"
+
+
 def standalone_spec(scene: Scene, numerics: Numerics | None = None) -> mujoco.MjSpec:
     """The scene to open in MuJoCo's viewer and to drive by its controls.
+
+    Friction is as the scene has it where shoes serve it, else by load: see `law_of`.
 
     Controls are the pressures of the chambers for strips of body chain and for robots of
     limbs, of the joints for the cable. The rod has none: its pressure is a couple on each edge,
     which only mjsim applies.
     """
-    scene = walking_scene(scene)
-    if scene.in_space:
-        spec = spec_in_space(scene, numerics)
+    if refusal(scene) is None:
+        scene = replace(scene, actuation="actuators", chamber="constant-pressure")
+        choice = resolved(scene, numerics)
+        spec = _spec_of_strip(scene, choice)
+        add_shoes(spec, scene, choice)
     else:
-        spec = _spec_of_strip(scene, resolved(scene, numerics))
+        scene = walking_scene(scene)
+        if scene.in_space:
+            spec = spec_in_space(scene, numerics)
+        else:
+            spec = _spec_of_strip(scene, resolved(scene, numerics))
     model = spec.compile()
     spec.add_key(name="flat", qpos=model.qpos0, ctrl=np.zeros(model.nu))
     return spec
@@ -88,14 +113,23 @@ def _spec_of_strip(scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
     return spec
 
 
-def write(scene: Scene, path: Path, numerics: Numerics | None = None) -> None:
+def write(
+    scene: Scene, path: Path, numerics: Numerics | None = None, notes: Sequence[str] = ()
+) -> None:
     """Write a scene as a file that opens from any folder on any machine, its textures beside it.
+
+    Args:
+        scene, numerics: see standalone_spec.
+        path: of the file.
+        notes: lines of its comment after the one that names its friction law.
 
     Raises:
         OSError: it cannot be written.
         ValueError: the body cannot do what the scene asks for.
     """
     spec = standalone_spec(scene, numerics)
+    lines = [line.replace("--", "-") for line in (law_of(scene), *notes)]
+    spec.comment = "\n".join(["", *(f"  {line}" for line in lines), ""])
     text = spec.to_xml().replace(f'texturedir="{spec.texturedir}"', f'texturedir="{TEXTURES}"')
     folder = path.parent / TEXTURES
     folder.mkdir(parents=True, exist_ok=True)

@@ -23,6 +23,7 @@ from mjsim.scene import Numerics, Resolved, Scene, resolved
 _BEFORE, _STEEP = 0.3, 0.05  # of a link, from an end to its side's pads; rad, of a tip; chosen
 _ROUNDED_INERTIA = 0.9999  # of a plate about its normal; chosen
 _TIMESTEP, _IMPRATIO = 0.005, 100.0  # s; chosen
+_PER_CELL = 4  # stations of a skin along a cell, which keep files small; chosen
 _RADIUS, _DEPTH = 1e-5, 4e-5  # m; of pads, since friction acts at their lowest point; see Numerics
 
 
@@ -47,7 +48,7 @@ def spec_in_space(scene: Scene, numerics: Numerics | None = None) -> mujoco.MjSp
     _actuate(spec, limbed(scene), resolution)
     for name in ("ruler", "start"):
         spec.delete(spec.geom(name))
-    add_skins(spec, scene, resolution)
+    add_skins(spec, scene, resolution, _PER_CELL)
     add_camera(spec, scene)
     return spec
 

@@ -1,5 +1,6 @@
 """MJCF that walks by itself: in plain MuJoCo, in dm_control, in a rollout, from any folder."""
 
+import re
 import shutil
 
 import mujoco
@@ -14,6 +15,7 @@ from mjsim.files.assets import MODELS
 from mjsim.model.standalone import standalone_spec, walking_scene
 from mjsim.results.measures import measure
 from mjsim.scene import Scene, registry
+from mjsim.simulation import alone
 from mjsim.simulation.simulation import simulate
 from studies.textures import write_textures
 
@@ -33,8 +35,8 @@ def by_mjsim(name):
 
 
 @pytest.mark.parametrize("name", list(SURFACES))
-def test_a_loop_of_mj_step_alone_goes_as_far_as_mjsim(name):
-    model = mujoco.MjModel.from_xml_path(str(MODELS / f"{name}.xml"))
+def test_files_by_load_go_by_a_loop_of_mj_step_alone_as_far_as_mjsim(name):
+    model = mujoco.MjModel.from_xml_path(str(MODELS / f"{name}_coulomb.xml"))
     data = mujoco.MjData(model)
     places = []
     for control in commands(model.opt.timestep):
@@ -48,7 +50,7 @@ def test_a_loop_of_mj_step_alone_goes_as_far_as_mjsim(name):
 @pytest.mark.parametrize("name", ["polyethylene", "gelatin"])
 def test_so_does_dm_control(name):
     dm = pytest.importorskip("mjsim.env.dm_binding", exc_type=ImportError)
-    physics = dm.mujoco.Physics.from_xml_path(str(MODELS / f"{name}.xml"))
+    physics = dm.mujoco.Physics.from_xml_path(str(MODELS / f"{name}_coulomb.xml"))
     sequence = commands(physics.timestep())
     places = []
     for control in sequence:
@@ -61,7 +63,7 @@ def test_so_does_dm_control(name):
 
 @pytest.mark.parametrize("name", ["polyethylene", "gelatin"])
 def test_so_does_a_rollout(name):
-    model = mujoco.MjModel.from_xml_path(str(MODELS / f"{name}.xml"))
+    model = mujoco.MjModel.from_xml_path(str(MODELS / f"{name}_coulomb.xml"))
     data = mujoco.MjData(model)
     sequence = commands(model.opt.timestep)
     mujoco.mj_forward(model, data)
@@ -75,7 +77,7 @@ def test_so_does_a_rollout(name):
 
 def test_a_robot_that_is_pushed_is_stopped_by_the_ground():
     """On felt, whose flat sides hold; two seconds after a push of 10 cm/s."""
-    model = mujoco.MjModel.from_xml_path(str(MODELS / "felt.xml"))
+    model = mujoco.MjModel.from_xml_path(str(MODELS / "felt_coulomb.xml"))
     data = mujoco.MjData(model)
     for _ in range(STANDING):
         mujoco.mj_step(model, data)
@@ -88,7 +90,7 @@ def test_a_robot_that_is_pushed_is_stopped_by_the_ground():
     assert data.qpos[0] - before == pytest.approx(0.1**2 / (2 * 0.37 * 9.81), rel=0.2)
 
 
-@pytest.mark.parametrize("name", list(SURFACES))
+@pytest.mark.parametrize("name", [*SURFACES, *(f"{name}_coulomb" for name in SURFACES)])
 def test_it_has_sliders_in_pascal_named_sensors_a_keyframe_and_cameras(name):
     model = mujoco.MjModel.from_xml_path(str(MODELS / f"{name}.xml"))
     assert model.nu == 3
@@ -101,18 +103,61 @@ def test_it_has_sliders_in_pascal_named_sensors_a_keyframe_and_cameras(name):
     assert (MODELS / f"{name}.xml").stat().st_size < 40_000
 
 
-def test_the_files_are_those_of_the_code(tmp_path):
+def without_measures(path):
+    """All lines of a file but the one that tells what it measures, the second of its comment."""
+    head, _, rest = path.read_text().partition("-->")
+    return [*head.splitlines()[:-1], rest]
+
+
+def test_the_files_are_those_of_the_code(tmp_path, monkeypatch):
+    monkeypatch.setattr(alone, "measured", lambda *_: "")
+    assert export.main(["--models", "--out", str(tmp_path)]) == 0
+    for path in tmp_path.glob("*.xml"):
+        assert without_measures(path) == without_measures(MODELS / path.name), "run `make models`"
+    assert {path.stem for path in tmp_path.glob("*.xml")} == {
+        path.stem for path in MODELS.glob("*.xml")
+    }
+
+
+@pytest.mark.slow
+def test_so_are_the_distances_in_their_comments(tmp_path):
     assert export.main(["--models", "--out", str(tmp_path)]) == 0
     for path in tmp_path.glob("*.xml"):
         assert path.read_text() == (MODELS / path.name).read_text(), "run `make models`"
-    assert {path.stem for path in tmp_path.glob("*.xml")} == {
-        *SURFACES, "cable", "rod", "quadruped_felt", "quadruped_gelatin"
-    }  # fmt: skip
+
+
+def test_each_file_names_its_law_and_what_it_measures():
+    for path in MODELS.glob("*.xml"):
+        head = path.read_text().partition("-->")[0]
+        assert ("constant bounds at tips" in head) == (path.stem in SURFACES)
+        assert ("by load (mu N)" in head) == (path.stem not in SURFACES)
+        assert ("L at 2 s per ramp" in head and "L at 8 s per ramp" in head) == (
+            path.stem != "rod"
+        ), path  # fmt: skip
+
+
+def test_the_table_of_the_readme_has_the_distances_of_the_files():
+    table = (MODELS / "README.md").read_text()
+    for path in MODELS.glob("*.xml"):
+        told = re.findall(r"([+-]\d\.\d{3}) L at", path.read_text().partition("-->")[0])
+        (row,) = [line for line in table.splitlines() if line.startswith(f"| `{path.name}` ")]
+        assert re.findall(r"[+-]\d\.\d{3}", row) == told, path
+
+
+@pytest.mark.slow
+def test_the_last_line_names_the_law_and_what_the_file_goes(tmp_path, capsys):
+    words = ["--robot.mass", "0.02", "--out", str(tmp_path)]
+    for law, friction in (("constant bounds", []), ("by load (mu N)", ["--friction", "coulomb"])):
+        assert export.main([*words, *friction]) == 0
+        last = capsys.readouterr().err.splitlines()[-1]
+        assert law in last
+        assert re.search(r"[+-]0\.\d{3} L at 2 s per ramp, [+-]0\.\d{3} L at 8 s per ramp", last)
 
 
 @pytest.fixture
 def moved(tmp_path, monkeypatch):
     """A scene of one's own, exported and moved elsewhere."""
+    monkeypatch.setattr(alone, "measured", lambda *_: "")
     scene = tmp_path / "my.toml"
     scene.write_text('[robot]\nlength = 0.09\nmass = 0.012\n[ground]\nsurface = "gelatin"\n')
     assert export.main(["--scene", str(scene), "--out", str(tmp_path / "out")]) == 0
@@ -185,7 +230,8 @@ def test_the_textures_are_what_the_generator_draws(tmp_path):
         assert np.abs(np.asarray(Image.open(drawn), dtype=int) - kept).mean() < 1.0
 
 
-def test_a_file_that_takes_the_place_of_another_is_told(tmp_path, capsys):
+def test_a_file_that_takes_the_place_of_another_is_told(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(alone, "measured", lambda *_: "")
     for mass, told in (("0.01", False), ("0.01", False), ("0.05", True)):
         assert export.main(["--robot.mass", mass, "--out", str(tmp_path)]) == 0
         said = capsys.readouterr()
