@@ -7,7 +7,7 @@ best of each search again with 24 links and 1 ms. Policies are cycles of pressur
 control period: the paper's wave both ways; bang-bang, chambers fully on or off; random pressures;
 and an evolution of whatever cycles earn most, which begins at the best of those. Writes
 adversary.csv beside this file, one row per cycle, after each search; goes on where it was stopped;
-the searches have fixed seeds. A minute or three per ground and core.
+the searches have fixed seeds. Ten minutes per ground and core.
 """
 
 import csv
@@ -28,7 +28,7 @@ ROWS = Path(__file__).with_name("adversary.csv")
 GROUNDS = ("gelatin", "felt", "polyethylene")
 FINE = Numerics(links=24, timestep=0.001)
 LEVELS = "0123456789X"  # tenths of the peak pressure
-SEARCHES = {"wave": 6, "bang-bang": 80, "random": 20, "evolution": 240}  # cycles to try
+SEARCHES = {"wave": 6, "bang-bang": 300, "random": 60, "evolution": 900}  # cycles to try
 AGAIN = 3  # of the best of each search, how many are walked by the finer model
 WITHIN, LEAST = 0.1, 0.006  # of the finer model's reward, and L: a tenth of what the wave earns
 _LONGEST = 60  # control periods of a cycle

@@ -19,8 +19,10 @@ Range = tuple[float, float] | Sequence[str]
 
 _WHOLE = 1e-9  # of a control period in time steps
 # with these, what policies earn is within 10 % of 24 links and 1 ms: benchmarks/adversary.py
-_STRIP = Numerics(links=24, timestep=0.01, contact_path="curved")
-_LIMBS = Numerics(links=4, timestep=0.02)
+_STRIP = Numerics(
+    links=24, timestep=0.01, contact_time=2.0, steep_contact_time=8.0, contact_path="curved"
+)
+_LIMBS = Numerics(links=4, timestep=0.005)
 
 
 @dataclass(frozen=True)
@@ -46,7 +48,7 @@ class Settings:
     valves, and valves.fill_time = 0 makes them ideal"""
     numerics: Numerics | None = None
     """of all episodes; if not given those of the base, which has 24 links, 0.01 s and softer
-    contacts unless it says otherwise, and of a robot of limbs 4 of each limb and 0.02 s"""
+    contacts unless it says otherwise, and of a robot of limbs 4 of each limb and 0.005 s"""
     contacts: Contacts = "all"
     """places of a strip's friction: all that touch, or the two ends, where a policy that lets the
     middle down earns what it could not, but which many strips are stepped side by side with"""

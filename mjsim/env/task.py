@@ -11,7 +11,8 @@ looks for the places where they differ. So friction acts wherever the robot touc
 the ends alone, pressing chambers fully on and off by turns goes one length in 13 s, and most of it
 the other way with friction in the middle); chambers fill and vent with a time constant that was
 measured (mjsim.scene.valves); an episode ends as the robot topples or is thrown, by the detector of
-every simulation; contacts are soft for long enough that ends which swing do not hop for a step.
+every simulation; and contacts look ahead along the curved paths of ends that swing, which else hop
+with every step (mjsim.simulation.curved_paths).
 """
 
 from collections.abc import Sequence

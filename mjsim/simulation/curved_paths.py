@@ -23,20 +23,24 @@ class CurvedPaths:
 
     Args:
         scene, numerics: what is simulated.
-        model: as compiled.
+        model, data: as compiled.
     """
 
-    def __init__(self, scene: Scene, numerics: Resolved, model: mujoco.MjModel) -> None:
+    def __init__(
+        self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
+    ) -> None:
         pads = pads_by_node(model)
         self._node = np.zeros(model.ngeom, dtype=int)
         self._node[pads] = np.arange(len(pads))[:, None]
-        self._lengths = np.asarray(link_lengths(scene.strip, numerics.links))
+        self._lengths = -np.asarray(link_lengths(scene.strip, numerics.links))
         self._rise, self._dt = np.zeros(len(pads)), numerics.timestep
+        self._rates, self._angles = data.qvel[_PITCH:], data.qpos[_PITCH:]
+        self._softness = model.geom_solref[:, 0]
         self._least = _LEAST / (0.5 * self._dt**2 * scene.strip.length)
 
     def step(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         """Do a time step."""
-        rates = data.qvel[_PITCH:].cumsum()
+        rates = self._rates.cumsum()
         squares = rates * rates
         if squares.max() < self._least or not data.ncon:
             mujoco.mj_step(model, data)
@@ -47,14 +51,15 @@ class CurvedPaths:
         if len(rows) and rows.min() < 0:  # in an adhesive gap
             rows, pads = rows[rows >= 0], pads[rows >= 0]
         # J' v of a node over dt: the links turn by constant rates
-        turns = np.sin(data.qpos[_PITCH:].cumsum())
-        np.cumsum(-self._lengths * turns * squares, out=self._rise[1:])
-        stiffness = model.geom_solref[pads, 0] / self._dt
-        more = (0.5 * self._dt**2) * (1.0 + stiffness) ** 2
-        data.efc_pos[rows] += more * self._rise[self._node[pads]]
+        (self._lengths * np.sin(self._angles.cumsum()) * squares).cumsum(out=self._rise[1:])
+        # dt (1 + c), of the pads' time constants c dt
+        reach = self._softness[pads] + self._dt
+        data.efc_pos[rows] += 0.5 * reach * reach * self._rise[self._node[pads]]
         mujoco.mj_step2(model, data)
 
 
-def curved_paths(scene: Scene, numerics: Resolved, model: mujoco.MjModel) -> CurvedPaths | None:
+def curved_paths(
+    scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
+) -> CurvedPaths | None:
     """Steps along curved paths, or None where the numerics say straight ones."""
-    return CurvedPaths(scene, numerics, model) if numerics.contact_path == "curved" else None
+    return CurvedPaths(scene, numerics, model, data) if numerics.contact_path == "curved" else None

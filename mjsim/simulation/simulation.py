@@ -46,8 +46,7 @@ class Simulation(Copied):
     Attributes:
         scene, numerics: as simulated, with a number for everything.
         model, data: MuJoCo's; the model is as compiled after each reset, whatever was set in it.
-        unconverged: number of time steps of the last play in which MuJoCo's solver came to its
-            limit of iterations.
+        unconverged: time steps of the last play in which MuJoCo's solver reached its limit.
 
     Raises:
         ValueError: the scene and the numerics do not go together.
@@ -86,7 +85,8 @@ class Simulation(Copied):
             else registry.find(scene.body).bind(model, self.data, scene, numerics)
         )  # fmt: skip
         self._footing = footing(scene, numerics, model, self.data, self._joints)
-        self._pads, self._curved = pads_of(model, scene), curved_paths(scene, numerics, model)
+        self._pads = pads_of(model, scene)
+        self._curved = curved_paths(scene, numerics, model, self.data)
         self._chambers = ChamberPressures(
             scene.valves, len(scene.robot.chambers), numerics.timestep
         )
