@@ -100,7 +100,8 @@ class Settings:
         scene, given = build(self.base)
         usual = _LIMBS if scene.in_space else _STRIP
         # strips side by side know straight paths alone, as other numerics do
-        if self.contacts == "ends" or (given.integrator, given.cone) != ("discrete", "elliptic"):
+        chosen_so = scene.body, given.integrator, given.cone
+        if self.contacts == "ends" or chosen_so != ("chain", "discrete", "elliptic"):
             usual = replace(usual, contact_path="straight")
         stated = self.base.get("numerics", {})
         missing = {

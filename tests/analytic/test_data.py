@@ -17,7 +17,7 @@ from analytic.scene.surface import SHEAR_STRENGTH, TIP_FORCE
 @pytest.mark.parametrize(
     ("field", "value"),
     [("length", 0.0), ("width", -1.0), ("modulus", np.inf), ("thickness", np.nan),
-     ("chamber_fraction", 1.1), ("weight_per_length", 0), ("peak_pressure", "7 psi")],
+     ("chamber_fraction", 1.1), ("weight_per_length", 0), ("peak_pressure", "7 apples")],
 )  # fmt: skip
 def test_a_robot_names_the_field_that_is_wrong(field, value):
     with pytest.raises(ValueError, match=field):

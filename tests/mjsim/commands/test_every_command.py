@@ -223,8 +223,12 @@ def test_a_fit_finds_the_modulus_that_a_walk_had(case, tmp_path, capsys):
 def test_a_search_counts_the_distance_of_its_own_walks(case):
     scene = case.scene
     objective = Objective(scene, (scene.ground,), backward=True, model="mujoco")
-    walk = measure(simulate(scene, coarse(scene)))
-    assert objective(scene.gait) == pytest.approx(-walk.displacement, abs=EQUAL)
+    # wherever friction acts: the least counts
+    least = min(
+        -measure(simulate(placed, coarse(placed))).displacement
+        for placed in (replace(scene, contacts=where) for where in objective.contacts)
+    )
+    assert objective(scene.gait) == pytest.approx(least, abs=EQUAL)
     chambers = len(scene.robot.chambers)
     gait = Space(chambers, 5.0).gait(Space(chambers, 5.0).middle())
     assert gait.segments == chambers

@@ -1,6 +1,5 @@
 """What a command has done when it is stopped, or fails on its way, is kept and printed."""
 
-import importlib
 import json
 import sys
 
@@ -165,10 +164,3 @@ def test_a_missing_extra_is_named(command, words, package, extra, code, tmp_path
     error = capsys.readouterr().err
     assert f"needs {package}: pip install 'undulator[{extra}]'" in error
     assert error.count("\n") == 1
-
-
-def test_environments_of_gymnasium_name_their_extra(monkeypatch):
-    monkeypatch.setitem(sys.modules, "gymnasium", None)
-    monkeypatch.delitem(sys.modules, "mjsim.env.gym", raising=False)
-    with pytest.raises(ModuleNotFoundError, match=r"gymnasium: pip install 'undulator\[gym\]'"):
-        importlib.import_module("mjsim.env.gym")

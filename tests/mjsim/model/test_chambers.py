@@ -77,8 +77,8 @@ def test_actuators_take_pressures_of_any_valve(chamber):
 
 @pytest.mark.parametrize(
     ("words", "named"),
-    [(["--valves.fill-time", "-1"], "-1"), (["--valves.vent-time", "1,2"], "vent_time"),
-     (["--valves.flow-limit", "0"], "flow_limit"), (["--valves.dead-time", "3 kPa"], "'3 kPa'"),
+    [(["--valves.fill-time", "-1"], "-1"), (["--valves.vent-time", "1,2"], "vent-time"),
+     (["--valves.flow-limit", "0"], "flow-limit"), (["--valves.dead-time", "3 kPa"], "'3 kPa'"),
      (["--valves.dead-time", "x"], "'x'")],
 )  # fmt: skip
 def test_bad_valves_get_one_line(tmp_path, capsys, words, named):
