@@ -4,7 +4,6 @@ import os
 import subprocess
 import tempfile
 from collections.abc import Sequence
-from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import IO
@@ -17,7 +16,7 @@ _CHOICE = "IMAGEIO_FFMPEG_EXE"  # variable by which imageio_ffmpeg takes another
 
 
 class Encoder:
-    """One video, written frame by frame; a context.
+    """One video, written frame by frame by mediapy; a context.
 
     Args:
         path: of the file.
@@ -29,44 +28,51 @@ class Encoder:
     """
 
     def __init__(self, path: Path, columns: int, lines: int, quality: int) -> None:
-        self._errors = tempfile.TemporaryFile()  # noqa: SIM115, closed by __exit__
-        try:
-            self._process = _started([
-                "-v", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{columns}x{lines}",
-                "-r", str(FPS), "-i", "-", "-an", *_h264(path, quality),
-            ], self._errors)  # fmt: skip
-        except OSError:
-            self._errors.close()
-            raise
+        import mediapy  # brings IPython, which takes time
+
+        mediapy.set_ffmpeg(imageio_ffmpeg.get_ffmpeg_exe())
+        self._video = mediapy.VideoWriter(path, (lines, columns), fps=FPS, crf=quality)
+        self._ended = False
 
     def add(self, frame: Frame) -> None:
         """Write a frame, (lines, columns, 3)."""
-        assert self._process.stdin is not None
         try:
-            self._process.stdin.write(frame.tobytes())
+            self._video.add_image(frame)
         except OSError as error:
-            raise self._failure() from error
+            raise self._failure() or error from None
 
     def __enter__(self) -> "Encoder":
+        try:
+            self._video.__enter__()
+        except (OSError, RuntimeError) as error:  # none is installed, or it is no program
+            raise OSError(f"ffmpeg cannot be started: {error}{_hint()}") from error
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:  # fmt: skip
-        with self._errors:
-            failure = self._failure()
-        if kind is None and self._process.returncode:
+        failure = self._failure()
+        if kind is None and failure:
             raise failure
 
-    def _failure(self) -> OSError:
+    def _failure(self) -> OSError | None:
         """End ffmpeg; why it failed, if it did."""
-        assert self._process.stdin is not None
-        with suppress(OSError):
-            self._process.stdin.close()
-        self._process.wait()
-        self._errors.seek(0)
-        return _failed(self._process.returncode, self._errors.read())
+        if self._ended:
+            return None
+        self._ended = True
+        for _ in range(2):  # first what is left of frames, which it may not take
+            try:
+                self._video.close()
+            except OSError:
+                continue
+            except RuntimeError as error:
+                process = self._video._popen
+                if process is not None:
+                    process.__exit__(None, None, None)
+                return _failed(str(error).partition(": ")[2])
+            break
+        return None
 
 
 def stack(parts: Sequence[Path], path: Path, columns: int, quality: int) -> None:
@@ -83,7 +89,7 @@ def stack(parts: Sequence[Path], path: Path, columns: int, quality: int) -> None
         process.communicate()
         errors.seek(0)
         if process.returncode:
-            raise _failed(process.returncode, errors.read())
+            raise _failed(errors.read().decode(errors="replace"))
 
 
 def _h264(path: Path, quality: int) -> list[str]:
@@ -100,9 +106,9 @@ def _started(words: Sequence[str], errors: IO[bytes]) -> subprocess.Popen[bytes]
         raise OSError(f"ffmpeg cannot be started: {error}{_hint()}") from error
 
 
-def _failed(code: int, errors: bytes) -> OSError:
-    lines = errors.decode(errors="replace").strip().splitlines()
-    why = lines[0] if lines else f"it ended with exit code {code} and without a message"
+def _failed(words: str) -> OSError:
+    lines = words.strip().splitlines()
+    why = lines[0] if lines else "it ended without a message"
     return OSError(f"ffmpeg failed: {why}{_hint()}")
 
 
