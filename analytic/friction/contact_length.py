@@ -121,22 +121,6 @@ def may_lie_flat(pressure: Any, peak_pressure: Any) -> Any:
     return abs(pressure) <= PASSIVE * peak_pressure
 
 
-def arches(robot: Robot, pressure: Any, spacing: float) -> Any:
-    """Tell whether an end segment at this pressure arches by more than the distance of nodes.
-
-    On the ground the end of a heavy strip of natural curvature kappa lifts off over a length a and
-    lies flat beyond: D d4y/ds4 = -w, D (d2y/ds2 + kappa) = 0 at the end, and y and its first two
-    derivatives vanish at a, so w a^2 = 4 D kappa.
-
-    Args:
-        robot: the strip.
-        pressure: of its end [Pa], a float or an array.
-        spacing: distance of the nodes [m].
-    """
-    moment = pneunet.rigidity(robot, pressure) * pneunet.natural_curvature(robot, pressure)
-    return 4.0 * moment > robot.weight_per_length * spacing**2
-
-
 def end_loads(force: Array, height: Array) -> tuple[Array, Array]:
     """Normal force on the left and the right part of the strip, either side of its highest node.
 

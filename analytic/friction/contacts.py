@@ -4,18 +4,19 @@ Plain floats, since this is asked at every step of a simulation, and numpy is sl
 """
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import arches, flat_length, length_between, ripple
+from analytic.friction.contact_length import flat_length, length_between, ripple
 from analytic.scene.robot import Robot
 from analytic.shapes import ContactShapes
 
 Array = NDArray[np.float64]
 
-POINT = 2  # nodes of a run that push in one point of contact, as it may fall between two
+_FLAT = 1e-3  # rad; less steep than this is flat, as in the simulation; chosen
+POINT = 2  # nodes in a row that push in one point of contact, as it may fall between two
 
 
 class StripContact(NamedTuple):
@@ -55,35 +56,28 @@ class ContactFinder:
     def __init__(self, robot: Robot, nodes: Array, press: float = 0.0) -> None:
         self._weight = robot.weight_per_length + press
         self._place: list[float] = nodes.tolist()
-        self._robot = robot
-        self._half = 0.5 * robot.length
-        self._spacing = float(np.diff(nodes).max())
         self._lifted = ripple(robot, nodes)
 
     def find(
-        self,
-        force: Sequence[float],
-        height: Sequence[float],
-        arches: tuple[bool, bool],
+        self, force: Sequence[float], height: Sequence[float], lengths: tuple[float, float]
     ) -> list[StripContact]:
         """The contacts of one state, left first.
 
-        A run of nodes on the ground is a tip if it is one point, else a side whose length follows
-        from its forces: that of an end as in analytic.friction.contact_length, unless it curls up;
-        of one between the ends either half carries its weight and a push. Pressure does not decide
-        it: an inflated part may lie flat by the weight on both sides of it, and behind an end that
-        hardly arches. But an end that is inflated arches within a link too: there a side that is
-        shorter is a point, while without pressure it is as short as its forces say.
+        The two ends are tips or sides as in analytic.friction.contact_length, unless they curl up.
+        Between them a run of nodes on the ground is a tip if it is one point, else a side whose
+        length follows from its forces, as that of an end: either half of it carries its weight and
+        a push. There an inflated part may lie flat too, by the weight on both sides of it.
 
         Args:
             force: of the ground on the nodes, (N,) [N].
             height: of the nodes, (N,) [m].
-            arches: whether the left and the right end do, see `arches`.
+            lengths: of side contact of the two ends, see analytic.friction.contact_length: 0 for a
+                tip; used as they are where the strip lies flat as a whole [m].
         """
         pushing = [node for node, push in enumerate(force) if push > 0.0]
         if not pushing:
             return []
-        runs = _in_a_row(pushing)
+        runs = self._runs(pushing, height)
         whole = len(runs) == 1  # the ends' contacts are its halves
         if whole:
             middle = len(force) // 2
@@ -96,18 +90,26 @@ class ContactFinder:
             end = 0 if number == 0 else len(force) - 1
             outermost = number == 0 or number == len(runs) - 1
             if outermost and height[end] <= self._lifted:
-                length = self._half if whole else self._side(run, push, self._place[end])
-                if length < self._spacing and arches[1 if end else 0]:
-                    length = 0.0
+                length = lengths[1 if end else 0]
+                if length and not whole:
+                    length = self._side(run, push, self._place[end])
                 contacts.append(StripContact([end], [1.0], length, load))
             else:
                 share = [part / load for part in push]
                 contacts.append(StripContact(run, share, self._length_between(run, push), load))
         return contacts
 
-    def arches(self, pressures: Array) -> Any:
-        """Tell whether the ends arch by more than a link, by pressures (..., S) [Pa]: (..., 2)."""
-        return arches(self._robot, pressures[..., [0, -1]], self._spacing)
+    def _runs(self, pushing: list[int], height: Sequence[float]) -> list[list[int]]:
+        """Nodes that push with no air between them."""
+        runs = [[pushing[0]]]
+        for node in pushing[1:]:
+            before = runs[-1][-1]
+            if node > before + 1:
+                top = max(height[before + 1 : node])
+                if top > self._lifted and top > _FLAT * (self._place[node] - self._place[before]):
+                    runs.append([])
+            runs[-1].append(node)
+        return runs
 
     def _side(self, run: list[int], push: list[float], end: float) -> float:
         """Length of a flat stretch that begins at an end, from what its nodes carry [m]."""
@@ -115,23 +117,13 @@ class ContactFinder:
         return float(flat_length(self._weight, sum(push), moment))
 
     def _length_between(self, run: list[int], push: list[float]) -> float:
-        if len(run) <= POINT:
+        if run[-1] - run[0] < POINT:
             return 0.0
         return length_between(self._weight, [self._place[node] for node in run], push)
 
 
-def _in_a_row(pushing: list[int]) -> list[list[int]]:
-    """Runs of nodes beside each other; between them is an arch, however low it is."""
-    runs = [[pushing[0]]]
-    for node in pushing[1:]:
-        if node > runs[-1][-1] + 1:
-            runs.append([])
-        runs[-1].append(node)
-    return runs
-
-
 def contacts_of(shapes: ContactShapes, height: Array, state: int) -> list[StripContact]:
     """The contacts of one of several states, its nodes at heights of shape (B, N) [m]."""
+    lengths = float(shapes.contact_left[state]), float(shapes.contact_right[state])
     finder = ContactFinder(shapes.robot, shapes.nodes)
-    arching = finder.arches(shapes.pressures[state]).tolist()
-    return finder.find(shapes.force[state].tolist(), height[state].tolist(), arching)
+    return finder.find(shapes.force[state].tolist(), height[state].tolist(), lengths)

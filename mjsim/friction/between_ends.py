@@ -9,8 +9,6 @@ position of all contacts, or the contact at the border of what the bounds leave 
 import math
 
 import mujoco
-import numpy as np
-from numpy.typing import NDArray
 
 from analytic.friction.contacts import ContactFinder, StripContact
 from analytic.friction.dissipation import minimisers
@@ -19,8 +17,6 @@ from mjsim.friction.traction import BoundedFriction, ContactFriction
 from mjsim.model.pads import pads_by_node
 from mjsim.model.parts import PREFIX, tendon_names
 from mjsim.scene import Resolved, Scene
-
-Array = NDArray[np.float64]
 
 _APART = 1e12  # divisor of a pulley that takes a node out of the mean
 
@@ -108,6 +104,7 @@ class BoundedContacts(BoundedFriction):
         nodes = node_positions(scene.strip, numerics.links)
         press = scene.ground.at(0.0).press(scene.strip.width)
         self._finder = ContactFinder(scene.strip, nodes, press)
+        self._half = 0.5 * scene.strip.length
         self._tendons = node_tendons(model, len(nodes))
         self._bounds[self._tendons] = 0.0
         self._resisting: list[int] = [self._both]
@@ -116,16 +113,12 @@ class BoundedContacts(BoundedFriction):
         self._divisors = model.wrap_prm[begin : begin + model.tendon_num[self._both] : 3]
         self._anchors = AnchoredContacts(data)
 
-    def may_lie_flat(self, pressures: Array) -> NDArray[np.bool_]:
-        """See StripFriction.may_lie_flat; what is inflated may too, if its forces say so."""
-        return ~np.asarray(self._finder.arches(pressures))
-
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
         """See StripFriction.before_step."""
         self._soften_if_steep(slopes)
         force, height = self._forces.by_node()
-        left, right = self._on_side(slopes, left, right)
-        contacts = self._finder.find(force, height, (not left, not right))
+        sides = self._on_side(slopes, left, right)
+        contacts = self._finder.find(force, height, (self._half * sides[0], self._half * sides[1]))
         for tendon in self._resisting:
             self._bounds[tendon] = 0.0
             self._drag[tendon] = 0.0

@@ -11,10 +11,7 @@ Coulomb friction at every pad, by MuJoCo's own contacts.
 from abc import ABC, abstractmethod
 
 import mujoco
-import numpy as np
-from numpy.typing import NDArray
 
-from analytic.friction.contact_length import may_lie_flat
 from analytic.friction.laws import LAWS, slip_fraction
 from analytic.scene.ground import depends_on_speed, over
 from analytic.scene.surface import Surface
@@ -22,8 +19,6 @@ from mjsim.friction.contact_length import ContactForces
 from mjsim.model.pads import pads_by_node
 from mjsim.model.parts import PREFIX, TENDONS, contact_softness, tie_force
 from mjsim.scene import Resolved, Scene
-
-Array = NDArray[np.float64]
 
 _TIPS = (0.0, 0.0)  # side contact of two tips
 _UNLOADED = (0.0, 0.0)  # what a law gets that needs no load
@@ -46,16 +41,11 @@ class StripFriction(ABC):
         self.contact_left = self.contact_right = 0.0
         self.left_slip, self.drift = 0.5, float("nan")
         self._forces = ContactForces(scene, numerics, model, data)
-        self._peak = scene.strip.peak_pressure
         self._flat = numerics.side_angle
         self._left, self._right, self._both = (model.tendon(PREFIX + n).id for n in TENDONS)
         self._rate, self._place = data.ten_velocity, data.ten_length
         self._pads = pads_by_node(model)[[0, -1]]
         self._at, self._slip = self._place.item(self._right), 0.0
-
-    def may_lie_flat(self, pressures: Array) -> NDArray[np.bool_]:
-        """Tell whether the ends may lie on their side, by pressures (T, S) [Pa]: (T, 2)."""
-        return np.asarray(may_lie_flat(pressures[:, [0, -1]], self._peak))
 
     @abstractmethod
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import replace
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -120,8 +120,7 @@ def error_bars(scene: Scene, fine: Reference, coarse: Reference) -> tuple[float 
 
 def links(scene: Scene) -> int:
     """Links of the reference."""
-    between = scene.gait.dips() or scene.gait.lingers()
-    return max(_LINKS, _LINKS_A_SEGMENT * len(scene.strip.segments) * between)
+    return max(_LINKS, _LINKS_A_SEGMENT * len(scene.strip.segments) * scene.gait.dips())
 
 
 def prediction(
@@ -154,8 +153,7 @@ def prediction(
         raise ValueError(f"model {solver} is for strips; of a robot of limbs take {QUASI_STATIC}")
     friction = scene.reference_friction
     if not (bent and solver == REFERENCE):
-        where: Literal["ends", "all"] = "all" if scene.between else "ends"
-        friction = replace(friction, tension=0.0, contacts=where)
+        friction = replace(friction, tension=0.0)
     model = SOLVERS[solver]()
     if isinstance(model, Elastica):
         model = Elastica(round(links(scene) * finer), scene.chamber)

@@ -186,18 +186,12 @@ class Scene:
         """Tell whether friction acts between the ends of a strip, or at all contacts of limbs."""
         if self.in_space:
             return True
-        if self.contacts == "auto":
-            return self.gait.dips() or self.gait.lingers()
-        return self.contacts == "all"
+        return self.contacts == "all" or (self.contacts == "auto" and self.gait.dips())
 
     @property
     def reference_friction(self) -> Friction:
-        """The friction that the quasi-static prediction takes, as strong as in the simulation.
-
-        It acts wherever the strip touches, unless the scene says otherwise: that costs no time.
-        """
-        contacts: Literal["ends", "all"] = "ends" if self.contacts == "ends" else "all"
-        return Friction(self.friction, 1.0, self.slope, contacts)
+        """The friction that the quasi-static prediction takes, as strong as in the simulation."""
+        return Friction(self.friction, 1.0, self.slope, "all" if self.between else "ends")
 
     @property
     def rise_time(self) -> float:

@@ -274,15 +274,14 @@ class StickSlip:
         chain, robot = self._chain, self._chain.robot
         force = chain.ground_force(state) * chain.force_unit
         height = state.y * robot.length
-        if self._friction.contacts == "all":
-            arching = self._finder.arches(chain.pressure).tolist()
-            return self._finder.find(force.tolist(), height.tolist(), arching)
         air = height > self._air
         left, right = (
             end_contact(robot, self._nodes[::order], force[::order], air[::order], pressure,
                         self._press)
             for order, pressure in ((1, chain.pressure[0]), (-1, chain.pressure[-1]))
         )  # fmt: skip
+        if self._friction.contacts == "all":
+            return self._finder.find(force.tolist(), height.tolist(), (left, right))
         loads = (0.0, 0.0)
         if self._law.needs_load:
             on_left, on_right = end_loads(force[None, :], height[None, :])

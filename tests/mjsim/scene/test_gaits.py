@@ -136,8 +136,7 @@ def test_a_slope_the_other_way_is_the_mirrored_scene():
 
 
 def test_the_reference_is_bent_by_the_scene_s_own_friction():
-    assert Scene().reference_friction == Friction(tension=1.0, contacts="all")
-    assert Scene(contacts="ends").reference_friction == Friction(tension=1.0)
+    assert Scene().reference_friction == Friction(tension=1.0)
     assert measured("felt").displacement == pytest.approx(
         reference(simulate(Scene())).displacement[0], rel=0.02
     )
