@@ -13,6 +13,7 @@ from walks import walk
 
 from analytic import SURFACES
 from mjsim.pictures import gl, recording
+from mjsim.pictures.frames import FPS
 from mjsim.pictures.overlay import StripOverlay, font
 from mjsim.pictures.render import Camera
 
@@ -122,7 +123,7 @@ def test_the_files_play_with_the_right_number_of_frames(tmp_path, monkeypatch, c
     joint = tmp_path / "all.mp4" if count > 1 else None
     monkeypatch.setenv(gl.VARIABLE, BACKEND)
     recording.film(walks, paths, joint)
-    frames = round(2.5 * recording.FPS)  # 0.5 s before, 1 s of walk, 1 s after
+    frames = round(2.5 * FPS)  # 0.5 s before, 1 s of walk, 1 s after
     for path in [*paths, *([joint] if joint else [])]:
         played = subprocess.run(
             [imageio_ffmpeg.get_ffmpeg_exe(), "-i", path, "-f", "null", "-"],
