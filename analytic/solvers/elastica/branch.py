@@ -28,6 +28,7 @@ _LEAST_PULLED = 1e-2  # where friction or adhesion may give way, and damped moti
 _CURLED = 0.02  # slope that an end in flat contact does not have, even where it lifts off [rad]
 _LOCATED = 1e-7  # motion over L within which a change of contacts is located; chosen
 _PROBE = 1e-3  # of an increment, to tell whether a contact slides on; chosen
+_NEAR = 1e-5  # motion over L that is no jump; chosen
 _FAR = 0.01  # motion over L in an increment whose end is not known; chosen
 _MOST_CHANGES = 8  # in an increment, beyond which they are a flicker and not looked for; chosen
 NO_NUMBERS = Flag.BRANCH_END | Flag.ROLLED_UP
@@ -91,20 +92,26 @@ class Branch:
         Which contact slides is told wrongly on the way from one to the other alone. One that comes
         to a stop before is added in its place.
         """
-        states = [*points]
+        states, solved = [*points], after
         error = self._moved(points[-1].state, after.state)
         error = error if math.isfinite(error) else _FAR
         while error > _LOCATED:
             middle = self._after(states, 0.5 * (states[-1].row + after.row), after, trial=True)
             if changed(states[-1], middle):
                 after = middle
+                solved = middle if math.isfinite(middle.state.left) else solved
             elif turned(states, middle):
                 return self._add_turn(points, middle)
             else:
                 states = [*points, middle]
             error *= 0.5
-        located = [*states[len(points) :], self._after(states, after.row, after)]
-        points += self._over_jump(points, located, row)
+        behind = self._after(states, after.row, after)
+        if Flag.BRANCH_END in behind.status and solved is not after:
+            # a little farther on, where bounds are not all but alike, there is one
+            beyond = self._after(states, solved.row, solved)
+            if self._moved(states[-1].state, beyond.state) < _NEAR:
+                behind = beyond
+        points += self._over_jump(points, [*states[len(points) :], behind], row)
         return None
 
     def _add_turn(self, points: list[Point], after: Point) -> None:
