@@ -172,7 +172,6 @@ def test_a_gait_is_worth_what_it_does_by_the_worse_place_of_friction_where_that_
 
 
 def test_a_search_without_cma_says_what_to_install_in_one_line(monkeypatch, capsys, tmp_path):
-    monkeypatch.delitem(sys.modules, "mjsim.optimising.search", raising=False)
     monkeypatch.setitem(sys.modules, "cma", None)
     with pytest.raises(SystemExit) as stop:
         main(["--evaluations", "2", "--out", str(tmp_path)])
