@@ -52,7 +52,8 @@ def in_si(record: Any) -> None:
     """
     texts = {
         field.name: value for field in fields(record)
-        if isinstance(value := getattr(record, field.name), str | tuple | list)
+        if field.type is not str
+        and isinstance(value := getattr(record, field.name), str | tuple | list)
     }  # fmt: skip
     if not any(isinstance(v, str) or any(isinstance(x, str) for x in v) for v in texts.values()):
         return

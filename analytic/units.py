@@ -93,16 +93,24 @@ def in_unit(name: str, value: str, unit: str | None) -> float:
         return float(value)
     except ValueError:
         pass
-    number = _NUMBER.match(value)
-    if number is None or len(value) > _LARGEST:
+    number, unit_words = split_number(value)
+    if number is None:
         raise ValueError(refusal(name, value, unit))
-    words, absolute = split_reference(value[number.end() :])
+    words, absolute = split_reference(unit_words)
     size = factor(words, unit)
     if size is None:
         raise ValueError(refusal(name, value, unit))
     if absolute:
         raise ValueError(f"{name} must be a pressure over the ambient one, got {value!r}: absolute")
-    return float(number.group()) * size
+    return number * size
+
+
+def split_number(value: str) -> tuple[float | None, str]:
+    """Number at the beginning of a text, None if it is no quantity, and the words after it."""
+    number = _NUMBER.match(value)
+    if number is None or len(value) > _LARGEST:
+        return None, ""
+    return float(number.group()), value[number.end() :].strip()
 
 
 def factor(words: str, unit: str | None) -> float | None:

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal, Optional, Union, get_args, get_origi
 
 import tyro
 
-from mjsim.files.fields import field_docs
+from analytic.fields import field_docs
 
 
 def optional(

@@ -4,8 +4,8 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from analytic.checks import meant
+from analytic.fields import field_docs, units
 from analytic.scene.surface import SURFACES
-from mjsim.files.fields import field_docs, units
 from mjsim.files.keys import KEYS, KINDS, NAMES, SURFACE_FIELDS, check_keys
 from mjsim.files.tables import Tables, merged
 from mjsim.files.typed import Table

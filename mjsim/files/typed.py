@@ -9,7 +9,7 @@ from types import NoneType, UnionType
 from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from analytic.checks import meant, missing, one_of
-from mjsim.files.fields import units
+from analytic.fields import units
 from mjsim.files.units import in_unit
 
 Table = dict[str, Any]

@@ -3,14 +3,10 @@
 The units are those of analytic.units; pint, which takes long to import, is asked for rarer ones.
 """
 
-import re
 from functools import cache
 from typing import Any
 
 from analytic import units
-
-_NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
-_LARGEST = 60  # letters of a value; longer ones are no quantity
 
 
 def in_unit(name: str, value: str, unit: str | None) -> float:
@@ -24,12 +20,11 @@ def in_unit(name: str, value: str, unit: str | None) -> float:
     Raises:
         ValueError: it is no number, or one with a unit of another kind.
     """
-    number = _NUMBER.match(value)
-    words = value[number.end() :].strip() if number and len(value) <= _LARGEST else ""
+    number, words = units.split_number(value)
     if number is None or not words or units.find(units.split_reference(words)[0]) is not None:
         return units.in_unit(name, value, unit)
     try:
-        return float(number.group()) * _factor(words, "1" if unit is None else unit)
+        return number * _factor(words, "1" if unit is None else unit)
     except Exception as error:  # pint raises many kinds for words that are no unit
         raise ValueError(units.refusal(name, value, unit)) from error
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from analytic.friction.contact_length import flat_length
 from analytic.scene.chain import node_positions
-from mjsim.model.pads import pads_by_node
+from mjsim.model.pads import node_of_geom, pads_by_node
 from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
@@ -42,9 +42,7 @@ class ContactForces:
         place = np.full(model.ngeom, np.nan)
         place[pads] = arclength[:, None]
         self._place: list[float] = place.tolist()  # arclength of a pad, by its geom
-        node = np.zeros(model.ngeom, dtype=int)
-        node[pads] = np.arange(len(pads))[:, None]
-        self._node: list[int] = node.tolist()
+        self._node: list[int] = node_of_geom(model, pads).tolist()
         pyramidal = model.opt.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
         self._pyramidal = bool(pyramidal) and model.geom_condim[pads[0, 0]] > 1
         self._six = np.zeros(6)

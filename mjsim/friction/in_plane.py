@@ -22,7 +22,7 @@ from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.rest import Rest
 from mjsim.friction.point_friction import STANDS, PointFriction
 from mjsim.model.limbs import joints_to, limbed, link_prefix, points_of
-from mjsim.model.pads import edges, pads_of
+from mjsim.model.pads import edges, node_of_geom, pads_of
 from mjsim.model.parts import PREFIX
 from mjsim.results.status import THROWN
 from mjsim.scene import Resolved, Scene
@@ -80,8 +80,7 @@ class LimbFooting:
         self._trunk = self._links[0][0], self._links[0][-1], length
         self._starts = [starts.tolist() for starts in self._tree.starts]
         self._pads = edges(pads_of(model, scene))
-        self._node_of_geom = np.zeros(model.ngeom, dtype=int)
-        self._node_of_geom[self._pads] = np.arange(len(self._pads))
+        self._node_of_geom = node_of_geom(model, self._pads)
         mass = robot.weight / scene.gravity
         self._viscosity = mass / numerics.tie_time  # of all points together [N s/m]
         mujoco.mj_kinematics(model, data)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.ground import depends_on_speed
-from mjsim.model.pads import pads_by_node
+from mjsim.model.pads import node_of_geom, pads_by_node
 from mjsim.model.parts import PREFIX, TENDONS, tendon_names
 from mjsim.results.forces import GroundForces
 from mjsim.scene import Scene
@@ -30,8 +30,7 @@ class ContactRecorder:
         self._model, self._data = model, data
         pads = pads_by_node(model)
         self._nodes = len(pads)
-        self._node_of_geom = np.full(model.ngeom, -1)
-        self._node_of_geom[pads] = np.arange(len(pads))[:, None]
+        self._node_of_geom = node_of_geom(model, pads, other=-1)
         self._node_of_tendon = np.full(model.ntendon, -1)
         for node, name in enumerate(tendon_names(len(pads))):
             if scene.between or name in TENDONS:

@@ -32,6 +32,13 @@ def pads_by_node(model: mujoco.MjModel, limb: str | None = None) -> Pads:
     return np.array([nodes[node] for node in sorted(nodes)])
 
 
+def node_of_geom(model: mujoco.MjModel, pads: Pads, other: int = 0) -> Pads:
+    """Number of the row of pads that each geom is in, other of those that are no pads, (G,)."""
+    nodes = np.full(model.ngeom, other)
+    nodes[pads] = np.arange(len(pads)).reshape(-1, *[1] * (pads.ndim - 1))
+    return nodes
+
+
 def edges(pads: Pads) -> Pads:
     """Pads of a robot in space as analytic.solvers.limbs has nodes: right edges, then left ones."""
     return np.concatenate([pads[..., 0].ravel(), pads[..., 1].ravel()])

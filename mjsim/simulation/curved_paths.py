@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 
 from analytic.scene.chain import link_lengths
-from mjsim.model.pads import pads_by_node
+from mjsim.model.pads import node_of_geom, pads_by_node
 from mjsim.scene import Resolved, Scene
 
 _PITCH = 2  # of the coordinates: before it x and z, after it the hinges
@@ -30,8 +30,7 @@ class CurvedPaths:
         self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         pads = pads_by_node(model)
-        self._node = np.zeros(model.ngeom, dtype=int)
-        self._node[pads] = np.arange(len(pads))[:, None]
+        self._node = node_of_geom(model, pads)
         self._lengths = -np.asarray(link_lengths(scene.strip, numerics.links))
         self._rise, self._dt = np.zeros(len(pads)), numerics.timestep
         self._rates, self._angles = data.qvel[_PITCH:], data.qpos[_PITCH:]
