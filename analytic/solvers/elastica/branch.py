@@ -16,8 +16,16 @@ from analytic.progress import counted
 from analytic.scene.ground import durations
 from analytic.shapes import Flag
 from analytic.solvers.elastica.continuation import follow
+from analytic.solvers.elastica.events import Event
 from analytic.solvers.elastica.newton import Chain
-from analytic.solvers.elastica.points import Point, changed, guess, slides_alike, turned
+from analytic.solvers.elastica.points import (
+    NO_MEASURES,
+    Point,
+    changed,
+    guess,
+    slides_alike,
+    turned,
+)
 from analytic.solvers.elastica.state import ChainState
 from analytic.solvers.elastica.stick_slip import UNSETTLED, StickSlip
 
@@ -84,7 +92,14 @@ class Branch:
                     self._add_turn(points, after)
                 else:
                     points.append(self._after(points, float(row)) if after.unsettled else after)
-        return points[1:]
+        return [self._checked(point) for point in points[1:]]
+
+    def _checked(self, point: Point) -> Point:
+        """A point with its residual, which is of no use on the way to it."""
+        if point.status & NO_NUMBERS:
+            return point
+        self._chain.load_at(point.pressure)
+        return point._replace(residual=self._chain.residual(point.state))
 
     def _add_change(self, points: list[Point], after: Point, row: float) -> None:
         """Add states on either side of the first change of contacts before a point, by bisection.
@@ -93,18 +108,23 @@ class Branch:
         to a stop before is added in its place.
         """
         states, solved = [*points], after
+        event = Event(points[-2:] if slides_alike(points) else points[-1:], after)
         error = self._moved(points[-1].state, after.state)
-        error = error if math.isfinite(error) else _FAR
-        while error > _LOCATED:
-            middle = self._after(states, 0.5 * (states[-1].row + after.row), after, trial=True)
-            if changed(states[-1], middle):
-                after = middle
-                solved = middle if math.isfinite(middle.state.left) else solved
-            elif turned(states, middle):
+        least = _LOCATED / (error if math.isfinite(error) else _FAR) * event.width
+        while (
+            event.width > least
+            and not self._moved(event.before.state, event.after.state) < _LOCATED
+        ):
+            middle = self._after(states, event.next(least), event.after, trial=True)
+            behind_it = changed(states[-1], middle)
+            if not behind_it and turned(states, middle):
                 return self._add_turn(points, middle)
-            else:
+            event.narrow(middle, behind_it)
+            if not behind_it:
                 states = [*points, middle]
-            error *= 0.5
+            elif math.isfinite(middle.state.left):
+                solved = middle
+        after = event.after
         behind = self._after(states, after.row, after)
         if Flag.BRANCH_END in behind.status and solved is not after:
             # a little farther on, where bounds are not all but alike, there is one
@@ -188,8 +208,8 @@ class Branch:
         traction = self._traction
         contacts = traction.signature() if traction else None
         unsettled = traction is not None and not traction.settled
-        residual = chain.residual(state)
-        return Point(row, pressure, state, status, steps, residual, contacts, unsettled)
+        measures = NO_MEASURES if traction is None or unsettled else traction.measures(state)
+        return Point(row, pressure, state, status, steps, contacts, unsettled, measures)
 
     def _moved(self, before: ChainState, after: ChainState) -> float:
         """Greatest motion of a node along x, over L."""

@@ -29,7 +29,7 @@ from analytic.solvers.elastica.state import ChainState, GroundTraction, Mask
 
 Array = NDArray[np.float64]
 
-_CONVERGED = 1e-10  # change of an angle in the last Newton step [rad]
+_CONVERGED = 1e-10  # change of an angle in a Newton step that need not be made [rad]
 _SETTLED = 0.05  # change below which the contact set may be revised [rad]
 _ITERATIONS = 40
 _ROUNDING = 1e-11  # of heights over L
@@ -127,7 +127,7 @@ class Chain:
             guess: near it; without traction its tension stays as it is.
             traction: of the ground, which then decides tension and place.
         """
-        state, revisions, updates = guess, 0, 0
+        state, revisions, updates, before = guess, 0, 0, 0.0
         most = traction.updates if traction else 0
         for _ in range(_ITERATIONS + most):
             new = self._newton(state, traction)
@@ -137,18 +137,20 @@ class Chain:
             if not change < 1.0:
                 return None
             state = new
+            # steps shrink as the squares of those before, so that the next would change by less
+            left, before = change * (change / before) ** 2 if before else math.inf, change
             if change > _SETTLED:
                 continue
             revised = self._revise(state, revisions)
             if revised is not None:
-                revisions += 1
+                revisions, before = revisions + 1, 0.0
                 state = revised
                 continue
             if traction is not None and change > traction.balanced:
                 continue
             if traction is not None and updates < most and not traction.update(state):
-                updates += 1
-            elif change < _CONVERGED:
+                updates, before = updates + 1, 0.0
+            elif min(change, left) < _CONVERGED:
                 return state if stable(self, state, traction) else None
         return None
 

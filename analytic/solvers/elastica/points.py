@@ -7,10 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.shapes import Flag
-from analytic.solvers.elastica.state import ChainState
+from analytic.solvers.elastica.state import ChainState, Mask
 from analytic.solvers.elastica.stick_slip import Signature
 
 Array = NDArray[np.float64]
+
+
+NO_MEASURES = np.zeros(0)
 
 
 class Point(NamedTuple):
@@ -25,6 +28,7 @@ class Point(NamedTuple):
         residual: see ContactShapes.
         contacts: tips and sides, and which of them slide, see StickSlip.signature.
         unsettled: whether it is in no balance with the bounds of its contacts, see StickSlip.begin.
+        measures: of its contacts, see StickSlip.measures.
     """
 
     row: float
@@ -32,9 +36,10 @@ class Point(NamedTuple):
     state: ChainState
     status: Flag = Flag.OK
     iterations: int = 0
-    residual: float = np.nan
     contacts: Signature | None = None
     unsettled: bool = False
+    measures: Array = NO_MEASURES
+    residual: float = np.nan
 
 
 def changed(before: Point, after: Point) -> bool:
@@ -85,4 +90,18 @@ def _along(state: ChainState, toward: ChainState, part: float) -> ChainState:
     return state._replace(
         theta=state.theta + part * (toward.theta - state.theta),
         shear=state.shear + part * (toward.shear - state.shear),
+        active=_active(state, toward, part) if part > 0 else state.active,
     )
+
+
+def _active(state: ChainState, toward: ChainState, part: float) -> Mask:
+    """Nodes on the ground part of the way: of those that leave it, first those that end highest.
+
+    Newton's method need not find them one by one then. Nodes that land stay up, since with them on
+    the ground a tip would be taken for a side before it is one.
+    """
+    leaving = np.flatnonzero(state.active & ~toward.active)
+    highest = leaving[np.argsort(-toward.y[leaving], kind="stable")]
+    active = state.active.copy()
+    active[highest[: round(part * len(leaving))]] = False
+    return active

@@ -217,6 +217,12 @@ class StickSlip:
             for contact in contacts
         ])  # fmt: skip
 
+    def measures(self, state: ChainState) -> Array:
+        """What is 0 where contacts change: margins, and bounds less the least other one, (2 C,)."""
+        least, second = [*np.sort(self.bounds)[:2], np.nan, np.nan][:2]
+        others = np.where(self.bounds > least, least, second)
+        return np.concatenate([self._margins(self.contacts, state), self.bounds - others])
+
     def _touch_alike(self, contacts: list[StripContact]) -> bool:
         """Tell whether contacts are where those before were."""
         if [contact.nodes for contact in contacts] != [old.nodes for old in self.contacts]:
