@@ -2,9 +2,12 @@
 
 Samples from which straight lines are farthest are corners (Douglas and Peucker 1973); then their
 times and pressures are those that fit all samples best, and corners that do not stand out go.
+Corners that no single sample shows come where two lines fit all samples between others better than
+one does, by more than noise would let them (as in Friedman 1991, Annals of Statistics 19, 1).
 """
 
 import math
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -26,6 +29,7 @@ _SHIFT = 0.4  # of the time to the next corner by which one may move in a round;
 _LITTLE = 1e-9
 _LAGS = 4  # times the shortest ramp over which neighbours are compared; chosen
 _QUARTER = 0.25  # of the shortest ramp: a time step
+_PLACES = 64  # between two corners at which another one is tried; chosen
 
 
 def ramps(time: Array, pressure: Array, shortest: float = SHORTEST) -> Ramps:
@@ -170,6 +174,16 @@ class _Samples(NamedTuple):
 
     def refined(self, knots: Array, floor: float) -> tuple[Array, Array, Array]:
         """Times of few corners that fit best, pressures there, and what these are sure to [Pa]."""
+        knots, fit = self._settled(knots, floor)
+        for _ in range(_ROUNDS):
+            more, better = self._settled(self._with_missed(knots), floor)
+            if len(more) <= len(knots):
+                break
+            knots, fit = more, better
+        return knots, fit.values, np.maximum(fit.sure(self.noise), floor)
+
+    def _settled(self, knots: Array, floor: float) -> tuple[Array, _Fit]:
+        """Corners that stand out, at the times that fit best, and their fit."""
         fit = self._through(knots)
         for _ in range(_ROUNDS):
             off, sure = _distance(knots, fit.values, fit.sure(self.noise))
@@ -184,7 +198,30 @@ class _Samples(NamedTuple):
                 knots, fit = better
             else:
                 break
-        return knots, fit.values, np.maximum(fit.sure(self.noise), floor)
+        return knots, fit
+
+    def _with_missed(self, knots: Array) -> Array:
+        """Corners, and between two of them one more where two lines fit better than one."""
+        chambers = self.pressure.shape[1]
+        chance = self.noise * (math.sqrt(chambers) + math.sqrt(2 * math.log(len(self.time))))
+        more = []
+        for begin, end in pairwise(knots):
+            inside = slice(*np.searchsorted(self.time, [begin, end]))
+            time, root = self.time[inside], np.sqrt(self.number[inside])
+            if len(time) < _FEW:
+                continue
+            line, _ = np.linalg.qr(root[:, None] * np.stack([np.ones(len(time)), time - begin], 1))
+            values = root[:, None] * self.pressure[inside]
+            places = np.linspace(begin, end, _PLACES + 2)[1:-1]
+            gains = []
+            for place in places:
+                bend = root * np.maximum(time - place, 0.0)
+                bend -= line @ (bend @ line)
+                size = max(float(np.linalg.norm(bend)), _LITTLE * (end - begin))
+                gains.append(float(np.linalg.norm(bend @ values)) / size)
+            if max(gains) > chance:
+                more.append(places[int(np.argmax(gains))])
+        return np.sort(np.append(knots, more))
 
     def _moved(self, knots: Array, fit: _Fit) -> tuple[Array, _Fit] | None:
         """Corners at better times, by a step of Gauss and Newton for each alone, and their fit."""

@@ -1,8 +1,8 @@
 """Tables of measured numbers: CSV whose heads name their units, as `time [s]` or `p1_kPa`.
 
 Units may also stand as in `Time (in ms)`, `p1 / kPa`, `p1, psig` or `p1 kgf/cm2`. Columns are
-separated by commas, semicolons or tabs, then with decimal commas or points; lines that begin with #
-are comments.
+separated by commas, or by semicolons, tabs or blanks, then with decimal commas or points; lines
+that begin with # are comments, and the last of them the heads where numbers follow.
 """
 
 import csv
@@ -22,6 +22,9 @@ _BRACKETS = re.compile(r"(.*?)\s*[\[({]\s*(?:in\s+)?(.+?)\s*[\])}]\s*")
 _BARE = re.compile(r"(.*?)(?:\s*[,/:]\s*|\s+in\s+|\s+|_)(\S+(?:\s*\(?(?:g|a|gauge|abs)\)?)?)\s*")
 _SINGLE = ("s", "m", "N", "%")  # units of one letter that need no brackets
 _EMPTY = ("", "nan", "na")
+_CELL = re.compile(r'"[^"]*"|\S+')
+_UNIT = re.compile(r"\s+(?=[\[({])")  # blanks between a name and its unit
+_NUMBER = re.compile(r"[-+]?(\d|[.,]\d)[-+\d.,eE]*")
 
 
 class Head(NamedTuple):
@@ -119,20 +122,21 @@ def read_csv(path: Path, what: str) -> CsvTable:
         raise ValueError(f"{where} cannot be read: {missing(path, error)}") from error
     except UnicodeDecodeError as error:
         raise ValueError(f"{where} is no text: {error}") from error
-    lines = {
-        number: line
-        for number, line in enumerate(text.splitlines(), start=1)
-        if line.strip() and not line.lstrip().startswith("#")
-    }
+    written = [(n, line) for n, line in enumerate(text.splitlines(), start=1) if line.strip()]
+    lines = [(number, line) for number, line in written if not line.lstrip().startswith("#")]
     if not lines:
         raise ValueError(f"{where} is empty")
-    first = next(iter(lines.values()))
-    mark = next((mark for mark in ";\t" if mark in first), ",")
+    comments = [line.strip("# \t") for number, line in written if number < lines[0][0]]
+    if comments and _are_heads(comments[-1], lines[0][1]):
+        lines.insert(0, (0, comments[-1]))
+    mark = _mark(lines[0][1])
     decimal = "." if mark == "," else ","
-    (_, heads), *rows = [
-        (number, [cell.strip() for cell in row])
-        for number, row in zip(lines, csv.reader(lines.values(), delimiter=mark), strict=True)
-    ]
+    try:
+        (_, heads), *rows = _cells(lines, mark)
+    except ValueError as error:
+        raise ValueError(f"{where}: {error}") from None
+    # loggers that end each line of numbers by a mark
+    rows = [(n, row[:-1] if len(row) > len(heads) and not row[-1] else row) for n, row in rows]
     for number, row in rows:
         if len(row) != len(heads):
             raise ValueError(f"{where}: line {number}: needs {len(heads)} numbers, got {len(row)}")
@@ -144,6 +148,38 @@ def read_csv(path: Path, what: str) -> CsvTable:
             f"{head} [{unit}]" if unit else head for head, unit in zip(heads, units, strict=True)
         ]
     return CsvTable(where, heads, rows)
+
+
+def _cells(lines: list[tuple[int, str]], mark: str | None) -> list[tuple[int, list[str]]]:
+    """Cells of lines with their numbers; without a mark they are separated by blanks."""
+    if odd := next((number for number, line in lines if line.count('"') % 2), 0):
+        raise ValueError(f"line {odd}: a quotation mark must be closed in its line")
+    if mark is not None:
+        split = csv.reader((line for _, line in lines), delimiter=mark)
+        return [
+            (number, [cell.strip() for cell in row])
+            for (number, _), row in zip(lines, split, strict=True)
+        ]
+    (first, heads), *rows = lines
+    cells = [[cell.strip('"') for cell in _CELL.findall(line)] for _, line in rows]
+    names = [cell.strip('"') for cell in _CELL.findall(_UNIT.sub("", heads))]
+    apart = re.split(r"\s{2,}", heads.strip())  # names of several words
+    if cells and len(names) != len(cells[0]) == len(apart):
+        names = apart
+    return [(first, names), *((number, row) for (number, _), row in zip(rows, cells, strict=True))]
+
+
+def _mark(heads: str) -> str | None:
+    """Mark between cells; None where they are separated by blanks."""
+    return next((mark for mark in ";\t," if mark in heads), None)
+
+
+def _are_heads(comment: str, first: str) -> bool:
+    """Tell whether a comment before numbers has their heads, as numpy.savetxt writes them."""
+    if '"' in comment or _mark(comment) not in (_mark(first), None):
+        return False
+    (_, heads), (_, numbers) = _cells([(0, comment), (1, first)], _mark(comment))
+    return len(heads) == len(numbers) and all(_NUMBER.fullmatch(cell) for cell in numbers)
 
 
 def _are_units(cells: list[str]) -> bool:

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import fields, is_dataclass
 from difflib import get_close_matches
+from pathlib import PurePath
 from typing import Any, get_args, get_type_hints
 
 from analytic.checks import meant
@@ -14,6 +15,8 @@ _SUBJECT = re.compile(
 _TABLES = {"surface": "ground"}  # of options that are called otherwise
 _OTHERS = {"--ground": "--surface", "--mu": "--surface.friction", "--dt": "--timestep",
            "--speed": "--gait.ramp-time"}  # fmt: skip
+
+_FILES = {".toml": "--scene", ".csv": "--gait"}  # of files without an option
 
 
 class TypedOptions:
@@ -55,7 +58,10 @@ class TypedOptions:
         word = next((word for word in words if word.startswith("-")), words[0])
         option = word.partition("=")[0]
         if not option.startswith("-"):
-            return f"no argument is known beside options, got {word!r}"
+            named = {name for names in self._names() for name in names}
+            fits = _FILES.get(PurePath(word).suffix.lower())
+            asked = f"; did you mean {fits} {word}?" if fits in named else ""
+            return f"no argument is known beside options, got {word!r}{asked}"
         return f"option {option} is unknown{self._meant(option)}"
 
     def _meant(self, option: str) -> str:

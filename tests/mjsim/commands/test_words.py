@@ -181,3 +181,13 @@ def test_pressures_are_spelled_in_many_ways(text, pascal):
 )  # fmt: skip
 def test_heads_of_columns_are_names_and_units(head, name, unit, absolute):
     assert head_of(head) == (name, unit, absolute)
+
+
+@pytest.mark.parametrize(
+    ("word", "meant"), [("walk.toml", "--scene walk.toml"), ("log.CSV", "--gait log.CSV")]
+)
+def test_a_file_without_its_option_is_answered_with_it(capsys, word, meant):
+    with pytest.raises(SystemExit) as stop:
+        main([word, "--no-video"])
+    assert stop.value.code == 2
+    assert f"got {word!r}; did you mean {meant}?" in capsys.readouterr().err

@@ -11,7 +11,7 @@ from analytic import GAITS, Gait
 from analytic.scene.robot import PSI
 from mjsim import measure, reference, simulate
 from mjsim.commands.run import main
-from mjsim.files.measured import as_gait, read_series
+from mjsim.files.measured import Series, as_gait, read_series
 from mjsim.files.mergers import merged
 from mjsim.files.tables import build
 from mjsim.scene import Numerics
@@ -70,6 +70,8 @@ def logs():
         "1 kHz": (HEADS, ticks, noisy(clean(ticks), 0.01)),
         "5 kHz": (HEADS, even(5_000), noisy(clean(even(5_000)), 0.02)),
         "loud": (HEADS, ticks, noisy(clean(ticks), 0.05)),
+        "blanks": (("t_s", "p1_kPa", "p2_kPa", "p3_kPa"), usual, noisy(clean(usual), 0.01), 1e3,
+                   1.0, " "),
         "smoothed": (HEADS, even(2_000), clean(even(2_000)) + smooth_noise(even(2_000), 0.01)),
         "hum of the mains": (HEADS, ticks, noisy(clean(ticks), 0.002) + hum),
         "eight bits": (HEADS, even(500), rounded),
@@ -106,6 +108,30 @@ def test_a_log_walks_as_far_as_the_gait_that_it_recorded(tmp_path, kind):
     assert measure(simulate(scene, COARSE)).displacement == pytest.approx(
         distance("felt"), abs=4e-4
     )
+
+
+@pytest.mark.parametrize(("noise", "seed"), [(0.05, s) for s in range(8)] + [(0.1, 1), (0.1, 3)])
+def test_corners_smaller_than_the_noise_of_a_sample_are_found(noise, seed):
+    rng = np.random.default_rng(seed)
+    stages = rng.choice([0.0, 0.1, 0.25, 0.5, 0.75, 1.0], (rng.integers(4, 9), 3))
+    stages[0], stages[1, 0] = 0.0, 1.0
+    ramps = rng.uniform(0.4, 2.5, len(stages) - 1)
+    truth = Gait("it", tuple(map(tuple, stages.tolist())), tuple(ramps.tolist()), repeats=False)
+    time = np.arange(0, truth.period, 0.01)
+    found, highest = as_gait("it", Series(time, noisy(clean(time, truth), noise, 100 + seed)))
+    assert found.ramps == truth.ramps
+    along = np.linspace(0, found.period, 1_000, endpoint=False)
+    off = highest * found.fractions(along) - clean(along, truth)
+    # a corner's value is the mean of many samples
+    assert np.abs(off).max() < 0.6 * noise * PEAK
+
+
+def test_a_straight_ramp_has_no_corners_whatever_the_noise():
+    for seed in range(5):
+        time = even(100)
+        pressure = PEAK * np.stack([time, 0 * time, time.max() - time], axis=1) / time.max()
+        found, _ = as_gait("it", Series(time, noisy(pressure, 0.05, seed)))
+        assert found.ramps == 1
 
 
 @pytest.mark.slow

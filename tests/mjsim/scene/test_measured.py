@@ -106,6 +106,27 @@ def test_decimal_commas_comments_and_time_in_ms_are_read(tmp_path):
     assert read.pressure.ravel().tolist() == [500.0, 1500.0]
 
 
+@pytest.mark.parametrize(
+    ("text", "pressures"),
+    [
+        ("time [s]  p1 [kPa]  p2 [kPa]\n 0   1   2\n 1   3   4\n", (1e3, 2e3)),
+        ("t_s p1_kPa p2_kPa\n0 0,5 2\n1 3 4\n", (500, 2e3)),
+        ("Time in s   p1 in kPa   p2 in kPa\n0 1 2\n1 3 4\n", (1e3, 2e3)),
+        ('"Time (s)" "left (kPa)" "right (kPa)"\n0 1 2\n1 3 4\n', (1e3, 2e3)),
+        ("t p1 p2\ns kPa Pa\n0 1 2\n1 3 4\n", (1e3, 2)),
+        ("# by numpy.savetxt\n# t_s p1_kPa p2_kPa\n0 1 2\n1 3 4\n", (1e3, 2e3)),
+        ("# t [s], p1 [kPa], p2 [kPa]\n0,1,2\n1,3,4\n", (1e3, 2e3)),
+        ("t_s,p1_kPa,p2_kPa\n0,1,2,\n1,3,4,\n", (1e3, 2e3)),
+    ],
+)
+def test_cells_may_be_separated_by_blanks_and_heads_be_a_comment(tmp_path, text, pressures):
+    path = tmp_path / "p.txt"
+    path.write_text(text)
+    read = read_series(path)
+    assert read.time.tolist() == [0, 1]
+    assert read.pressure[0] == pytest.approx(pressures)
+
+
 @pytest.mark.parametrize(("begins", "until"), [(0.0, 0.62), (1.4, 1.0), (2.9, 0.8)])
 def test_records_that_start_inflated_or_do_not_close_agree_with_theory(tmp_path, begins, until):
     gait = GAITS["wave"]
@@ -132,6 +153,9 @@ def test_records_that_start_inflated_or_do_not_close_agree_with_theory(tmp_path,
         ("time [s],p1 [kPa]\n0,1\n1,nan", "'nan'"),
         ("time [s],p1 [kPa]\n0,1\n1,2,3", "line 3"),
         ("time [s],p1 [kPa]\n0,0\n1,0\n2,0", "noise"),
+        ('time [s],p1 [kPa]\n0,"1\n1,2', "line 2: a quotation mark"),
+        ("# a log of today\n0 1\n1 2", "first line of names"),
+        ("t_s p1_kPa\n0 1\n1 2 3", "line 3: needs 2 numbers, got 3"),
         ("time [s],p1 [kPa]\n0,0\n1,1\n2,0", "1 chambers"),
     ],
 )
