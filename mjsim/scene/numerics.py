@@ -24,8 +24,7 @@ PATHS: tuple[str, ...] = get_args(Path)
 _WORDS = ("integrator", "cone", "contact_path")
 OF_SPACE = ("contact_softness", "tie_time")
 OF_THE_PLANE = ("integrator", "side_angle", "steep_contact_time", "steep_angle", "cone",
-                 "impratio", "contact_depth", "contact_path", "edge_time",
-                 "tie_bound")  # fmt: skip
+                 "impratio", "contact_depth", "edge_time", "tie_bound")  # fmt: skip
 
 # contact times that the classic integrators need: at least so many steps, and so long; measured
 _STIFF_STEPS, _STEEP_STEPS = 2.0, 4.0
@@ -70,9 +69,10 @@ class Numerics:
     """of Coulomb friction: stiffness of friction over that of the normal force; chosen"""
     contact_depth: float = 4e-5
     """of Coulomb friction: depth in which contacts stiffen [m]; chosen"""
-    contact_path: Path = "straight"
+    contact_path: Path | None = None
     """path along which a contact's height is foreseen in a step: straight, as MuJoCo does; or
-    curved, of a chain in the plane with discrete, in fast gaits: ends that swing do not hop"""
+    curved, of a chain with discrete: ends that swing do not hop. Straight of a strip; of a robot in
+    space curved where a chamber fills faster than in 1 s"""
     edge_time: float | None = None
     """time constant of the rod's edges [timestep]; 0.5 with discrete, else 2"""
     tie_bound: float = 1.5
@@ -89,7 +89,8 @@ class Numerics:
         in_si(self)
         one_of("integrator", self.integrator, INTEGRATORS)
         one_of("cone", self.cone, CONES)
-        one_of("contact_path", self.contact_path, PATHS)
+        if self.contact_path is not None:
+            one_of("contact_path", self.contact_path, PATHS)
         for item in fields(self):
             value = getattr(self, item.name)
             if item.name not in ("links", *_WORDS) and value is not None:
@@ -114,7 +115,8 @@ class Numerics:
                 + ", ".join(chosen_so)
             )
         # links of the cable have a width to shake by: its steep ends need a softer ground
-        chosen: dict[str, float] = {
+        chosen: dict[str, Any] = {
+            "contact_path": "straight",
             "links": 6 if in_space else 24,
             "timestep": 0.01 if in_space else 0.005,
             "contact_time": 2.0 if in_space else 0.5,
@@ -150,6 +152,19 @@ def short_enough(usual: float, fill_time: float) -> float:
     return next((step for step in (usual, *SHORT_STEPS) if step <= longest), SHORT_STEPS[-1])
 
 
+def path_of(in_space: bool, fill_time: float) -> Path:
+    """Path along which contacts are foreseen, unless one is given.
+
+    Along straight ones limbs that turn fast hop from step to step: distances depend on the time
+    step, and at finer ones robots may be thrown.
+
+    Args:
+        in_space: whether the robot is.
+        fill_time: in which a chamber fills to the peak, at the gait's fastest [s].
+    """
+    return "curved" if in_space and fill_time < _SLOW else "straight"
+
+
 def _check_links(links: int | None, in_space: bool) -> None:
     if links is None:
         return
@@ -168,3 +183,4 @@ class Resolved(Numerics):
     steep_contact_time: float = 2.0
     pad_radius: float = 1e-3
     edge_time: float = 0.5
+    contact_path: Path = "straight"

@@ -27,7 +27,7 @@ from analytic.scene.robot import GRAVITY, Robot
 from analytic.scene.surface import SURFACES, Ground
 from mjsim.scene import registry
 from mjsim.scene.magnitudes import check_ground, check_robot
-from mjsim.scene.numerics import Numerics, Resolved, short_enough
+from mjsim.scene.numerics import Numerics, Resolved, path_of, short_enough
 from mjsim.scene.valves import Valves
 
 Chamber = Literal["linearized", "sealed", "constant-pressure"]
@@ -225,6 +225,8 @@ def resolved(scene: Scene, numerics: Numerics | None = None) -> Resolved:
     if given.timestep is None:
         usual = given.resolved(scene.body, scene.friction, scene.in_space).timestep
         given = replace(given, timestep=short_enough(usual, scene.fill_time))
+    if given.contact_path is None:
+        given = replace(given, contact_path=path_of(scene.in_space, scene.fill_time))
     return given.resolved(scene.body, scene.friction, scene.in_space)
 
 

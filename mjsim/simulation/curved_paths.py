@@ -57,8 +57,43 @@ class CurvedPaths:
         mujoco.mj_step2(model, data)
 
 
+class CurvedPathsInSpace:
+    """Steps of a robot of limbs; see the module. Where the pads come to is found by kinematics.
+
+    Args:
+        model, numerics: as compiled, and how it is discretised.
+    """
+
+    def __init__(self, model: mujoco.MjModel, numerics: Resolved) -> None:
+        self._dt = model.opt.timestep
+        # ((1 + c) dt)^2 over dt^2
+        self._stretch = (1.0 + numerics.contact_time) ** 2
+
+    def step(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        """Do a time step."""
+        if not data.ncon:
+            mujoco.mj_step(model, data)
+            return
+        before = data.qpos.copy()
+        data.qpos += self._dt * data.qvel  # all joints are slides and hinges
+        mujoco.mj_kinematics(model, data)
+        ahead = data.geom_xpos[:, 2].copy()
+        data.qpos[:] = before
+        mujoco.mj_step1(model, data)
+        contact = data.contact
+        acts = contact.efc_address >= 0
+        rows, pads = contact.efc_address[acts], contact.geom2[acts]
+        straight = data.geom_xpos[pads, 2] + self._dt * data.efc_vel[rows]
+        data.efc_pos[rows] += self._stretch * (ahead[pads] - straight)
+        mujoco.mj_step2(model, data)
+
+
 def curved_paths(
     scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
-) -> CurvedPaths | None:
+) -> CurvedPaths | CurvedPathsInSpace | None:
     """Steps along curved paths, or None where the numerics say straight ones."""
-    return CurvedPaths(scene, numerics, model, data) if numerics.contact_path == "curved" else None
+    if numerics.contact_path != "curved":
+        return None
+    if scene.in_space:
+        return CurvedPathsInSpace(model, numerics)
+    return CurvedPaths(scene, numerics, model, data)

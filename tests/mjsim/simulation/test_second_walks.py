@@ -130,15 +130,11 @@ def test_what_slower_ramps_change_is_told_as_inertia(surface):
     assert told == (abs(slow - moved) > max(PART * abs(moved), 1e-3))
 
 
-def test_no_fast_strip_of_the_benchmark_is_silently_off_and_few_say_more_than_they_need():
-    """Of limbs 3 of 20 are, by 0.004 L, see docs/numbers.md."""
+def test_no_fast_gait_of_the_benchmark_is_silently_off_and_few_say_more_than_they_need():
     walked = [row for row in read() if row.status == "ok"]
     converged = [row for row in walked if row.converged]
     assert len(converged) > 20
-    silent = [row for row in converged if not row.words and not row.right]
-    assert not [row for row in silent if row.robot == "strip"]
-    assert len(silent) <= 3
-    assert all(abs(row.distance - row.finest) <= 0.004 for row in silent)
+    assert not [row for row in walked if not row.words and not row.right]
     assert sum(bool(row.words) for row in converged) <= 0.1 * len(converged)
 
 
