@@ -9,6 +9,8 @@ from mjsim.model.parts import PREFIX, set_options, start_height
 from mjsim.model.stage import stage
 from mjsim.scene import Resolved, Scene, registry
 
+_CREEP = 0.1  # of friction of limbs that sticks; less, and the solver does not converge; measured
+
 
 def scene_spec(scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
     """The robot on its ground, with lights, cameras and ruler.
@@ -68,7 +70,7 @@ def compiled(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> mujoco.Mj
         ValueError: mujoco refuses it.
     """
     try:
-        return spec.compile()
+        model = spec.compile()
     except ValueError as error:
         if "mjMINVAL" not in str(error):
             raise
@@ -76,3 +78,8 @@ def compiled(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> mujoco.Mj
             f"length {scene.robot.length:g} m is too small for {numerics.links} links: MuJoCo "
             "takes no link whose inertia is below 1e-15 kg m^2; take fewer links"
         ) from error
+    if scene.in_space:
+        # friction that sticks creeps by its force times this estimate of the inverse mass, times
+        # 1 - d of its impedance d, of which MuJoCo takes 0.9999 at most
+        model.tendon_invweight0[:] *= _CREEP
+    return model

@@ -204,6 +204,21 @@ class Contacts:
         bounds, viscous = np.array(pairs).reshape(-1, 2).T
         return bounds, viscous
 
+    def strength(self, ground: Ground) -> float:
+        """Greatest bound of all limbs together, each on its side or on its tip [N]."""
+        robot = self._tree.robot
+        loads = [limb.strip.weight_per_length * limb.strip.length for limb in robot.limbs]
+        return max(
+            sum(
+                max(
+                    self.resistance(Contact(i, length, (0.0,), load), surface)[0]
+                    for length in (0.0, limb.strip.length)
+                )
+                for i, (limb, load) in enumerate(zip(robot.limbs, loads, strict=True))
+            )
+            for surface in surfaces_of(ground)
+        )
+
     def resistance(self, contact: Contact, surface: Surface) -> tuple[float, float]:
         """Bound of friction [N] and viscous resistance [N s/m] of each point of a contact."""
         strip, points = self._tree.robot.limbs[contact.limb].strip, len(contact.at)

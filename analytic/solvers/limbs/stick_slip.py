@@ -24,7 +24,8 @@ from analytic.solvers.limbs.statics import Statics
 
 Array = NDArray[np.float64]
 
-_VISCOSITY = 1e-3  # of all contacts alike: weight over length; decides what bounds leave open
+_VISCOSITY = 1e-3  # of all contacts alike, over the bound of all and the length; decides what
+# bounds leave open
 _WEAK = 1e-3  # of a film's resistance, that it is at most, however slow the gait; chosen
 _RISE = 8  # states on the way to a first one that is inflated; chosen
 _SLIP = 1e-7  # over the length, by which a contact that holds gives way; chosen
@@ -136,7 +137,8 @@ class _StickSlip:
     def __init__(self, statics: Statics, ground: Ground, law: str) -> None:
         self._statics, self._ground = statics, ground
         self._finder = Contacts(statics.tree, law)
-        self._viscosity = _VISCOSITY * statics.tree.robot.weight / statics.length
+        strength = self._finder.strength(ground) or statics.tree.robot.weight
+        self._viscosity = _VISCOSITY * strength / statics.length
         self._states: list[_State] = []
         self._steady = False  # whether the last two states have the same contacts
 

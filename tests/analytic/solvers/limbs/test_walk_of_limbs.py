@@ -1,5 +1,7 @@
 """Paths of trees: the strip's, symmetric ones, turning ones, and back again."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -68,6 +70,27 @@ def undulating():
     gait = undulation("wave")
     pressures = QUADRUPED.peak_pressure * gait.path(10)[0]
     return pressures, *shapes(QUADRUPED, pressures, 4)
+
+
+@pytest.mark.parametrize("weight", [1.0, 3.0, 30.0])
+@pytest.mark.parametrize("name", SURFACES)
+def test_however_weak_the_bounds_it_goes_as_far_as_by_least_dissipation(name, weight):
+    """Which is found by other code, and knows no viscosity but in the limit."""
+    robot = quadruped()
+    robot = replace(robot, limbs=tuple(_heavier(limb, weight) for limb in robot.limbs))
+    ground, gait = SURFACES[name], undulation("wave")
+    strength = {"tip_force": ground.tip_force, "shear_strength": ground.shear_strength}
+    weak = replace(ground, **{field: 1e-5 * value for field, value in strength.items()})
+    limit = walk(robot, gait, ground, states=10, bent=False).place[-1, 0]
+    assert walk(robot, gait, weak, states=10).place[-1, 0] == pytest.approx(
+        limit, abs=3e-5 * LENGTH
+    )
+
+
+def _heavier(limb, factor):
+    """A limb that weighs so many times as much."""
+    weight = factor * limb.strip.weight_per_length
+    return replace(limb, strip=replace(limb.strip, weight_per_length=weight))
 
 
 @pytest.mark.parametrize("name", list(SURFACES))
