@@ -179,7 +179,7 @@ def test_it_stands_on_its_legs_in_the_viewer_file_and_mujoco_reads_it(tmp_path):
 def test_every_number_of_the_numerics_in_space_can_be_written_in_a_file(tmp_path):
     numerics = resolved(Scene(quadruped()))
     names = [item.name for item in fields(Numerics) if item.name not in OF_THE_PLANE]
-    values = [f"{name} = {getattr(numerics, name)}" for name in names]
+    values = [f"{name} = {json.dumps(getattr(numerics, name))}" for name in names]
     path = tmp_path / "scene.toml"
     path.write_text("\n".join(['[robot]\nname = "quadruped"', "[numerics]", *values]))
     scene, written = build(read_tables(path))
