@@ -7,7 +7,7 @@ seeds on uniform ground at Phi of 1.5 to 4, of odd ones on two to four patches a
 The minimiser (chain.py beside this file) is numpy and scipy alone, of 99 links, and of 198 where
 it differs. Adds what is missing of the first COUNT (40) seeds to gaits.csv, a row as it is done,
 and prints how many agree within 3 % or 0.0005 L. A row of a seed is made anew by deleting it; with
---theory the theory of all rows is.
+--theory the theory of all rows is, with its error bar (nan: not made yet).
 """
 
 import csv
