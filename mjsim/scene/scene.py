@@ -66,7 +66,8 @@ class Scene:
     contacts: Contacts = "auto"
     """where the constant bounds act: at the two ends; at all places that touch the ground; auto: at
     all of a robot of limbs, and of a strip whose gait ever inflates a segment less than one on
-    either side of it"""
+    either side of it, or keeps an end hardly inflated while another segment changes by half the
+    peak"""
     slope: float = 0.0
     """the ground rises towards +x by this angle [rad]"""
     chamber: Chamber = "linearized"
@@ -186,7 +187,7 @@ class Scene:
         """Tell whether friction acts between the ends of a strip, or at all contacts of limbs."""
         if self.in_space:
             return True
-        return self.contacts == "all" or (self.contacts == "auto" and self.gait.dips())
+        return self.contacts == "all" or (self.contacts == "auto" and self.gait.between())
 
     @property
     def reference_friction(self) -> Friction:
