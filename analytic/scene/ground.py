@@ -4,6 +4,7 @@ import math
 from bisect import bisect_right
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -102,6 +103,32 @@ def check_adhesion(ground: Ground) -> None:
     adhesive = any(surface.adhesion for surface in surfaces_of(ground))
     if adhesive and not isinstance(ground, Surface):
         raise ValueError(f"adhesion must be of uniform ground, got {ground.name!r}")
+
+
+class Incline(NamedTuple):
+    """Ground that rises.
+
+    Attributes:
+        slope: its angle [rad].
+        uphill: direction in which it rises, from +x to the left [rad].
+    """
+
+    slope: float = 0.0
+    uphill: float = 0.0
+
+    @property
+    def normal(self) -> float:
+        """Part of a weight that presses on the ground."""
+        return math.cos(self.slope)
+
+    @property
+    def downhill(self) -> tuple[float, float]:
+        """Part of a weight that pulls along the ground, in plan."""
+        part = -math.sin(self.slope)
+        return part * math.cos(self.uphill), part * math.sin(self.uphill)
+
+
+LEVEL = Incline()
 
 
 def check_for_limbs(ground: Ground) -> None:

@@ -59,11 +59,14 @@ class GroundKeys:
     """Keys of [ground] beside the fields of a surface."""
 
     slope_deg: float = 0.0
-    """the ground rises towards +x by this angle [deg]"""
+    """the ground rises by this angle [deg]: towards +x"""
+    uphill_deg: float = 0.0
+    """or of a robot of limbs towards this direction, from +x to the left [deg]"""
 
 
 OF_A_LOG = ("columns", "cycle", "commands")
 TRAPEZOID = ("lag", "duty", "ramp")
+INCLINE = ("slope_deg", "uphill_deg")
 SIDES = ("left", "right")  # of the quadruped
 SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation", "gravity",
                 "settle_time")  # fmt: skip
@@ -77,7 +80,7 @@ KEYS: Mapping[str, tuple[str, ...]] = {
     "robot": (*(field.name for field in fields(Robot)), *LIMB_KEYS),
     "gait": tuple(field.name for field in fields(GaitKeys)),
     "valves": tuple(field.name for field in fields(Valves)),
-    "ground": ("surface", *SURFACE_FIELDS, "slope_deg", "patches"),
+    "ground": ("surface", *SURFACE_FIELDS, *INCLINE, "patches"),
     "numerics": (*SCENE_FIELDS, *(field.name for field in fields(Numerics))),
 }
 NAMES = tuple(KEYS)

@@ -14,6 +14,7 @@ from mjsim.files.cli import ALL, Plugins
 from mjsim.files.dataclass_options import given, optional, parts
 from mjsim.files.gait_files import is_file
 from mjsim.files.keys import (
+    INCLINE,
     KEYS,
     SCENE_FIELDS,
     SIDES,
@@ -38,7 +39,9 @@ _GaitOptions = optional(
     {GaitKeys: ["stages", "ramp_time", *TRAPEZOID, "period", "columns", "cycle"]},
     {"columns": "--columns", "cycle": "--cycle"},
 )
-_GroundOptions = optional("GroundOptions", {GroundKeys: ["slope_deg"]}, {"slope_deg": "--slope"})
+_GroundOptions = optional(
+    "GroundOptions", {GroundKeys: INCLINE}, {"slope_deg": "--slope", "uphill_deg": "--uphill"}
+)
 _NumericsOptions = optional(
     "NumericsOptions",
     {Numerics: [item.name for item in fields(Numerics)], Scene: SCENE_FIELDS},

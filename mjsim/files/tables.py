@@ -7,8 +7,8 @@
                 pressures; left and right, parts of the pressure that the quadruped's legs of that
                 side get
     [valves]    fields of mjsim.scene.Valves: time constants, dead time, flow limit
-    [ground]    surface, a name; or fields of analytic.Surface; slope_deg; or patches beside each
-                other, [[ground.patches]] with `from` [m] and a surface
+    [ground]    surface, a name; or fields of analytic.Surface; or patches beside each other,
+                [[ground.patches]] with `from` [m] and a surface; slope_deg, uphill_deg
     [numerics]  body, friction, cycles, ... of mjsim.Scene, and fields of mjsim.Numerics
 
 Every table and every key is optional over the defaults. A number may be a text with its unit, as in
@@ -30,6 +30,7 @@ from analytic.scene.surface import SURFACES, Ground, Surface
 from analytic.scene.trapezoid import trapezoid
 from mjsim.files.gait_files import is_log, shortest_ramp
 from mjsim.files.keys import (
+    INCLINE,
     NAMES,
     OF_A_LOG,
     SCENE_FIELDS,
@@ -76,7 +77,7 @@ def merged(*layers: Tables) -> Tables:
     for layer in layers:
         for name, table in layer.items():
             if name == "ground" and {"surface", "patches"} & table.keys():
-                result[name] = {k: v for k, v in result[name].items() if k == "slope_deg"}
+                result[name] = {k: v for k, v in result[name].items() if k in INCLINE}
             if name == "robot" and of_limbs(table):
                 result[name] = {k: v for k, v in result[name].items() if k not in LIMB_KEYS}
             if name == "gait" and {"name", "stages", "file", *TRAPEZOID} & table.keys():
@@ -121,12 +122,15 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
     elif highest is not None:
         robot = replace(robot, peak_pressure=highest)
     ground = tables.get("ground", {})
-    slope = as_type(float, ground.get("slope_deg", 0.0), f"{where}[ground] slope_deg", "deg")
+    slope, uphill = (
+        math.radians(as_type(float, ground.get(key, 0.0), f"{where}[ground] {key}", "deg"))
+        for key in INCLINE
+    )
     scene_values = {key: value for key, value in values.items() if key in SCENE_FIELDS}
     checked_values = checked(Scene, scene_values, f"{where}[numerics] ")
     under = build_ground(ground, f"{where}[ground] ")
     try:
-        scene = Scene(robot=robot, gait=gait, ground=under, slope=math.radians(slope),
+        scene = Scene(robot=robot, gait=gait, ground=under, slope=slope, uphill=uphill,
                       valves=valves, **checked_values)  # fmt: skip
         resolved(scene, numerics)
     except ValueError as error:
@@ -143,7 +147,7 @@ def build_ground(table: Table, where: str = "") -> Ground:
     if "patches" not in table:
         return build_surface(table, where)
     patches = table["patches"]
-    uniform = [key for key in table if key not in ("patches", "slope_deg")]
+    uniform = [key for key in table if key not in ("patches", *INCLINE)]
     if uniform:
         raise ValueError(f"{where}patches or {uniform[0]} must be given, not both")
     if not (isinstance(patches, list) and all(isinstance(patch, dict) for patch in patches)):

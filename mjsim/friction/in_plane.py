@@ -56,7 +56,7 @@ class LimbFooting:
         robot = limbed(scene)
         self._model, self._data, self._numerics = model, data, numerics
         self._ground, self._length = scene.ground, robot.length
-        self._tree = Tree(robot, numerics.links)
+        self._tree = Tree(robot, numerics.links, scene.incline)
         self._finder = Contacts(self._tree, scene.friction)
         self.contacts: list[Contact] = []
         self._resisting: list[PointFriction] = []

@@ -6,7 +6,6 @@ acts between the ends too there is one for each node, and `both` is the mean of 
 Under Coulomb friction it is MuJoCo's own contact friction, and the tendons only measure.
 """
 
-import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -54,8 +53,9 @@ def set_options(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
     """Time step, integrator, gravity and, under Coulomb friction, cones."""
     spec.option.timestep = numerics.timestep
     spec.option.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{numerics.integrator.upper()}")
-    along, down = math.sin(scene.slope), math.cos(scene.slope)
-    spec.option.gravity = (0.0 - scene.gravity * along, 0.0, -scene.gravity * down)
+    along, aside = scene.incline.downhill
+    down = -scene.incline.normal
+    spec.option.gravity = [0.0 + scene.gravity * part for part in (along, aside, down)]
     if scene.friction == "coulomb":
         spec.option.cone = getattr(mujoco.mjtCone, f"mjCONE_{numerics.cone.upper()}")
         spec.option.impratio = numerics.impratio

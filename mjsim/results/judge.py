@@ -1,5 +1,6 @@
 """Status of a recorded walk, by written criteria."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -45,6 +46,8 @@ def _status(walk: Trajectory, stopped: bool, unsettled: bool) -> Status:
 
 def _in_space(walk: Trajectory, stopped: bool, unsettled: bool) -> Status:
     """Status of a robot of limbs, which stops as its trunk tips over or leaves the ground."""
+    if slid(walk) > _SLID * walk.scene.robot.length:
+        return Status.SLID  # also where it failed on the way down
     if not stopped:
         return Status.UNSETTLED if unsettled else Status.OK
     high = abs(float(walk.line[-1, 0, 2])) < walk.scene.robot.length
@@ -52,8 +55,11 @@ def _in_space(walk: Trajectory, stopped: bool, unsettled: bool) -> Status:
 
 
 def slid(walk: Trajectory, begin: int = 0) -> float:
-    """Distance that both ends went downhill together from a state on [m]."""
-    if not walk.scene.slope:
+    """Distance that all of a robot, or both ends of a strip, went downhill from a state on [m]."""
+    scene = walk.scene
+    if not scene.slope:
         return 0.0
-    moves = -np.sign(walk.scene.slope) * np.diff(walk.line[begin:, [0, -1], 0], axis=0)
+    places = walk.position[begin:] if scene.in_space else walk.line[begin:, [0, -1]]
+    downhill = np.array(scene.incline.downhill) / abs(math.sin(scene.slope))
+    moves = np.diff(places[..., :2] @ downhill, axis=0).reshape(len(places) - 1, -1)
     return float(np.maximum(moves.min(axis=1), 0.0).sum())

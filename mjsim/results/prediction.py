@@ -94,11 +94,13 @@ def _of_limbs(
         cycles = 2  # of which the first begins without any friction
     walk = walk_of_limbs(
         robot, scene.gait, scene.ground, round(LIMB_STATES * finer), links, cycles, scene.friction,
-        bent, scene.chamber, path, times,
+        bent, scene.chamber, path, times, scene.incline,
     )  # fmt: skip
     moves, turns = walk.by_cycle(cycles)
     move = moves[-1] if isinstance(scene.ground, Surface) else moves.mean(axis=0)
     flags = () if walk.converged else ("not_converged",)
+    if flags and scene.slope:
+        flags, move = ("slid",), np.full(2, math.nan)  # by viscosity alone, which is none
     length = robot.length
     return Reference(QUASI_STATIC, move / length, float(turns[-1]), moves[:, 0] / length, flags,
                      walk)  # fmt: skip

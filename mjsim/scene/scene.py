@@ -8,13 +8,19 @@ from typing import Literal
 
 import numpy as np
 
-from analytic.checks import one_of, positive, slope, whole
+from analytic.checks import is_number, one_of, positive, slope, whole
 from analytic.fields import in_si
 from analytic.friction.laws import LAWS, Friction
 from analytic.scene import pneunet
 from analytic.scene.chain import CHAMBER_LAWS
 from analytic.scene.gait import GAITS, Gait
-from analytic.scene.ground import check_adhesion, check_for_limbs, depends_on_speed, surfaces_of
+from analytic.scene.ground import (
+    Incline,
+    check_adhesion,
+    check_for_limbs,
+    depends_on_speed,
+    surfaces_of,
+)
 from analytic.scene.limbs import (
     AnyRobot,
     LimbedRobot,
@@ -69,7 +75,9 @@ class Scene:
     either side of it, or keeps an end hardly inflated while another segment changes by half the
     peak"""
     slope: float = 0.0
-    """the ground rises towards +x by this angle [rad]"""
+    """the ground rises by this angle [rad]: towards +x"""
+    uphill: float = 0.0
+    """or of a robot of limbs towards this direction, from +x to the left [rad]"""
     chamber: Chamber = "linearized"
     """air in the chambers as the strip bends: linearized, (9); sealed, the exact law of closed
     valves (6); constant-pressure"""
@@ -113,6 +121,11 @@ class Scene:
                 f"{self.cycles}"
             )
         slope(self.slope)
+        if not is_number(self.uphill) or (self.uphill and not self.in_space):
+            raise ValueError(
+                f"uphill must be an angle, and 0 for a strip, got {self.uphill!r}; where the "
+                "ground falls towards +x the slope is below 0"
+            )
         if self.gait.segments != len(chambers):
             raise ValueError(
                 f"gait {self.gait.name} is for {self.gait.segments} chambers, the robot has "
@@ -151,7 +164,6 @@ class Scene:
         for name, only, why in (
             ("body", Scene.body, "cable and rod are of one strip"),
             ("actuation", "rest-angles", "actuators are of one strip"),
-            ("slope", 0.0, "their reference knows level ground alone"),
         ):
             if getattr(self, name) != only:
                 raise ValueError(
@@ -188,6 +200,11 @@ class Scene:
         if self.in_space:
             return True
         return self.contacts == "all" or (self.contacts == "auto" and self.gait.between())
+
+    @property
+    def incline(self) -> Incline:
+        """Rise of the ground."""
+        return Incline(self.slope, self.uphill)
 
     @property
     def reference_friction(self) -> Friction:

@@ -75,7 +75,7 @@ def models(scenes: Sequence[Scene], numerics: Resolved) -> list[mujoco.MjModel]:
     keys = []
     for scene in scenes:
         robot = {k: v for k, v in vars(scene.strip).items() if k != "peak_pressure"}
-        key = (*robot.items(), scene.gravity, scene.slope)
+        key = (*robot.items(), scene.gravity, scene.incline)
         if key not in compiled_models:
             compiled_models[key] = bare_model(scene, numerics)
         keys.append(key)

@@ -74,6 +74,9 @@ class Problem(NamedTuple):
             gradient += pull
             hessian += stiff
             load += drawn
+            if self.tree.incline.slope:
+                gradient -= self.tree.pulled(pose)
+                load[:, :2] -= self.tree.pull
         hessian += self.tree.bending(pose, load)
         hinges = np.arange(WHOLE, len(q))
         hessian[hinges, hinges] += self.stiffness

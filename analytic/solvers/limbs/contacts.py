@@ -76,6 +76,7 @@ class Contacts:
             for limb, vertices in zip(robot.limbs, tree.vertices, strict=True)
         ]
         self._least = _TOUCHES * robot.weight
+        self._normal = tree.incline.normal
 
     def find(self, rest: Rest, pressures: Array) -> list[Contact]:
         """The contacts of a state at pressures of its chambers, (S,) [Pa]."""
@@ -148,7 +149,8 @@ class Contacts:
         if len(strip.segments) > 1:
             places, push = zip(*inner, strict=True)
             flat = len(inner) > POINT
-            length = length_between(strip.weight_per_length, places, push) if flat else 0.0
+            weight = self._normal * strip.weight_per_length
+            length = length_between(weight, places, push) if flat else 0.0
         return Contact(i, length, (at,), load)
 
     def _at_end(self, state: "_State", i: int, end: str) -> tuple[Contact | None, float]:
@@ -182,7 +184,7 @@ class Contacts:
                 total, moment = total + joint, moment + joint * strip.length
         else:
             whole = False
-        weight, length = strip.weight_per_length, strip.length
+        weight, length = self._normal * strip.weight_per_length, strip.length
         side = length if whole else min(float(flat_length(weight, total, moment)), length)
         if side <= 0:
             return Contact(i, 0.0, (tip,), total), 0.0

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.chain import link_lengths
+from analytic.scene.ground import LEVEL, Incline
 from analytic.scene.limbs import LimbedRobot
 
 Array = NDArray[np.float64]
@@ -45,10 +46,12 @@ class Tree:
     Args:
         robot: its limbs.
         elements: hinges of each limb, even.
+        incline: of the ground; places and heights are along it and off it.
 
     Attributes:
         arclength: of each node, from where its limb begins, (P,) [m].
-        weight: that hangs on each node, (P,) [N].
+        weight: of each node that presses on the ground, (P,) [N].
+        pull: of each node's weight along the ground, in plan, (P, 2) [N].
         parent: joint that carries each joint, (Q,); of the first three the one before.
         carried: whether a joint moves a node, (P, Q).
         hinges: places of each limb's hinges among the coordinates.
@@ -56,10 +59,10 @@ class Tree:
         starts: arclengths at which the links of each limb begin [m].
     """
 
-    def __init__(self, robot: LimbedRobot, elements: int) -> None:
+    def __init__(self, robot: LimbedRobot, elements: int, incline: Incline = LEVEL) -> None:
         if elements < 2 or elements % 2:
             raise ValueError(f"elements must be even and at least 2, got {elements}")
-        self.robot, self.elements = robot, elements
+        self.robot, self.elements, self.incline = robot, elements, incline
         limbs, per_limb = range(len(robot.limbs)), elements + 2
         count = WHOLE + elements * len(robot.limbs)
         self.hinges = [slice(WHOLE + elements * i, WHOLE + elements * (i + 1)) for i in limbs]
@@ -89,7 +92,9 @@ class Tree:
                 roots.append(roots[self._carriers[i]])
             self.parent[self.hinges[i].start] = roots[i]
             movers += [roots[i], roots[i], *range(count)[self.hinges[i]]]
-        self.weight: Array = np.concatenate(2 * weight)
+        whole = np.concatenate(2 * weight)
+        self.weight: Array = incline.normal * whole
+        self.pull: Array = np.multiply.outer(whole, incline.downhill)
         self.arclength: Array = np.concatenate(2 * arclength)
         # a joint is above another if it is on the way from the trunk to it; and above itself
         self._above = np.eye(count, dtype=bool)
@@ -152,6 +157,19 @@ class Tree:
         rise[:, :3] = pose.axes[:3, 2]
         rise *= self.carried
         return rise
+
+    def pulled(self, pose: Pose) -> Array:
+        """Forces of the pull downhill by the coordinates, (Q,)."""
+        x, y, z = pose.nodes.T
+        a, b = self.pull.T
+        moment = np.stack([-z * b, z * a, x * b - y * a, a, b], axis=1)
+        turning, force = np.split(self._carries @ moment, [3], axis=1)
+        u, v, w = pose.centres.T
+        turning -= np.stack([-w * force[:, 1], w * force[:, 0],
+                             u * force[:, 1] - v * force[:, 0]], axis=1)  # fmt: skip
+        forces = (pose.axes * turning).sum(axis=1)
+        forces[:3] = (pose.axes[:3, :2] * force[:3]).sum(axis=1)
+        return np.asarray(forces)
 
     def bending(self, pose: Pose, force: Array) -> Array:
         """Second derivatives of the sum of forces (P, 3) times places, (Q, Q).

@@ -181,7 +181,10 @@ class _Lagrangian(NamedTuple):
         push, bent = self.push(nodes), q[WHOLE:] - self.rest
         stored = 0.5 * self.stiffness @ bent**2 + self.tree.weight @ nodes[:, 2]
         stored += 0.5 * push @ push / self.ground
-        return float(stored) + (self.friction.cost(nodes, self.sharpness) if self.friction else 0.0)
+        if self.friction is None:
+            return float(stored)
+        stored -= (self.tree.pull * nodes[:, :2]).sum()
+        return float(stored) + self.friction.cost(nodes, self.sharpness)
 
     def slopes(self, q: Array) -> tuple[Array, Array]:
         """Gradient, (Q,), and Hessian, (Q, Q), by the coordinates."""
@@ -190,6 +193,9 @@ class _Lagrangian(NamedTuple):
         force = np.zeros_like(pose.nodes)
         force[:, 2] = self.tree.weight - push
         gradient = rise.T @ force[:, 2]
+        if self.friction is not None and self.tree.incline.slope:
+            gradient -= self.tree.pulled(pose)
+            force[:, :2] -= self.tree.pull
         gradient[WHOLE:] += self.stiffness * (q[WHOLE:] - self.rest)
         pushed = rise[push > 0]
         hessian = self.tree.bending(pose, force) + self.ground * pushed.T @ pushed

@@ -32,6 +32,9 @@ _SLIP = 1e-7  # over the length, by which a contact that holds gives way; chosen
 _JUMP = 0.03  # of the strongest limb's bound, by which that of another changes at once; chosen
 _LOCATED = 1e-5  # move over the length within which an event is located; chosen
 _MOST_JUMPS, _MOST_SWAPS = 4, 1  # located in an increment; more are a flicker; chosen
+_SLIDES = (
+    0.05  # move over the length in an increment on a slope, beyond which nothing holds; chosen
+)
 _SHORTEST = 1e-7  # change of pressure over the peak's, and part of an increment
 _ON = 3.0  # increments over the one before, that a guess goes on by
 _TINY = 1e-100
@@ -203,6 +206,10 @@ class _StickSlip:
             _SLIP * self._statics.length,
         )  # fmt: skip
         rest, friction = self._statics.equilibrium_with_friction(row, self._ahead(row), increment)
+        if self._statics.tree.incline.slope:
+            moved = float(np.abs(rest.q[:2] - before.rest.q[:2]).max())
+            if not moved < _SLIDES * self._statics.length:
+                rest = rest._replace(converged=False)  # by viscosity alone: no bound holds it
         assert friction is not None  # since an increment was given
         return _State(row, time, rest, increment.contacts, increment.weights, friction.bounds,
                       increment.viscous, friction.held, friction.holds)  # fmt: skip

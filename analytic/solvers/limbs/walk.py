@@ -15,6 +15,7 @@ from analytic.friction.dissipation_in_plane import least_dissipation_in_plane
 from analytic.friction.laws import LAWS
 from analytic.progress import counted
 from analytic.scene.gait import Gait
+from analytic.scene.ground import LEVEL, Incline
 from analytic.scene.limbs import LimbedRobot, rotation
 from analytic.scene.surface import Ground
 from analytic.solvers.limbs.contacts import Contacts, spans_of
@@ -93,7 +94,7 @@ def follow(
 def walk(
     robot: LimbedRobot, gait: Gait, ground: Ground, states: int = 40, elements: int = 6,
     cycles: int = 1, law: str = "constant", bent: bool = True, chamber: str = "linearized",
-    path: Array | None = None, times: Array | None = None,
+    path: Array | None = None, times: Array | None = None, incline: Incline = LEVEL,
 ) -> Path:  # fmt: skip
     """Walk a gait quasi-statically, or along a path of pressures.
 
@@ -110,12 +111,16 @@ def walk(
         chamber: law of the chambers, see analytic.scene.chain.
         path, times: pressures in the chambers in place of the gait's, (B, S) [Pa], and when, (B,)
             [s].
+        incline: of the ground; places are along it.
 
     Raises:
         ValueError: the gait or the path is not for so many chambers, a pressure is no number, times
-            go back, there is no such law, or there are no states, cycles or elements.
+            go back, there is no such law, there are no states, cycles or elements, or the ground
+            rises and friction does not bend the robot.
     """
     one_of("friction", law, LAWS)
+    if incline.slope and not bent:
+        raise ValueError("on a slope friction must bend the robot: bent must be true, got False")
     whole("states", states, 1)
     whole("cycles", cycles, 1)
     if gait.segments != len(robot.chambers):
@@ -139,7 +144,7 @@ def walk(
     clock = np.arange(float(len(path))) if times is None else np.asarray(times, dtype=float)
     path, times = _with_thresholds(robot, path, clock)
     if bent:
-        statics = Statics(Tree(robot, elements), chamber)
+        statics = Statics(Tree(robot, elements, incline), chamber)
         return stick_slip_path(statics, path, ground, law, times)
     tree, rests = shapes(robot, path, elements, chamber)
     return follow(tree, rests, path, ground, law, times)

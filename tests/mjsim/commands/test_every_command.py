@@ -302,7 +302,6 @@ def test_a_robot_of_one_limb_is_the_strip(tmp_path):
 
 def test_what_robots_of_limbs_cannot_do_is_said_in_one_line_with_the_reason():
     for change, reason in (
-        ({"slope": 0.1}, "their reference knows level ground alone"),
         ({"chamber": "sealed"}, "which is of strips"),
         ({"actuation": "actuators"}, "actuators are of one strip"),
         ({"contacts": "ends"}, "it has many"),

@@ -70,7 +70,6 @@ def test_json_has_both_numbers_and_the_file_opens(tmp_path, capsys):
             "tie_bound does nothing for a robot in space",
         ),
         (["--robot", "quadruped", "--body", "rod"], "cable and rod are of one strip"),
-        (["--robot", "quadruped", "--slope", "3"], "their reference knows level ground alone"),
         (["--robot", "quadruped", "--robot.length", "1"], "length is the quadruped's own"),
         (["--robot", "quadruped", "--robot.rigidity", "3e-4"], "rigidity is the quadruped's own"),
         (

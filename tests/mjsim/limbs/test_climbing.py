@@ -1,0 +1,50 @@
+"""Robots of limbs on ground that rises, by MuJoCo."""
+
+import math
+
+import pytest
+
+from analytic.scene.limbs import quadruped
+from analytic.scene.quadruped_gaits import undulation
+from mjsim.commands.run import main
+from mjsim.results.measures import measure
+from mjsim.results.prediction import reference
+from mjsim.scene import Scene
+from mjsim.simulation.simulation import simulate
+
+
+def climbing(degrees, uphill):
+    return Scene(
+        quadruped(), undulation("wave"), "polyethylene",
+        slope=math.radians(degrees), uphill=math.radians(uphill),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("uphill", [0.0, 180.0])
+def test_on_a_slope_it_goes_as_far_as_by_its_reference(uphill):
+    scene = climbing(1.0, uphill)
+    level = reference(climbing(0.0, 0.0)).displacement[0]
+    ahead = reference(scene).displacement[0]
+    assert abs(ahead - level) > 0.01
+    assert measure(simulate(scene)).displacement == pytest.approx(ahead, abs=0.003)
+
+
+def test_where_no_bound_holds_its_weight_it_slid_and_says_so(tmp_path, capsys):
+    options = ["--robot", "quadruped", "--surface", "polyethylene", "--slope", "6"]
+    assert main([*options, "--no-video", "--out", str(tmp_path)]) == 0
+    assert "slid" in capsys.readouterr().out
+    assert simulate(climbing(6.0, 90.0)).status == "slid"
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--uphill", "30"], "uphill must be an angle, and 0 for a strip"),
+        (["--robot", "quadruped", "--slope", "95"], "slope must be less steep than 90 degrees"),
+    ],
+)
+def test_slopes_that_mean_nothing_are_refused(options, words, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main([*options, "--no-video"])
+    assert stop.value.code == 2
+    assert words in capsys.readouterr().err
