@@ -40,16 +40,17 @@ class AnchoredContacts:
         self.bounds: list[float] = []
         self._anchored_before: list[int] = []
         self._rate, self._places = data.ten_velocity, data.ten_length
-        self._before = self._places.copy()
+        self._before: list[float] = self._places.tolist()
 
     def after_step(self, dt: float) -> float:
         """See StripFriction.after_step; the mean over the anchored nodes."""
-        excess, before, places = 0.0, self._before, self._places.copy()
+        excess, before = 0.0, self._before
+        places: list[float] = self._places.tolist()
         tendons, self._anchored_before = self._anchored_before, self.anchored
         if tendons:
-            moved = [dt * self._rate.item(i) - places.item(i) + before.item(i) for i in tendons]
+            moved = [dt * self._rate.item(i) - places[i] + before[i] for i in tendons]
             excess = sum(moved) / len(moved)
-            places -= excess
+            places = [place - excess for place in places]
         self._before = places
         return excess
 

@@ -72,7 +72,8 @@ class ContactForces:
         force = [0.0] * len(self._rows)
         for geom, push in zip(self._data.contact.geom2.tolist(), self._pushes(), strict=True):
             force[self._node[geom]] += push
-        return force, [height - self._radius for height in self._pad_heights()]
+        heights = self._heights if self._only_pads else self._heights[self._rows]
+        return force, (heights - self._radius).tolist()
 
     def _length_of(self, force: float, moment: float) -> float:
         return max(flat_length(self._weight, force, moment), self._least)

@@ -23,9 +23,12 @@ class ChamberPressures:
     def __init__(self, valves: Valves, segments: int, timestep: float) -> None:
         self.pressure: Array = np.zeros(segments)
         self._ideal = valves.ideal
-        self._keep_filling = _kept(valves.of("fill_time", segments), timestep)
-        self._keep_venting = _kept(valves.of("vent_time", segments), timestep)
-        self._most = np.array(valves.of("flow_limit", segments)) * timestep
+        self._chambers = list(zip(
+            _kept(valves.of("fill_time", segments), timestep).tolist(),
+            _kept(valves.of("vent_time", segments), timestep).tolist(),
+            (np.array(valves.of("flow_limit", segments)) * timestep).tolist(),
+            strict=True,
+        ))  # fmt: skip
         self._late = np.rint(np.array(valves.of("dead_time", segments)) / timestep).astype(int)
         self._commands: Array = np.zeros((int(self._late.max()), segments))
 
@@ -35,16 +38,19 @@ class ChamberPressures:
             if len(valves):
                 self.pressure = valves[-1]
             return valves
-        commands = self._delayed(valves)
-        pressures, pressure = np.empty_like(commands), self.pressure
-        for step, command in enumerate(commands):
-            fills = np.abs(command) > np.abs(pressure)
-            keep = np.where(fills, self._keep_filling, self._keep_venting)
-            change = (1 - keep) * (command - pressure)
-            pressure = pressure + np.clip(change, -self._most, self._most)
-            pressures[step] = pressure
-        self.pressure = pressure
-        return pressures
+        # plain floats: numpy is slow on a few numbers
+        pressures = []
+        pressure: list[float] = self.pressure.tolist()
+        for commands in self._delayed(valves).tolist():
+            pressure = [
+                before + min(max((1 - (filling if abs(command) > abs(before) else venting))
+                                 * (command - before), -most), most)
+                for command, before, (filling, venting, most)
+                in zip(commands, pressure, self._chambers, strict=True)
+            ]  # fmt: skip
+            pressures.append(pressure)
+        self.pressure = np.array(pressure)
+        return np.array(pressures)
 
     def _delayed(self, valves: Array) -> Array:
         """Commands that act during each step, (T, S) [Pa]."""
