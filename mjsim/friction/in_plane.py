@@ -63,7 +63,7 @@ class LimbFooting:
         self._points = [
             [
                 PointFriction(model, f"{PREFIX}{name}_friction_{number}",
-                              len(joints_to(robot, numerics.links, i)))
+                              len(joints_to(robot, numerics.links, i, numerics.twists)))
                 for number in range(points_of(robot, i))
             ]
             for i, name in enumerate(robot.names)
