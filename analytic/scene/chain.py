@@ -9,6 +9,9 @@ s. Equal links with half links at both ends are the trapezoidal rule, and shorte
 chord by h^2 kappa^2 / 12 too much; Simpson's weights h/3, 4h/3, 2h/3, ..., h/3 place the hinges at
 1/6 and 5/6 of each pair of elements and are exact to fourth order. Curvature jumps where segments
 meet: so each segment has elements of its own length h, an even number of them.
+
+In space a chain may twist too: by T lumps, each in the link in the middle of one of T equal parts.
+A lump turns what follows its link about that link, just before the hinge there.
 """
 
 from functools import cache
@@ -17,7 +20,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.checks import one_of
+from analytic.checks import one_of, whole
 from analytic.scene import pneunet
 from analytic.scene.robot import Robot
 
@@ -133,6 +136,29 @@ def overlaps(edges: Array, borders: tuple[float, ...]) -> Array:
     high = np.minimum(edges[1:, None], border[None, 1:])
     overlap = np.maximum(high - low, 0.0) / np.diff(edges)[:, None]
     return np.asarray(np.round(overlap, 12))  # whole elements are whole
+
+
+def twisting_links(links: int, twists: int) -> tuple[int, ...]:
+    """Links in the middles of T equal parts of a chain, which twist, by their numbers from 0, (T,).
+
+    Raises:
+        ValueError: there are more than pairs of elements, so that two might be in one link.
+    """
+    whole("twists", twists, 0, links // 2)
+    hinges = np.arange(links) + np.where(np.arange(links) % 2, 2 / 3, 1 / 3)  # in elements
+    middles = links * (np.arange(twists) + 0.5) / max(twists, 1)
+    return tuple(np.searchsorted(hinges, middles).tolist())
+
+
+def joint_places(links: int, twists: int) -> tuple[NDArray[np.int_], NDArray[np.int_]]:
+    """Places of the hinges (N,) and of the twists (T,) among a chain's joints."""
+    at = np.array(twisting_links(links, twists), dtype=int) + np.arange(twists)
+    return np.delete(np.arange(links + twists), at), at
+
+
+def torsion_stiffness(robot: Robot, twists: int) -> float:
+    """Stiffness of each of T twists [N m/rad], each GJ over its part of the length."""
+    return pneunet.torsional_rigidity(robot) * twists / robot.length
 
 
 def element_lengths(robot: Robot, links: int) -> Array:

@@ -20,6 +20,23 @@ def base_rigidity(robot: Robot) -> float:
     return robot.modulus * robot.width * robot.thickness**3 / 12
 
 
+def torsional_rigidity(robot: Robot) -> float:
+    """GJ, moment per twist per length of the strain-limiting layer, without pressure [N m^2].
+
+    G = E / 3, as silicone keeps its volume, and the torsion constant of a rectangle a by b, a <= b:
+    J = (a^3 b / 3) (1 - (192 / pi^5) (a / b) sum tanh(n pi b / 2 a) / n^5) over odd n (Timoshenko
+    and Goodier, Theory of Elasticity, 109). What (9) says of bending under pressure is not known of
+    torsion: it stays.
+    """
+    if robot.torsion is not None:
+        return robot.torsion
+    a, b = sorted((robot.thickness, robot.width))
+    n = np.arange(1, 10, 2)
+    series = float(np.sum(np.tanh(0.5 * np.pi * n * b / a) / n**5))
+    constant = a**3 * b / 3 * (1 - 192 / np.pi**5 * a / b * series)
+    return robot.modulus / 3 * float(constant)
+
+
 def load_number(robot: Robot) -> float:
     """Gamma = w L^3 / D0, weight beside stiffness [1] (Appendix A)."""
     return robot.weight_per_length * robot.length**3 / base_rigidity(robot)

@@ -11,7 +11,7 @@ GRAVITY = 9.81  # m/s^2
 THREE_EQUAL = (1.0, 1.0, 1.0)  # [Majidi13], section 2.3
 
 _THREE = ("left", "middle", "right")
-_OPTIONAL = ("mass", "rigidity", "curvature_per_pressure", "rigidity_per_pressure")
+_OPTIONAL = ("mass", "rigidity", "curvature_per_pressure", "rigidity_per_pressure", "torsion")
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,8 @@ class Robot:
 
     What was measured may be given in place of what it follows from: mass for weight_per_length,
     rigidity for modulus (both are turned into the other at once), curvature_per_pressure and
-    rigidity_per_pressure for what the chambers' geometry gives.
+    rigidity_per_pressure for what the chambers' geometry gives, torsion for what modulus and
+    section give.
 
     Raises:
         ValueError: a value is not a positive finite number, there is no segment, chamber_fraction
@@ -58,6 +59,8 @@ class Robot:
     """alpha of (3), in place of what the chambers give [1/(m Pa)]"""
     rigidity_per_pressure: float | None = None
     """eta of (9), in place of what the chambers give [N m^2/Pa]"""
+    torsion: float | None = None
+    """GJ, torsional rigidity of a limb, in place of that of its solid section [N m^2]"""
 
     def __post_init__(self) -> None:
         in_si(self)

@@ -45,7 +45,10 @@ _GroundOptions = optional(
 _NumericsOptions = optional(
     "NumericsOptions",
     {Numerics: [item.name for item in fields(Numerics)], Scene: SCENE_FIELDS},
-    {name: f"--{name.replace('_', '-')}" for name in ("links", "timestep", *SCENE_FIELDS)},
+    {
+        name: f"--{name.replace('_', '-')}"
+        for name in ("links", "timestep", "twists", *SCENE_FIELDS)
+    },
 )
 _ValveOptions = optional("ValveOptions", {Valves: KEYS["valves"]}, {"fill_time": "--lag"})
 _LimbOptions = optional("LimbOptions", {GaitKeys: SIDES})

@@ -134,7 +134,8 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
                       valves=valves, **checked_values)  # fmt: skip
         resolved(scene, numerics)
     except ValueError as error:
-        place = "[numerics] " if str(error).split(maxsplit=1)[0] in values else ""
+        word = str(error).split(maxsplit=1)[0]
+        place = "[numerics] " if word in values else "[robot] " if word in table else ""
         raise ValueError(f"{where}{place}{error}") from error
     return scene, numerics
 

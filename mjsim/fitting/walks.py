@@ -133,7 +133,9 @@ def coarse(scene: Scene, numerics: Numerics) -> Numerics:
         per_segment, longest = _COARSE["all" if scene.between else "ends"]
         links = max(12, per_segment * len(scene.strip.segments))
     step = min(longest, min(scene.gait.ramp_times) / 40)
-    return replace(numerics, links=min(links, fine.links), timestep=max(step, fine.timestep))
+    links = min(links, fine.links)
+    return replace(numerics, links=links, timestep=max(step, fine.timestep),
+                   twists=min(fine.twists, links // 2))  # fmt: skip
 
 
 @dataclass

@@ -56,14 +56,14 @@ class LimbFooting:
         robot = limbed(scene)
         self._model, self._data, self._numerics = model, data, numerics
         self._ground, self._length = scene.ground, robot.length
-        self._tree = Tree(robot, numerics.links, scene.incline)
+        self._tree = Tree(robot, numerics.links, incline=scene.incline)
         self._finder = Contacts(self._tree, scene.friction)
         self.contacts: list[Contact] = []
         self._resisting: list[PointFriction] = []
         self._points = [
             [
                 PointFriction(model, f"{PREFIX}{name}_friction_{number}",
-                              len(joints_to(robot, numerics.links, i)))
+                              len(joints_to(robot, numerics.links, i, numerics.twists)))
                 for number in range(points_of(robot, i))
             ]
             for i, name in enumerate(robot.names)

@@ -1,9 +1,10 @@
 """Robots of limbs as MJCF: chains of rigid links in space, pads at both edges, friction's rows.
 
 The links are those of analytic.solvers.limbs: N hinges between N + 1 links in each limb, whose
-first link is rigidly attached to the one that carries it. The trunk's beginning may move along x, y
-and z, and yaw, pitch and roll. Friction is carried by fixed tendons over all coordinates: their
-coefficients, set at each step, are the Jacobian of the point where it acts.
+first link is rigidly attached to the one that carries it, and joints that twist some of them. The
+trunk's beginning may move along x, y and z, and yaw, pitch and roll. Friction is carried by fixed
+tendons over all coordinates: their coefficients, set at each step, are the Jacobian of the point
+where it acts.
 """
 
 import itertools
@@ -82,6 +83,11 @@ def hinge_prefix(limb: str) -> str:
     return f"{PREFIX}{limb}_hinge_"
 
 
+def twist_prefix(limb: str) -> str:
+    """Names of the joints that twist a limb before their numbers from 1."""
+    return f"{PREFIX}{limb}_twist_"
+
+
 def tree_spec(
     scene: Scene, numerics: Resolved, ground: mujoco.MjSpec, with_friction: bool = True
 ) -> mujoco.MjSpec:
@@ -110,7 +116,7 @@ def tree_spec(
             _add_root(first, angle)
         chains[limb.name] = nodes
     if with_friction:
-        _add_friction(spec, robot, numerics.links)
+        _add_friction(spec, robot, numerics)
     return spec
 
 
@@ -131,7 +137,8 @@ def _add_limb(carrier: mujoco.MjsBody, scene: Scene, numerics: Resolved, limb: L
     """Links of a limb with pads at both edges."""
     width, impedance = limb.strip.width, 1.0 - softness(scene, numerics)
     names = link_prefix(limb.name), hinge_prefix(limb.name)
-    nodes = add_links(carrier, limb.strip, scene, numerics, names, width=width)
+    nodes = add_links(carrier, limb.strip, scene, numerics, names, width=width,
+                      twists=twist_prefix(limb.name))  # fmt: skip
     for body, _ in nodes[:-1]:
         body.inertia[2] *= 1 - _THIN
     for number, (body, (x, _, _)) in enumerate(nodes):
@@ -154,10 +161,10 @@ def _add_root(body: mujoco.MjsBody, angle: float) -> None:
             joint.axis[:2] = np.array(axis[:2]) @ rotation(angle)
 
 
-def _add_friction(spec: mujoco.MjSpec, robot: LimbedRobot, links: int) -> None:
+def _add_friction(spec: mujoco.MjSpec, robot: LimbedRobot, numerics: Resolved) -> None:
     """Add a tendon for each point and row of mjsim.friction.point_friction."""
     for number, limb in enumerate(robot.names):
-        joints = joints_to(robot, links, number)
+        joints = joints_to(robot, numerics.links, number, numerics.twists)
         for point, row in itertools.product(range(points_of(robot, number)), (0, 1)):
             name = f"{PREFIX}{limb}_friction_{point}_{row}"
             tendon = parts.friction_tendon(spec, name, parts.NO_BOUND)
@@ -204,12 +211,13 @@ def _hinges_of(limb: str, links: int) -> list[str]:
     return [f"{hinge_prefix(limb)}{i}" for i in range(1, links + 1)]
 
 
-def joints_to(robot: LimbedRobot, links: int, limb: int) -> list[str]:
+def joints_to(robot: LimbedRobot, links: int, limb: int, twists: int = 0) -> list[str]:
     """Names of the joints that move a limb, those within it last."""
     name, carrier, end = robot.limbs[limb].name, robot.limbs[limb].on, robot.limbs[limb].at
     before = [PREFIX + root for root in ROOT]
     if carrier is not None:
-        before = joints_to(robot, links, robot.place(carrier))
+        before = joints_to(robot, links, robot.place(carrier), twists)
         if end == "begin":
-            before = before[: len(before) - links]
-    return before + _hinges_of(name, links)
+            before = before[: len(before) - links - twists]
+    twisting = [f"{twist_prefix(name)}{i}" for i in range(1, twists + 1)]
+    return before + _hinges_of(name, links) + twisting

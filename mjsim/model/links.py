@@ -3,7 +3,12 @@
 import mujoco
 import numpy as np
 
-from analytic.scene.chain import joint_springs, link_lengths
+from analytic.scene.chain import (
+    joint_springs,
+    link_lengths,
+    torsion_stiffness,
+    twisting_links,
+)
 from analytic.scene.robot import Robot
 from mjsim.model.parts import ORIGIN, Node
 from mjsim.scene import Resolved, Scene
@@ -19,6 +24,7 @@ def add_links(
     names: tuple[str, str],
     joint_type: mujoco.mjtJoint = mujoco.mjtJoint.mjJNT_HINGE,
     width: float = 0.0,
+    twists: str = "",
 ) -> list[Node]:
     """Add a chain of links, straight along x, whose first one has no joint yet.
 
@@ -29,16 +35,23 @@ def add_links(
         names: of links and of joints, before their numbers.
         joint_type: hinges about -y, or balls.
         width: of the plates that links are; thin rods if 0 [m].
+        twists: names of the joints that twist, before their numbers; none twist if "".
 
     Returns:
         Links + 2 nodes: where each link begins, and where the last one ends.
     """
     lengths = link_lengths(strip, numerics.links).tolist()
     stiffness, rest = joint_springs(strip, numerics.links, np.zeros((1, len(strip.segments))))
+    twisting = twisting_links(numerics.links, numerics.twists) if twists else ()
     nodes: list[Node] = []
     body, begin = parent, 0.0
     for i, length in enumerate(lengths):
         body = body.add_body(name=f"{names[0]}{i}", pos=(begin, 0.0, 0.0))
+        if i - 1 in twisting:  # about the link before, as what moves a body first is given first
+            name = f"{twists}{twisting.index(i - 1) + 1}"
+            joint = body.add_joint(name=name, type=joint_type, axis=(1, 0, 0))
+            joint.stiffness[0] = torsion_stiffness(strip, numerics.twists)
+            joint.damping[0] = numerics.damping_time * joint.stiffness[0]
         if i:
             joint = body.add_joint(name=f"{names[1]}{i}", type=joint_type, axis=UP)
             joint.springref, joint.stiffness[0] = rest[0, i - 1], stiffness[0, i - 1]

@@ -10,7 +10,7 @@ from analytic.scene.surface import Surface
 from mjsim.optimising.objective import Objective
 from mjsim.results.measures import measure
 from mjsim.results.prediction import reference
-from mjsim.scene import Scene
+from mjsim.scene import Numerics, Scene
 from mjsim.scene.scene import Contacts
 from mjsim.simulation.checked import walk_checked
 
@@ -53,16 +53,16 @@ def confirm(objective: Objective, gait: Gait, surface: Surface, contacts: Contac
         predicted = float(reference(scene, objective.numerics).displacement[0])
     except ValueError:
         predicted = math.nan
-    mujoco, status = _simulated(scene)
+    mujoco, status = _simulated(scene, objective.numerics)
     off = [objective.sign * shift for shift in _perturbed(objective, scene, surface)]
     return Confirmation(
         surface.name, contacts, searched, predicted, mujoco, status, min(off), max(off)
     )
 
 
-def _simulated(scene: Scene) -> tuple[float, str]:
+def _simulated(scene: Scene, given: Numerics | None) -> tuple[float, str]:
     try:
-        check = walk_checked(scene, 0.02)
+        check = walk_checked(scene, 0.02, twists=given.twists if given else 0)
     except ValueError as error:
         return math.nan, str(error)
     numbers = measure(check.walk)

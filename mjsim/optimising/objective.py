@@ -32,11 +32,12 @@ _OF_A_LIMB, _LONGEST_IN_SPACE = 4, 0.02  # links and time step [s] of a robot of
 _LINKS = 36  # of the elastica in a search; within 2e-4 L of 60, measured
 
 
-def coarse(scene: Scene) -> Numerics:
-    """Links and time step of MuJoCo in a search."""
+def coarse(scene: Scene, given: Numerics | None = None) -> Numerics:
+    """Links and time step of MuJoCo in a search; limbs twist if they do in numerics."""
     step = min(scene.gait.ramp_times) / _STEPS
     if scene.in_space:
-        return Numerics(_OF_A_LIMB, min(_LONGEST_IN_SPACE, step))
+        twists = min(given.twists, _OF_A_LIMB // 2) if given else 0
+        return Numerics(_OF_A_LIMB, min(_LONGEST_IN_SPACE, step), twists=twists)
     per_segment = _BETWEEN if scene.between else _AT_ENDS
     return Numerics(per_segment * len(scene.strip.segments), min(_LONGEST, step))
 
@@ -144,6 +145,6 @@ class Objective:
         from mjsim.simulation.batch_simulate import simulate_batch
 
         scenes = [replace(scene, ground=ground) for ground in surfaces]
-        walks = simulate_batch(scenes, coarse(scenes[0]))
+        walks = simulate_batch(scenes, coarse(scenes[0], self.numerics))
         measures = [measure(walk) if isinstance(walk, Trajectory) else None for walk in walks]
         return [self.sign * m.displacement if m else -math.inf for m in measures]

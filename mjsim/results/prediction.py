@@ -94,7 +94,7 @@ def _of_limbs(
         cycles = 2  # of which the first begins without any friction
     walk = walk_of_limbs(
         robot, scene.gait, scene.ground, round(LIMB_STATES * finer), links, cycles, scene.friction,
-        bent, scene.chamber, path, times, scene.incline,
+        bent, scene.chamber, path, times, scene.incline, min(numerics.twists, links // 2),
     )  # fmt: skip
     moves, turns = walk.by_cycle(cycles)
     move = moves[-1] if isinstance(scene.ground, Surface) else moves.mean(axis=0)

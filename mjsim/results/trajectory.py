@@ -46,7 +46,7 @@ class Trajectory:
         coordinates: MuJoCo's generalised coordinates, (T, nq). For a strip of body chain x and
             z of the left end, slope of the first link, hinge angles, (T, N + 3) [m, m, rad ...];
             for a robot in space x, y, height, yaw, pitch and roll of the trunk's beginning, then
-            the hinges [m, rad].
+            the joints of its limbs, hinges and twists [m, rad].
         position: of the vertices of each limb's neutral line from where it begins, z over flat
             rest, (T, L, N + 2, 3) [m]; a strip is one limb, which begins at its left end.
         wall_time, cpu_time: seconds the loop took, by the clock and of all cores together,

@@ -22,7 +22,7 @@ CONES: tuple[str, ...] = get_args(Cone)
 PATHS: tuple[str, ...] = get_args(Path)
 
 _WORDS = ("integrator", "cone", "contact_path")
-OF_SPACE = ("contact_softness", "tie_time")
+OF_SPACE = ("contact_softness", "tie_time", "twists")
 OF_THE_PLANE = ("integrator", "side_angle", "steep_contact_time", "steep_angle", "cone",
                  "impratio", "contact_depth", "edge_time", "tie_bound")  # fmt: skip
 
@@ -84,6 +84,9 @@ class Numerics:
     tie_time: float = 0.1
     """of a robot in space: in which motion that no bound stops dies down, by viscosity at all
     contacts alike, which is weak where some are bound [s]; chosen"""
+    twists: int = 0
+    """of a robot in space: places at which each limb may twist, at most half its links, by which
+    distances hardly depend on them any more; 0: limbs do not twist"""
 
     def __post_init__(self) -> None:
         in_si(self)
@@ -93,9 +96,10 @@ class Numerics:
             one_of("contact_path", self.contact_path, PATHS)
         for item in fields(self):
             value = getattr(self, item.name)
-            if item.name not in ("links", *_WORDS) and value is not None:
+            if item.name not in ("links", "twists", *_WORDS) and value is not None:
                 positive(item.name, value)
                 object.__setattr__(self, item.name, float(value))
+        whole("twists", self.twists, 0)
         if self.contact_softness >= 1:
             raise ValueError(f"contact_softness must be below 1, got {self.contact_softness!r}")
         if self.timestep is not None and self.timestep > LONGEST_STEP:
@@ -134,6 +138,10 @@ class Numerics:
             if given[name] not in (getattr(Numerics, name), chosen.get(name)):
                 where = "in space" if in_space else "in the plane"
                 raise ValueError(f"{name} does nothing for a robot {where}, got {given[name]!r}")
+        links = self.links or chosen["links"]
+        if in_space and self.twists > links // 2:
+            raise ValueError(f"twists must be at most half the {links:g} links of a limb, got "
+                             f"{self.twists}")  # fmt: skip
         values: dict[str, Any] = {k: chosen[k] if v is None else v for k, v in given.items()}
         return Resolved(**values)
 

@@ -240,6 +240,10 @@ def resolved(scene: Scene, numerics: Numerics | None = None) -> Resolved:
         ValueError: they do not go with the robot.
     """
     given = numerics or Numerics()
+    torsion = next((limb.strip.torsion for limb in limbs_of(scene.robot) if limb.strip.torsion), 0)
+    if torsion and not given.twists:
+        where = "limbs that do not twist; give twists" if scene.in_space else "a strip in the plane"
+        raise ValueError(f"torsion does nothing for {where}, got {torsion:g}")
     if given.timestep is None:
         usual = given.resolved(scene.body, scene.friction, scene.in_space).timestep
         given = replace(given, timestep=short_enough(usual, scene.fill_time))

@@ -51,6 +51,7 @@ def walk_checked(
     tolerance: float,
     progress: Callable[[int], None] | None = None,
     forces: bool = False,
+    twists: int = 0,
 ) -> Checked:
     """Walk until the displacement is sure to be within a tolerance, relative or 0.001 L.
 
@@ -58,6 +59,7 @@ def walk_checked(
         scene: the walk.
         tolerance: of its displacement per cycle.
         progress, forces: see mjsim.simulation.simulation.simulate.
+        twists: see refinements.
 
     Raises:
         ValueError: no tolerance that was measured, or the body cannot do the scene.
@@ -65,7 +67,7 @@ def walk_checked(
     before: Trajectory | None = None
     tried, error, agreed = [], math.nan, False
     check_tolerance(tolerance)
-    for numerics in refinements(scene):
+    for numerics in refinements(scene, twists):
         walk = simulate(scene, numerics, progress, forces)
         tried.append(walk.numerics)
         if before is not None:
@@ -76,12 +78,18 @@ def walk_checked(
     return Checked(walk, error, agreed, tried)
 
 
-def refinements(scene: Scene) -> Iterator[Numerics]:
-    """Numerics for a scene, each finer than the one before; the last if none agree before."""
+def refinements(scene: Scene, twists: int = 0) -> Iterator[Numerics]:
+    """Numerics for a scene, each finer than the one before; the last if none agree before.
+
+    Args:
+        scene: the walk.
+        twists: of limbs in space, as many as their links allow.
+    """
     longest = min(scene.gait.ramp_times) / _STEPS_A_RAMP
     if scene.in_space:
         for links, timestep in _IN_SPACE:
-            yield Numerics(links=links, timestep=min(timestep, longest))
+            few = min(twists, links // 2)
+            yield Numerics(links=links, timestep=min(timestep, longest), twists=few)
         return
     borders = np.asarray(scene.strip.borders)
     segments = math.ceil(borders[-1] / np.diff(borders).min() - 1e-9)  # as short as the shortest

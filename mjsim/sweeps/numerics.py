@@ -14,10 +14,10 @@ def picked(plan: Plan) -> tuple[Numerics, Numerics]:
     Raises:
         ValueError: none do, or the scene cannot be simulated.
     """
-    scene, _ = build(plan.base)
+    scene, given = build(plan.base)
     assert plan.tolerance is not None
     previous = None
-    for numerics in refinements(scene):
+    for numerics in refinements(scene, given.twists):
         walk = simulate(scene, numerics)
         measures = measure(walk)
         if previous is not None and measures is not None:

@@ -114,7 +114,7 @@ def _simulated(job: Job, scenes: Sequence[tuple[int, Scene, Numerics]]) -> dict[
 def _checked(job: Job, scene: Scene, numerics: Numerics) -> Row:
     from mjsim.simulation.checked import walk_checked
 
-    check = walk_checked(scene, job.tolerance)
+    check = walk_checked(scene, job.tolerance, twists=numerics.twists)
     row = _walked(check.walk)
     if not check.agreed:
         row["status"] = "unconverged" if row["status"] == "ok" else row["status"]

@@ -40,7 +40,7 @@ class Problem(NamedTuple):
         tree: its links.
         scale: of the coordinates, (Q,).
         ground: stiffness of the springs that keep nodes to the ground [N/m].
-        stiffness, bent: of the hinges' springs [N m/rad], and their rest angles [rad].
+        stiffness, bent: of the joints' springs [N m/rad], and their rest angles [rad].
         renewed: friction by the contacts of a state, from the friction so far; none if None.
     """
 
@@ -78,8 +78,8 @@ class Problem(NamedTuple):
                 gradient -= self.tree.pulled(pose)
                 load[:, :2] -= self.tree.pull
         hessian += self.tree.bending(pose, load)
-        hinges = np.arange(WHOLE, len(q))
-        hessian[hinges, hinges] += self.stiffness
+        joints = np.arange(WHOLE, len(q))
+        hessian[joints, joints] += self.stiffness
         if friction is None:
             gradient[list(IN_PLAN)] = 0.0
             hessian[IN_PLAN, :] = hessian[:, IN_PLAN] = 0.0

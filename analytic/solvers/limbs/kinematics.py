@@ -1,11 +1,12 @@
 """A tree of limbs as rigid links: places of its nodes, and their slopes by its joints.
 
 Each limb is the chain of analytic.scene.chain: n hinges between n + 1 links with Simpson's weights.
-The first link of a limb is clamped to the link that carries it.
+The first link of a limb is clamped to the link that carries it. Where a limb twists, what follows
+turns about the link that does.
 
 Coordinates q: x, y and height of the trunk's beginning, its yaw (to the left, from where it first
-points), pitch (up) and roll (left side up), then the hinges, trunk first; a hinge turns its plane's
-outward direction up.
+points), pitch (up) and roll (left side up), then the joints limb by limb, trunk first, in their
+order along the limb; a hinge turns the outward direction up, a twist the left side.
 """
 
 from collections.abc import Sequence
@@ -14,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.scene.chain import link_lengths
+from analytic.scene.chain import joint_places, link_lengths, twisting_links
 from analytic.scene.ground import LEVEL, Incline
 from analytic.scene.limbs import LimbedRobot
 
@@ -22,7 +23,7 @@ Array = NDArray[np.float64]
 
 _EYE = np.eye(3)
 _UP = np.array([0.0, 0.0, 1.0])
-WHOLE = 6  # coordinates that belong to no hinge
+WHOLE = 6  # coordinates that belong to no limb
 HEIGHT = 2  # among them
 IN_PLAN = (0, 1, 3)  # those that only friction resists: x, y and yaw
 
@@ -40,32 +41,58 @@ class Pose(NamedTuple):
     centres: Array
 
 
+class _Shapes(NamedTuple):
+    """Shapes of L limbs, each from where it begins, where x is ahead and y to the left.
+
+    Attributes:
+        places: of the vertices, (L, N + 2, 3) [m].
+        left: direction to the left of each link, (L, N + 1, 3).
+        axes: of the twists, (L, T, 3).
+        ends: matrices of the rotations of the last links, (L, 3, 3).
+    """
+
+    places: Array
+    left: Array
+    axes: Array
+    ends: Array
+
+
 class Tree:
     """The links of a robot.
 
     Args:
         robot: its limbs.
         elements: hinges of each limb, even.
+        twists: of each limb, half as many as its hinges at most.
         incline: of the ground; places and heights are along it and off it.
 
     Attributes:
+        elements, twists: as given.
         arclength: of each node, from where its limb begins, (P,) [m].
         weight: of each node that presses on the ground, (P,) [N].
         pull: of each node's weight along the ground, in plan, (P, 2) [N].
         parent: joint that carries each joint, (Q,); of the first three the one before.
         carried: whether a joint moves a node, (P, Q).
-        hinges: places of each limb's hinges among the coordinates.
+        joints: places of each limb's joints among the coordinates.
+        hinge_places, twist_places: of the hinges and of the twists among the joints of a limb.
         vertices: places of each limb's vertices among the nodes of the right edges.
         starts: arclengths at which the links of each limb begin [m].
     """
 
-    def __init__(self, robot: LimbedRobot, elements: int, incline: Incline = LEVEL) -> None:
+    def __init__(
+        self, robot: LimbedRobot, elements: int, twists: int = 0, incline: Incline = LEVEL
+    ) -> None:
         if elements < 2 or elements % 2:
             raise ValueError(f"elements must be even and at least 2, got {elements}")
-        self.robot, self.elements, self.incline = robot, elements, incline
-        limbs, per_limb = range(len(robot.limbs)), elements + 2
-        count = WHOLE + elements * len(robot.limbs)
-        self.hinges = [slice(WHOLE + elements * i, WHOLE + elements * (i + 1)) for i in limbs]
+        self.robot, self.elements, self.twists = robot, elements, twists
+        self.incline = incline
+        limbs, per_limb, joints = range(len(robot.limbs)), elements + 2, elements + twists
+        count = WHOLE + joints * len(robot.limbs)
+        self.joints = [slice(WHOLE + joints * i, WHOLE + joints * (i + 1)) for i in limbs]
+        self.hinge_places, self.twist_places = joint_places(elements, twists)
+        self._twisting = np.array(twisting_links(elements, twists), dtype=int)
+        # twists before each link and vertex: those of links before it
+        self._before = np.searchsorted(self._twisting, np.arange(elements + 1))
         self.vertices = [slice(per_limb * i, per_limb * (i + 1)) for i in limbs]
         self.parent = np.arange(-1, count - 1)
         self._links = np.array([link_lengths(limb.strip, elements) for limb in robot.limbs])
@@ -87,11 +114,13 @@ class Tree:
             if limb.on is None:
                 roots.append(WHOLE - 1)
             elif limb.at == "end":
-                roots.append(self.hinges[self._carriers[i]].stop - 1)
+                roots.append(self.joints[self._carriers[i]].stop - 1)
             else:
                 roots.append(roots[self._carriers[i]])
-            self.parent[self.hinges[i].start] = roots[i]
-            movers += [roots[i], roots[i], *range(count)[self.hinges[i]]]
+            self.parent[self.joints[i].start] = roots[i]
+            # a hinge moves what is beyond it; a twist the edges at the hinge after it too
+            before = self.joints[i].start + self.hinge_places[1:] - 1
+            movers += [roots[i], roots[i], *before.tolist(), self.joints[i].stop - 1]
         whole = np.concatenate(2 * weight)
         self.weight: Array = incline.normal * whole
         self.pull: Array = np.multiply.outer(whole, incline.downhill)
@@ -102,6 +131,10 @@ class Tree:
             self._above[joint] |= self._above[self.parent[joint]]
         self.carried = self._above[2 * movers]
         self._carries = self.carried.T.astype(float)
+        begins = np.array([[joints.start] for joints in self.joints])
+        self._hinges = (begins + self.hinge_places).ravel()
+        self._twists = (begins + self.twist_places).ravel()
+        self._links_of_vertices = np.minimum(np.arange(per_limb), elements)
 
     def pose(self, q: Array) -> Pose:
         """Places of nodes and joints."""
@@ -114,14 +147,10 @@ class Tree:
         axes[5] = pitched[:, 0]
         centres[:WHOLE] = base
         trunk = base, _turn(axes[5], q[5]) @ pitched
-        # each limb in its plane, forward and outward: directions of links are sums of the hinges
-        hinges = q[WHOLE:].reshape(-1, self.elements)
-        turn = np.zeros((len(hinges), self.elements + 1))
-        np.cumsum(hinges, axis=1, out=turn[:, 1:])
-        along = np.stack([np.cos(turn), np.sin(turn)], axis=2)
-        plane = np.zeros((len(hinges), self.elements + 2, 2))
-        np.cumsum(self._links[..., None] * along, axis=1, out=plane[:, 1:])
-        starts, frames = np.empty((len(hinges), 3)), np.empty((len(hinges), 3, 3))
+        joints = q[WHOLE:].reshape(len(self._links), -1)
+        shape = self._shapes(joints[:, self.hinge_places], joints[:, self.twist_places])
+        spans = slice(None, None, 1 if self.twists else 2)  # directions that limbs extend along
+        starts, frames = np.empty((len(joints), 3)), np.empty((len(joints), 3, 3))
         for i, limb in enumerate(self.robot.limbs):
             carrier = self._carriers[i]
             if limb.on is None:
@@ -129,17 +158,52 @@ class Tree:
             elif limb.at == "begin":
                 origin, frame = starts[carrier], frames[carrier]
             else:
-                frame, (cos, sin) = frames[carrier], along[carrier, -1]
-                origin = starts[carrier] + frame[:, ::2] @ plane[carrier, -1]
-                frame = frame @ np.array([[cos, 0.0, -sin], [0.0, 1.0, 0.0], [sin, 0.0, cos]])
+                origin = (
+                    starts[carrier] + frames[carrier][:, spans] @ shape.places[carrier, -1, spans]
+                )
+                frame = frames[carrier] @ shape.ends[carrier]
             starts[i] = origin + limb.offset * frame[:, 1]
             frames[i] = frame @ self._turns[i]
-        places = starts[:, None] + plane @ frames[:, :, ::2].transpose(0, 2, 1)
-        edge = self._half_widths[:, None] * frames[:, :, 1]
-        nodes = np.concatenate([places - edge[:, None], places + edge[:, None]]).reshape(-1, 3)
-        axes[WHOLE:] = np.repeat(-frames[:, :, 1], self.elements, axis=0)
-        centres[WHOLE:] = places[:, 1:-1].reshape(-1, 3)
+        across = frames.transpose(0, 2, 1)
+        places = starts[:, None] + shape.places[..., spans] @ across[:, spans]
+        left = shape.left @ across  # of links
+        edge = self._half_widths[:, None, None] * left[:, self._links_of_vertices]
+        nodes = np.concatenate([places - edge, places + edge]).reshape(-1, 3)
+        axes[self._hinges] = -left[:, 1:].reshape(-1, 3)
+        centres[self._hinges] = places[:, 1:-1].reshape(-1, 3)
+        axes[self._twists] = (shape.axes @ across).reshape(-1, 3)
+        centres[self._twists] = places[:, self._twisting].reshape(-1, 3)
         return Pose(nodes, axes, centres)
+
+    def _shapes(self, hinges: Array, twists: Array) -> "_Shapes":
+        """Shapes of all limbs by their angles, (L, N) and (L, T) [rad].
+
+        The direction of link i is R_1 ... R_k d_i: d_i is that of a limb without twist, in its
+        plane, by the sum of its hinges; R_j turns by twist j about d of its link; k twists are
+        before it.
+        """
+        turn = np.zeros((len(hinges), self.elements + 1))
+        np.cumsum(hinges, axis=1, out=turn[:, 1:])
+        directions = np.zeros((*turn.shape, 3))
+        directions[..., 0], directions[..., 2] = np.cos(turn), np.sin(turn)
+        turned = np.empty((len(hinges), self.twists + 1, 3, 3))
+        turned[:, 0] = _EYE
+        axes = directions[:, self._twisting]
+        for twist in range(self.twists):
+            about = _turns(axes[:, twist], twists[:, twist])
+            axes[:, twist] = (turned[:, twist] @ axes[:, twist, :, None])[..., 0]
+            turned[:, twist + 1] = turned[:, twist] @ about
+        places = np.zeros((len(hinges), self.elements + 2, 3))
+        cos, sin = directions[:, -1, 0], directions[:, -1, 2]
+        pitched = np.zeros((len(hinges), 3, 3))
+        pitched[:, 0, 0], pitched[:, 0, 2], pitched[:, 1, 1] = cos, -sin, 1.0
+        pitched[:, 2, 0], pitched[:, 2, 2] = sin, cos
+        of_links = turned[:, self._before]
+        if self.twists:
+            directions = (of_links @ directions[..., None])[..., 0]
+            pitched = turned[:, -1] @ pitched
+        np.cumsum(self._links[..., None] * directions, axis=1, out=places[:, 1:])
+        return _Shapes(places, of_links[..., 1], axes, pitched)
 
     def moves(self, pose: Pose, which: slice | NDArray[np.int_] = slice(None)) -> Array:
         """Slopes of the places of nodes, all or some, by the coordinates, (P, 3, Q)."""
@@ -209,7 +273,14 @@ class Tree:
 
 
 def _turn(axis: Array, angle: float) -> Array:
-    """Matrix of a rotation about a unit axis."""
-    x, y, z = axis
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.asarray(_EYE + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)
+    """Matrix of a rotation about a unit axis, (3, 3)."""
+    return np.asarray(_turns(axis[None], np.array([angle]))[0])
+
+
+def _turns(axes: Array, angles: Array) -> Array:
+    """Matrices of rotations about unit axes (L, 3) by angles (L,) [rad], (L, 3, 3)."""
+    cross = np.zeros((len(axes), 3, 3))
+    cross[:, 2, 1], cross[:, 0, 2], cross[:, 1, 0] = axes.T
+    cross -= cross.transpose(0, 2, 1)
+    sin, cos = np.sin(angles)[:, None, None], np.cos(angles)[:, None, None]
+    return np.asarray(_EYE + sin * cross + (1 - cos) * (cross @ cross))

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.scene.chain import joint_springs
+from analytic.scene.chain import joint_springs, torsion_stiffness
 from analytic.scene.limbs import chambers_by_limb, rotation
 from analytic.solvers.limbs.active_set import Problem, Renewed, newton_step, on_contacts
 from analytic.solvers.limbs.friction import ContactFriction
@@ -44,6 +44,9 @@ class Statics:
 
     def __init__(self, tree: Tree, chamber: str = "linearized") -> None:
         self.tree, self._chamber = tree, chamber
+        self._torsion = np.array(
+            [[torsion_stiffness(limb.strip, tree.twists)] for limb in tree.robot.limbs]
+        )
         nodes = tree.pose(np.zeros(len(tree.parent))).nodes
         self.length = float(np.ptp(nodes[:, :2] @ rotation(tree.robot.limbs[0].angle)[:, 0]))
         self._weight = float(tree.weight.sum())
@@ -57,13 +60,17 @@ class Statics:
         return Rest(q, self.tree.pose(q).nodes, self.tree.weight.copy(), True)
 
     def springs(self, pressures: Array) -> tuple[Array, Array]:
-        """Stiffness and rest angle of all hinges at pressures of the chambers, (S,) [Pa]."""
-        robot = self.tree.robot
-        parts = [
-            joint_springs(limb.strip, self.tree.elements, pressures[None, chambers], self._chamber)
-            for limb, chambers in zip(robot.limbs, chambers_by_limb(robot), strict=True)
-        ]
-        stiffness, rest = (np.concatenate([part[i][0] for part in parts]) for i in (0, 1))
+        """Stiffness and rest angle of all joints at pressures of the chambers, (S,) [Pa]."""
+        tree, robot = self.tree, self.tree.robot
+        springs = np.zeros((2, len(robot.limbs), tree.elements + tree.twists))
+        springs[0][:, tree.twist_places] = self._torsion
+        for i, (limb, chambers) in enumerate(
+            zip(robot.limbs, chambers_by_limb(robot), strict=True)
+        ):
+            row = pressures[None, chambers]
+            stiffness, rest = joint_springs(limb.strip, tree.elements, row, self._chamber)
+            springs[:, i, tree.hinge_places] = stiffness[0], rest[0]
+        stiffness, rest = springs.reshape(2, -1)
         return stiffness, rest
 
     def equilibrium(self, pressures: Array, guess: Rest) -> Rest:
@@ -157,7 +164,7 @@ class _Lagrangian(NamedTuple):
     Attributes:
         tree: its links.
         ground: stiffness of the constraints [N/m].
-        stiffness, rest: of the hinges' springs [N m/rad, rad].
+        stiffness, rest: of the joints' springs [N m/rad, rad].
         friction: on the way there; none if None.
         multiplier: forces of the ground so far, (P,) [N].
         sharpness: of the friction [m].
@@ -199,8 +206,8 @@ class _Lagrangian(NamedTuple):
         gradient[WHOLE:] += self.stiffness * (q[WHOLE:] - self.rest)
         pushed = rise[push > 0]
         hessian = self.tree.bending(pose, force) + self.ground * pushed.T @ pushed
-        hinges = np.arange(WHOLE, len(hessian))
-        hessian[hinges, hinges] += self.stiffness
+        joints = np.arange(WHOLE, len(hessian))
+        hessian[joints, joints] += self.stiffness
         if self.friction is None:
             gradient[list(IN_PLAN)] = 0.0
             hessian[IN_PLAN, :] = hessian[:, IN_PLAN] = 0.0

@@ -31,7 +31,11 @@ _BESIDE, _APART = 1e-8, 1e-7  # parts of an increment
 
 
 def shapes(
-    robot: LimbedRobot, pressures: Array, elements: int, chamber: str = "linearized"
+    robot: LimbedRobot,
+    pressures: Array,
+    elements: int,
+    chamber: str = "linearized",
+    twists: int = 0,
 ) -> tuple[Tree, list[Rest]]:
     """Equilibria along a path of pressures that begins near none.
 
@@ -40,8 +44,9 @@ def shapes(
         pressures: of its chambers, (B, S) [Pa].
         elements: hinges of each limb, even.
         chamber: law of the chambers, see analytic.scene.chain.
+        twists: of each limb.
     """
-    tree = Tree(robot, elements)
+    tree = Tree(robot, elements, twists)
     statics = Statics(tree, chamber)
     rest, rests = statics.flat(), []
     for row in counted(list(pressures)):
@@ -95,6 +100,7 @@ def walk(
     robot: LimbedRobot, gait: Gait, ground: Ground, states: int = 40, elements: int = 6,
     cycles: int = 1, law: str = "constant", bent: bool = True, chamber: str = "linearized",
     path: Array | None = None, times: Array | None = None, incline: Incline = LEVEL,
+    twists: int = 0,
 ) -> Path:  # fmt: skip
     """Walk a gait quasi-statically, or along a path of pressures.
 
@@ -112,11 +118,12 @@ def walk(
         path, times: pressures in the chambers in place of the gait's, (B, S) [Pa], and when, (B,)
             [s].
         incline: of the ground; places are along it.
+        twists: of each limb, half as many as its hinges at most; 0 where limbs do not twist.
 
     Raises:
         ValueError: the gait or the path is not for so many chambers, a pressure is no number, times
-            go back, there is no such law, there are no states, cycles or elements, or the ground
-            rises and friction does not bend the robot.
+            go back, there is no such law, there are no states, cycles or elements, too many
+            twists, or the ground rises and friction does not bend the robot.
     """
     one_of("friction", law, LAWS)
     if incline.slope and not bent:
@@ -144,9 +151,9 @@ def walk(
     clock = np.arange(float(len(path))) if times is None else np.asarray(times, dtype=float)
     path, times = _with_thresholds(robot, path, clock)
     if bent:
-        statics = Statics(Tree(robot, elements, incline), chamber)
+        statics = Statics(Tree(robot, elements, twists, incline), chamber)
         return stick_slip_path(statics, path, ground, law, times)
-    tree, rests = shapes(robot, path, elements, chamber)
+    tree, rests = shapes(robot, path, elements, chamber, twists)
     return follow(tree, rests, path, ground, law, times)
 
 

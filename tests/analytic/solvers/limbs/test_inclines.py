@@ -30,7 +30,7 @@ def went(degrees, uphill, robot=QUADRUPED):
 
 
 def test_the_pull_by_coordinates_is_that_of_each_node_times_its_slopes():
-    tree = Tree(QUADRUPED, 4, Incline(0.3, 0.7))
+    tree = Tree(QUADRUPED, 4, 2, Incline(0.3, 0.7))
     pose = tree.pose(np.random.default_rng(1).normal(0, 0.3, len(tree.parent)))
     exact = np.einsum("pi,piq->q", tree.pull, tree.moves(pose)[:, :2])
     assert tree.pulled(pose) == pytest.approx(exact, abs=1e-14)

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from analytic.locomotion import WEAK
 from analytic.scene.gait import GAITS
 from analytic.scene.limbs import MASS, Limb, LimbedRobot, as_strip, quadruped
+from analytic.scene.pneunet import torsional_rigidity
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
 from analytic.solvers.limbs.kinematics import WHOLE, Tree
@@ -23,7 +24,7 @@ QUADRUPED = quadruped()
 @given(st.integers(0, 2**32 - 1))
 def test_derivatives_of_places_are_those_of_finite_differences(seed):
     rng = np.random.default_rng(seed)
-    tree = Tree(QUADRUPED, 2)
+    tree = Tree(QUADRUPED, 2, seed % 2)
     q = rng.normal(0, 0.4, len(tree.parent))
     force, h = rng.standard_normal((len(tree.weight), 3)), 1e-6
     pose = tree.pose(q)
@@ -50,6 +51,67 @@ def test_links_keep_their_lengths_and_limbs_hang_together_in_any_pose():
             one, two = (np.linalg.norm(np.diff(n[edge + start : edge + start + 6], axis=0), axis=1)
                         for n in (flat, bent))  # fmt: skip
             assert one == pytest.approx(two, rel=1e-12)
+
+
+def test_a_turned_and_shifted_robot_is_the_same_robot_elsewhere():
+    tree, rng = Tree(QUADRUPED, 4, 2), np.random.default_rng(2)
+    q = rng.normal(0, 0.4, len(tree.parent))
+    moved, (shift, turn) = q.copy(), ([0.3, -0.2, 0.1], 0.7)
+    moved[:3] += shift
+    moved[3] += turn
+    c, s = np.cos(turn), np.sin(turn)
+    around = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    nodes = (tree.pose(q).nodes - q[:3]) @ around.T + q[:3] + shift
+    assert tree.pose(moved).nodes == pytest.approx(nodes, abs=1e-12)
+
+
+@pytest.mark.parametrize(("elements", "twists"), [(2, 1), (4, 1), (6, 2), (6, 3), (8, 4)])
+def test_a_limb_twisted_by_a_torque_turns_by_the_length_over_gj(elements, twists):
+    leg = replace(QUADRUPED.limbs[1].strip, torsion=2e-4)
+    robot = LimbedRobot((Limb("leg", leg, angle=0.5),))
+    tree, torque = Tree(robot, elements, twists), 1e-4
+    stiffness, rest = Statics(tree).springs(np.zeros(1))
+    assert not rest.any()
+    q = np.zeros(len(tree.parent))
+    q[WHOLE + tree.twist_places] = torque / stiffness[tree.twist_places]
+    nodes = tree.pose(q).nodes
+    right, left = nodes[: elements + 2], nodes[elements + 2 :]
+    rise = np.arcsin((left - right)[:, 2] / leg.width)
+    assert rise[-1] == pytest.approx(torque * leg.length / 2e-4)
+    assert rise[0] == 0.0
+    assert (rise[1:-1] + rise[-2:0:-1]) == pytest.approx(rise[-1])  # alike from both ends
+    assert 0.5 * (left + right)[:, 2] == pytest.approx(0.0, abs=1e-15)
+
+
+@pytest.mark.parametrize(("ratio", "factor"), [(1, 0.1406), (2, 0.229), (5, 0.291), (10, 0.312)])
+def test_the_torsion_constant_is_that_of_the_tables(ratio, factor):
+    # J = factor b a^3: Timoshenko and Goodier, Theory of Elasticity, 109, table of k1
+    strip = Robot(thickness=4e-3, width=ratio * 4e-3, modulus=3.0)
+    constant = factor * strip.width * strip.thickness**3
+    assert torsional_rigidity(strip) == pytest.approx(constant, rel=2e-3)
+    tall = replace(strip, width=4e-3, thickness=ratio * 4e-3)
+    assert torsional_rigidity(tall) == pytest.approx(torsional_rigidity(strip))
+
+
+def test_limbs_that_hardly_twist_rest_as_those_that_do_not():
+    stiff = LimbedRobot(
+        tuple(
+            replace(limb, strip=replace(limb.strip, torsion=1e6 * torsional_rigidity(limb.strip)))
+            for limb in QUADRUPED.limbs
+        ),
+        QUADRUPED.peak_pressure,
+    )
+    pressures, nodes = QUADRUPED.peak_pressure * np.array([0.5, 1.0, 0.9, 0.0, 0.3]), []
+    for robot, twists in ((QUADRUPED, 0), (stiff, 1), (QUADRUPED, 1)):
+        statics = Statics(Tree(robot, 2, twists))
+        rest = statics.flat()
+        for part in np.linspace(0.2, 1.0, 5):
+            rest = statics.equilibrium(part * pressures, rest)
+        assert rest.converged
+        nodes.append(rest.nodes)
+    plain, hardly, twisted = nodes
+    assert hardly == pytest.approx(plain, abs=1e-7)
+    assert np.abs(twisted - plain).max() > 1e-4
 
 
 def test_the_paper_robot_weighs_what_its_mesh_does_and_is_as_long():
@@ -100,8 +162,9 @@ def test_the_ground_carries_the_weight_where_it_hangs(seed):
         )
 
 
-def test_left_and_right_swapped_the_rest_is_mirrored():
-    statics = Statics(Tree(QUADRUPED, 2))
+@pytest.mark.parametrize("twists", [0, 1])
+def test_left_and_right_swapped_the_rest_is_mirrored(twists):
+    statics = Statics(Tree(QUADRUPED, 2, twists))
     rests = []
     for order in ([0, 1, 2, 3, 4], [0, 2, 1, 4, 3]):
         rest = statics.flat()
@@ -126,6 +189,7 @@ def test_left_and_right_swapped_the_rest_is_mirrored():
         (lambda: LimbedRobot((QUADRUPED.limbs[0], replace(QUADRUPED.limbs[1], on="tail"))),
          "on must be one of torso"),
         (lambda: Tree(QUADRUPED, 3), "elements must be even"),
+        (lambda: Tree(QUADRUPED, 4, 3), "twists must be a whole number from 0 to 2, got 3"),
     ],
 )  # fmt: skip
 def test_what_is_no_tree_is_refused(build, words):
