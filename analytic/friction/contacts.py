@@ -15,6 +15,7 @@ from analytic.shapes import ContactShapes
 
 Array = NDArray[np.float64]
 
+_FLAT = 1e-3  # rad; less steep than this is flat, as in the simulation; chosen
 POINT = 2  # nodes in a row that push in one point of contact, as it may fall between two
 
 
@@ -63,10 +64,9 @@ class ContactFinder:
         """The contacts of one state, left first.
 
         The two ends are tips or sides as in analytic.friction.contact_length, unless they curl up.
-        What lies flat beyond the arch of an inflated end, however low that is, is a contact of its
-        own. Between the ends a run of nodes on the ground is a tip if it is one point, else a side
-        whose length follows from its forces, as that of an end: either half of it carries its
-        weight and a push. There an inflated part may lie flat too, by the weight on both sides.
+        Between them a run of nodes on the ground is a tip if it is one point, else a side whose
+        length follows from its forces, as that of an end: either half of it carries its weight and
+        a push. There an inflated part may lie flat too, by the weight on both sides of it.
 
         Args:
             force: of the ground on the nodes, (N,) [N].
@@ -77,11 +77,7 @@ class ContactFinder:
         pushing = [node for node, push in enumerate(force) if push > 0.0]
         if not pushing:
             return []
-        runs = _in_a_row(pushing)
-        if not lengths[0] and runs[0][0] == 0:
-            runs[:1] = _tip_and_rest(runs[0])
-        if not lengths[1] and runs[-1][-1] == len(force) - 1:
-            runs[-1:] = [part[::-1] for part in _tip_and_rest(runs[-1][::-1])[::-1]]
+        runs = self._runs(pushing, height)
         whole = len(runs) == 1  # the ends' contacts are its halves
         if whole:
             middle = len(force) // 2
@@ -103,6 +99,18 @@ class ContactFinder:
                 contacts.append(StripContact(run, share, self._length_between(run, push), load))
         return contacts
 
+    def _runs(self, pushing: list[int], height: Sequence[float]) -> list[list[int]]:
+        """Nodes that push with no air between them."""
+        runs = [[pushing[0]]]
+        for node in pushing[1:]:
+            before = runs[-1][-1]
+            if node > before + 1:
+                top = max(height[before + 1 : node])
+                if top > self._lifted and top > _FLAT * (self._place[node] - self._place[before]):
+                    runs.append([])
+            runs[-1].append(node)
+        return runs
+
     def _side(self, run: list[int], push: list[float], end: float) -> float:
         """Length of a flat stretch that begins at an end, from what its nodes carry [m]."""
         moment = sum(p * abs(self._place[node] - end) for node, p in zip(run, push, strict=True))
@@ -112,21 +120,6 @@ class ContactFinder:
         if run[-1] - run[0] < POINT:
             return 0.0
         return length_between(self._weight, [self._place[node] for node in run], push)
-
-
-def _in_a_row(pushing: list[int]) -> list[list[int]]:
-    """Runs of nodes beside each other; between them is an arch, however low it is."""
-    runs = [[pushing[0]]]
-    for node in pushing[1:]:
-        if node > runs[-1][-1] + 1:
-            runs.append([])
-        runs[-1].append(node)
-    return runs
-
-
-def _tip_and_rest(run: list[int]) -> list[list[int]]:
-    """The node of an end that arches within a link, which comes first, and what lies behind it."""
-    return [run] if len(run) <= POINT else [run[:1], run[1:]]
 
 
 def contacts_of(shapes: ContactShapes, height: Array, state: int) -> list[StripContact]:

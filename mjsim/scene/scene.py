@@ -72,8 +72,7 @@ class Scene:
     contacts: Contacts = "auto"
     """where the constant bounds act: at the two ends; at all places that touch the ground; auto: at
     all of a robot of limbs, and of a strip whose gait ever inflates a segment less than one on
-    either side of it, or keeps an end hardly inflated while another segment changes by half the
-    peak"""
+    either side of it"""
     slope: float = 0.0
     """the ground rises by this angle [rad]: towards +x"""
     uphill: float = 0.0
@@ -199,7 +198,7 @@ class Scene:
         """Tell whether friction acts between the ends of a strip, or at all contacts of limbs."""
         if self.in_space:
             return True
-        return self.contacts == "all" or (self.contacts == "auto" and self.gait.between())
+        return self.contacts == "all" or (self.contacts == "auto" and self.gait.dips())
 
     @property
     def incline(self) -> Incline:
