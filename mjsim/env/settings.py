@@ -1,5 +1,6 @@
 """Settings of the environments: grounds, chambers, friction and numerics of their episodes."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
@@ -129,10 +130,15 @@ class Settings:
         """Scene with other values of some fields.
 
         Raises:
-            ValueError: they do not make one, or it is not of body chain.
+            ValueError: they do not make one, it is not of body chain, or its ground rises.
         """
         valves = {"valves": {"fill_time": MEASURED_TIME}}
         scene, _ = build(with_fields({**valves, **self.base}, values))
+        if scene.slope:
+            raise ValueError(
+                f"slope of an environment must be 0, got {math.degrees(scene.slope):g} degrees: a "
+                "robot that slides would be paid for it"
+            )
         if scene.body != "chain":
             raise ValueError(f"environments are of body chain, got {scene.body}")
         return scene if scene.in_space else replace(scene, contacts=self.contacts)

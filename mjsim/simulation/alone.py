@@ -1,5 +1,6 @@
 """Distances of models that walk by themselves, by mj_step alone."""
 
+import math
 from dataclasses import replace
 
 import mujoco
@@ -70,6 +71,10 @@ def measured(scene: Scene, numerics: Numerics | None = None) -> str:
     bounds that shoes carry stands what the bounds themselves give, since shoes know contact lengths
     nearly.
     """
+    if scene.slope:
+        towards = f" towards {math.degrees(scene.uphill):g} degrees from +x" if scene.uphill else ""
+        return (f"its gravity is that of ground which rises by {math.degrees(scene.slope):g} "
+                f"degrees{towards}; not measured, since by load it may slide")  # fmt: skip
     model = standalone_spec(scene, numerics).compile()
     if not model.nu:
         return "it has no controls: pressure is a couple on each edge, which mjsim applies"

@@ -6,6 +6,7 @@ import pytest
 
 from analytic.scene.limbs import quadruped
 from analytic.scene.quadruped_gaits import undulation
+from mjsim.commands import export
 from mjsim.commands.run import main
 from mjsim.results.measures import measure
 from mjsim.results.prediction import reference
@@ -48,3 +49,20 @@ def test_slopes_that_mean_nothing_are_refused(options, words, capsys):
         main([*options, "--no-video"])
     assert stop.value.code == 2
     assert words in capsys.readouterr().err
+
+
+def test_a_file_on_a_slope_names_it_and_tells_no_distance(tmp_path, capsys):
+    options = ["--robot", "quadruped", "--slope", "25deg", "--uphill", "90deg"]
+    assert export.main([*options, "--out", str(tmp_path)]) == 0
+    (path,) = tmp_path.glob("*.xml")
+    words = "rises by 25 degrees towards 90 degrees from +x; not measured"
+    assert words in path.read_text()
+    assert words in capsys.readouterr().err
+
+
+def test_environments_pay_for_no_slide():
+    pytest.importorskip("gymnasium")
+    from mjsim.env.gym import WalkEnv
+
+    with pytest.raises(ValueError, match="slope of an environment must be 0, got 5 degrees"):
+        WalkEnv(base={"robot": {"name": "quadruped"}, "ground": {"slope_deg": 5.0}})
