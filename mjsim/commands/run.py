@@ -191,7 +191,9 @@ def _simulate(
     with bar(f"simulating {scene.ground.name}", total) as advance:
         if tolerance is None:
             return simulate(scene, numerics, advance, forces=not scene.in_space), []
-        checked = walk_checked(scene, tolerance, advance, not scene.in_space, numerics.twists)
+        checked = walk_checked(
+            scene, tolerance, advance, forces=not scene.in_space, twists=numerics.twists
+        )
     finest = checked.tried[-1]
     note = f"auto: {finest.links} links at {finest.timestep:g} s"
     if math.isfinite(checked.error):

@@ -72,15 +72,14 @@ class ContactForces:
         force = [0.0] * len(self._rows)
         for geom, push in zip(self._data.contact.geom2.tolist(), self._pushes(), strict=True):
             force[self._node[geom]] += push
-        heights = self._heights if self._only_pads else self._heights[self._rows]
-        return force, (heights - self._radius).tolist()
+        return force, (self._pad_heights() - self._radius).tolist()
 
     def _length_of(self, force: float, moment: float) -> float:
         return max(flat_length(self._weight, force, moment), self._least)
 
     def _sums(self) -> tuple[tuple[float, float], tuple[float, float]] | None:
         """Force and moment about its end of either part; None if no pad is in the air."""
-        heights = self._pad_heights()
+        heights: list[float] = self._pad_heights().tolist()
         top = max(heights)
         if top <= self._radius:
             return None
@@ -97,10 +96,9 @@ class ContactForces:
                 moment_right += push * (end - s)
         return (left, moment_left), (right, moment_right)
 
-    def _pad_heights(self) -> list[float]:
+    def _pad_heights(self) -> Array:
         """Heights of the centres of one pad per node, (N + 2,) [m]."""
-        heights: list[float] = self._heights.tolist()
-        return heights if self._only_pads else [heights[row] for row in self._rows]
+        return self._heights if self._only_pads else self._heights[self._rows]
 
     def _pushes(self) -> list[float]:
         """Normal force of each contact [N]."""

@@ -3,8 +3,8 @@
 States are a path: each starts from the last, in smaller steps of pressure where a step fails, and
 every one is tested for stability. So the branch that begins with the strip lying flat is followed
 as far as it is stable, and no other is ever returned. Friction that bends the strip is right in an
-increment where the same contacts slide all along; where others do at its end, the change is located
-by bisection, to where the strip moves by next to nothing.
+increment where the same contacts slide all along; where others do at its end, the change is
+located (analytic.solvers.elastica.events) to where the strip moves by next to nothing.
 """
 
 import math
@@ -102,7 +102,7 @@ class Branch:
         return point._replace(residual=self._chain.residual(point.state))
 
     def _add_change(self, points: list[Point], after: Point, row: float) -> None:
-        """Add states on either side of the first change of contacts before a point, by bisection.
+        """Add states on either side of the first change of contacts before a point.
 
         Which contact slides is told wrongly on the way from one to the other alone. One that comes
         to a stop before is added in its place.

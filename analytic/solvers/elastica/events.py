@@ -12,12 +12,12 @@ _SURE = 0.5  # of the last change of that place, by which to go farther; chosen
 
 
 class Event:
-    """Bracket of a row of the path, narrowed by lines through what is 0 there.
+    """Bracket of the row of the path where contacts change, narrowed by the secant method.
 
-    Margins of contacts, and differences of their bounds, go through 0 where contacts change (see
-    StickSlip.measures). They bend there, or jump, so that lines are drawn through two states of one
-    side. A row a little beyond is tried next, so that the event lies in what is left, which soon is
-    short; where that does not halve it, or nothing goes through 0, the middle is.
+    Margins of contacts, and differences of their bounds, go through 0 there (see
+    StickSlip.measures), with a kink or a jump: so each secant goes through two states of one side.
+    The next row to try lies slightly beyond its root, so that the event is between the two and the
+    bracket shrinks to that; where it is not halved so, or nothing goes through 0, it is bisected.
 
     Args:
         before: states before it, (1 or 2); two if the path between them is straight.

@@ -218,7 +218,7 @@ class StickSlip:
         ])  # fmt: skip
 
     def measures(self, state: ChainState) -> Array:
-        """What is 0 where contacts change: margins, and bounds less the least other one, (2 C,)."""
+        """Margins, and bounds less the least other one: 0 where contacts change, (2 C,)."""
         least, second = [*np.sort(self.bounds)[:2], np.nan, np.nan][:2]
         others = np.where(self.bounds > least, least, second)
         return np.concatenate([self._margins(self.contacts, state), self.bounds - others])

@@ -224,16 +224,7 @@ class Tree:
 
     def pulled(self, pose: Pose) -> Array:
         """Forces of the pull downhill by the coordinates, (Q,)."""
-        x, y, z = pose.nodes.T
-        a, b = self.pull.T
-        moment = np.stack([-z * b, z * a, x * b - y * a, a, b], axis=1)
-        turning, force = np.split(self._carries @ moment, [3], axis=1)
-        u, v, w = pose.centres.T
-        turning -= np.stack([-w * force[:, 1], w * force[:, 0],
-                             u * force[:, 1] - v * force[:, 0]], axis=1)  # fmt: skip
-        forces = (pose.axes * turning).sum(axis=1)
-        forces[:3] = (pose.axes[:3, :2] * force[:3]).sum(axis=1)
-        return np.asarray(forces)
+        return np.asarray(np.tensordot(self.pull, self.moves(pose)[:, :2], axes=2))
 
     def bending(self, pose: Pose, force: Array) -> Array:
         """Second derivatives of the sum of forces (P, 3) times places, (Q, Q).

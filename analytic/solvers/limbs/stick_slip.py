@@ -24,17 +24,15 @@ from analytic.solvers.limbs.statics import Statics
 
 Array = NDArray[np.float64]
 
-_VISCOSITY = 1e-3  # of all contacts alike, over the bound of all and the length; decides what
-# bounds leave open
+# over the bound of all contacts and the length: viscosity that decides what bounds leave open
+_VISCOSITY = 1e-3
 _WEAK = 1e-3  # of a film's resistance, that it is at most, however slow the gait; chosen
 _RISE = 8  # states on the way to a first one that is inflated; chosen
 _SLIP = 1e-7  # over the length, by which a contact that holds gives way; chosen
 _JUMP = 0.03  # of the strongest limb's bound, by which that of another changes at once; chosen
 _LOCATED = 1e-5  # move over the length within which an event is located; chosen
 _MOST_JUMPS, _MOST_SWAPS = 4, 1  # located in an increment; more are a flicker; chosen
-_SLIDES = (
-    0.05  # move over the length in an increment on a slope, beyond which nothing holds; chosen
-)
+_SLIDES = 0.05  # move over the length in an increment on a slope, beyond which it slides; chosen
 _SHORTEST = 1e-7  # change of pressure over the peak's, and part of an increment
 _ON = 3.0  # increments over the one before, that a guess goes on by
 _TINY = 1e-100
@@ -209,7 +207,7 @@ class _StickSlip:
         if self._statics.tree.incline.slope:
             moved = float(np.abs(rest.q[:2] - before.rest.q[:2]).max())
             if not moved < _SLIDES * self._statics.length:
-                rest = rest._replace(converged=False)  # by viscosity alone: no bound holds it
+                rest = rest._replace(converged=False)  # viscosity alone balances its weight
         assert friction is not None  # since an increment was given
         return _State(row, time, rest, increment.contacts, increment.weights, friction.bounds,
                       increment.viscous, friction.held, friction.holds)  # fmt: skip

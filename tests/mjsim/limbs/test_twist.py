@@ -33,30 +33,32 @@ def scene(surface="felt", ramp=8.0, **sides):
 
 @pytest.mark.parametrize(("links", "twists"), [(2, 1), (6, 2), (6, 3)])
 def test_vertices_in_mujoco_are_where_the_theory_has_them(links, twists):
-    own = scene()
-    numerics = resolved(own, Numerics(links=links, twists=twists))
-    model, tree = compile_model(own, numerics), Tree(own.robot, links, twists)
+    twisting = scene()
+    numerics = resolved(twisting, Numerics(links=links, twists=twists))
+    model, tree = compile_model(twisting, numerics), Tree(twisting.robot, links, twists)
     data, q = mujoco.MjData(model), np.random.default_rng(3).normal(0, 0.4, len(tree.parent))
     assert model.nv == len(q)
     for name, value in zip(ROOT, q[:WHOLE], strict=True):
         data.joint(PREFIX + name).qpos = value
-    for name, joints in zip(own.robot.names, tree.joints, strict=True):
+    for name, joints in zip(twisting.robot.names, tree.joints, strict=True):
         for prefix, places in ((hinge_prefix(name), tree.hinge_places),
                                (twist_prefix(name), tree.twist_places)):  # fmt: skip
             for number, value in enumerate(q[joints][places], start=1):
                 data.joint(f"{prefix}{number}").qpos = value
     mujoco.mj_kinematics(model, data)
-    pads = data.geom_xpos[edges(pads_of(model, own))]
+    pads = data.geom_xpos[edges(pads_of(model, twisting))]
     lie_at = mujoco.MjData(model)
     mujoco.mj_kinematics(model, lie_at)
-    lowered = lie_at.geom_xpos[edges(pads_of(model, own))][0, 2]  # the trunk lies at this height
+    lowered = lie_at.geom_xpos[edges(pads_of(model, twisting))][
+        0, 2
+    ]  # the trunk lies at this height
     assert pads - [0, 0, lowered] == pytest.approx(tree.pose(q).nodes, abs=1e-9)
 
 
 def test_a_limb_in_mujoco_twists_by_its_length_over_gj():
     robot = quadruped(Robot(torsion=3e-4))
-    own = replace(scene(), robot=robot)
-    model = compile_model(own, resolved(own, Numerics(links=6, twists=3)))
+    twisting = replace(scene(), robot=robot)
+    model = compile_model(twisting, resolved(twisting, Numerics(links=6, twists=3)))
     for limb in robot.limbs:
         joints = [model.joint(f"{twist_prefix(limb.name)}{i}").id for i in (1, 2, 3)]
         stiffness = model.jnt_stiffness.reshape(model.njnt, -1)[joints, 0]  # of powers, in MuJoCo 4
@@ -93,8 +95,8 @@ def test_limbs_that_hardly_twist_go_as_those_that_do_not():
     stiff = Robot(torsion=0.05)
     plain = reference(scene("gelatin"))
     stiffly = replace(scene("gelatin"), robot=quadruped(stiff))
-    found = reference(stiffly, Numerics(twists=2))
-    assert found.displacement[0] == pytest.approx(plain.displacement[0], abs=3e-4)
+    stiff_walk = reference(stiffly, Numerics(twists=2))
+    assert stiff_walk.displacement[0] == pytest.approx(plain.displacement[0], abs=3e-4)
 
 
 def test_twists_where_there_can_be_none_are_refused():

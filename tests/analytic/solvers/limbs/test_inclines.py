@@ -43,7 +43,7 @@ def test_the_pull_by_coordinates_is_that_of_each_node_times_its_slopes():
 
 @pytest.mark.parametrize("degrees", [2.0, -2.0])
 def test_a_strip_as_a_tree_climbs_as_the_strip_does(degrees):
-    """By the elastica, which shares no code with it."""
+    """The elastica shares no code with it."""
     robot, gait = Robot(), GAITS["wave"]
     stages = tuple(map(tuple, np.array(gait.stages)[:, [1, 0, 2]].tolist()))
     path = walk(
