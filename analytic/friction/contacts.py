@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.contact_length import flat_length, length_between, ripple
+from analytic.friction.laws import ROUGHNESS
 from analytic.scene.robot import Robot
 from analytic.shapes import ContactShapes
 
 Array = NDArray[np.float64]
 
-_FLAT = 1e-3  # rad; less steep than this is flat, as in the simulation; chosen
 POINT = 2  # nodes in a row that push in one point of contact, as it may fall between two
 
 
@@ -50,11 +50,14 @@ class ContactFinder:
     Args:
         robot: the strip.
         nodes: arclength of its nodes, (N,) [m].
+        roughness: of skin and ground, see analytic.friction.laws.Friction [m].
         press: of adhesive ground, see analytic.friction.contact_length [N/m].
     """
 
-    def __init__(self, robot: Robot, nodes: Array, press: float = 0.0) -> None:
-        self._weight = robot.weight_per_length + press
+    def __init__(
+        self, robot: Robot, nodes: Array, roughness: float = ROUGHNESS, press: float = 0.0
+    ) -> None:
+        self._weight, self._roughness = robot.weight_per_length + press, roughness
         self._place: list[float] = nodes.tolist()
         self._lifted = ripple(robot, nodes)
 
@@ -63,16 +66,18 @@ class ContactFinder:
     ) -> list[StripContact]:
         """The contacts of one state, left first.
 
-        The two ends are tips or sides as in analytic.friction.contact_length, unless they curl up.
-        Between them a run of nodes on the ground is a tip if it is one point, else a side whose
-        length follows from its forces, as that of an end: either half of it carries its weight and
-        a push. There an inflated part may lie flat too, by the weight on both sides of it.
+        Where nodes push with no gap between them above the roughness is one contact: a tip if it
+        is one point, else a side whose length follows from its forces. An end is one too unless it
+        curls up; pressure does not decide it, but how high it arches. Between the ends either half
+        of a side carries its weight and a push. There an inflated part may lie flat, by the weight
+        on both sides of it.
 
         Args:
             force: of the ground on the nodes, (N,) [N].
             height: of the nodes, (N,) [m].
-            lengths: of side contact of the two ends, see analytic.friction.contact_length: 0 for a
-                tip; used as they are where the strip lies flat as a whole [m].
+            lengths: of side contact of the two ends, see analytic.friction.contact_length: not 0
+                for an end without pressure, whose side may be shorter than a link; used as they
+                are where the strip lies flat as a whole [m].
         """
         pushing = [node for node, push in enumerate(force) if push > 0.0]
         if not pushing:
@@ -91,7 +96,9 @@ class ContactFinder:
             outermost = number == 0 or number == len(runs) - 1
             if outermost and height[end] <= self._lifted:
                 length = lengths[1 if end else 0]
-                if length and not whole:
+                if whole:
+                    length = length or 0.5 * self._place[-1]
+                elif length or len(run) > POINT:
                     length = self._side(run, push, self._place[end])
                 contacts.append(StripContact([end], [1.0], length, load))
             else:
@@ -100,14 +107,12 @@ class ContactFinder:
         return contacts
 
     def _runs(self, pushing: list[int], height: Sequence[float]) -> list[list[int]]:
-        """Nodes that push with no air between them."""
+        """Nodes that push with no gap between them but what roughness closes."""
         runs = [[pushing[0]]]
         for node in pushing[1:]:
             before = runs[-1][-1]
-            if node > before + 1:
-                top = max(height[before + 1 : node])
-                if top > self._lifted and top > _FLAT * (self._place[node] - self._place[before]):
-                    runs.append([])
+            if node > before + 1 and max(height[before + 1 : node]) > self._roughness:
+                runs.append([])
             runs[-1].append(node)
         return runs
 
@@ -122,8 +127,10 @@ class ContactFinder:
         return length_between(self._weight, [self._place[node] for node in run], push)
 
 
-def contacts_of(shapes: ContactShapes, height: Array, state: int) -> list[StripContact]:
+def contacts_of(
+    shapes: ContactShapes, height: Array, state: int, roughness: float = ROUGHNESS
+) -> list[StripContact]:
     """The contacts of one of several states, its nodes at heights of shape (B, N) [m]."""
     lengths = float(shapes.contact_left[state]), float(shapes.contact_right[state])
-    finder = ContactFinder(shapes.robot, shapes.nodes)
+    finder = ContactFinder(shapes.robot, shapes.nodes, roughness)
     return finder.find(shapes.force[state].tolist(), height[state].tolist(), lengths)

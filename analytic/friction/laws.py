@@ -7,10 +7,12 @@ import math
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
-from analytic.checks import one_of, slope
+from analytic.checks import not_negative, one_of, slope
 from analytic.registry import Registry
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Surface
+
+ROUGHNESS = 1e-7  # m; of silicone that is cast in a polished mould; chosen
 
 Number = Any  # a float or an array of floats
 
@@ -96,16 +98,20 @@ class Friction:
         slope: angle by which the ground rises towards +x [rad].
         contacts: where friction acts: at the two "ends", as in [Majidi13], or at "all" places where
             the strip touches the ground, which is more between the ends of a long robot.
+        roughness: of skin and ground: gaps that are not higher count as closed where friction acts
+            at all places; without any an arch of a nanometre would make a tip of a side [m].
 
     Raises:
         ValueError: there is no such law, tension is not in [0, 1], the slope is a right angle or
-            more, or there is a slope and no tension that keeps the robot on it.
+            more, there is a slope and no tension that keeps the robot on it, or roughness is
+            negative.
     """
 
     law: str = "constant"
     tension: float = 0.0
     slope: float = 0.0
     contacts: Literal["ends", "all"] = "ends"
+    roughness: float = ROUGHNESS
 
     def __post_init__(self) -> None:
         one_of("law", self.law, LAWS)
@@ -113,6 +119,7 @@ class Friction:
             raise ValueError(f"tension must lie in [0, 1], got {self.tension!r}")
         slope(self.slope)
         one_of("contacts", self.contacts, ("ends", "all"))
+        not_negative("roughness", self.roughness)
         if self.slope and not self.tension:
             raise ValueError("on a slope friction must bend the strip: tension must be above 0")
 

@@ -30,7 +30,7 @@ def motion(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, M
         raise ValueError(
             "friction at all contacts needs contact forces, which the modes do not give"
         )
-    x, contacts = _contacts(shapes)
+    x, contacts = _contacts(shapes, friction.roughness)
     count = len(shapes)
     left = np.zeros(count)
     changes = np.zeros(count - 1, dtype=bool)
@@ -62,7 +62,7 @@ def undecided_motion(shapes: ContactShapes, ground: Ground, friction: Friction) 
         ground: under the left end at x = 0 and on both sides of it.
         friction: law.
     """
-    x, contacts = _contacts(shapes)
+    x, contacts = _contacts(shapes, friction.roughness)
     left = motion(shapes, ground, friction)[0] if shapes.left is None else shapes.left
     width, total = shapes.robot.width, 0.0
     for i in range(len(shapes) - 1):
@@ -75,11 +75,11 @@ def undecided_motion(shapes: ContactShapes, ground: Ground, friction: Friction) 
     return total
 
 
-def _contacts(shapes: ContactShapes) -> tuple[Array, list[list[StripContact]]]:
+def _contacts(shapes: ContactShapes, roughness: float) -> tuple[Array, list[list[StripContact]]]:
     """Places of the nodes from the left end, (B, N) [m], and contacts of each state, if it has."""
     x, height = shapes.curve(shapes.nodes)
     return x, [
-        contacts_of(shapes, height, i) if np.isfinite(shapes.separation[i]) else []
+        contacts_of(shapes, height, i, roughness) if np.isfinite(shapes.separation[i]) else []
         for i in range(len(shapes))
     ]
 

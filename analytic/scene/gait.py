@@ -13,6 +13,8 @@ from analytic.units import in_unit
 Array = NDArray[np.float64]
 
 _ROUNDING = 1e-9
+_HARDLY = 0.2  # of the peak: the ends of the paper's strip arch over half its length; chosen
+_MUCH, _FINE = 0.5, 10  # change over the peak; states of a ramp to see it by; chosen
 
 
 @dataclass(frozen=True)
@@ -100,6 +102,24 @@ class Gait:
         before = np.maximum.accumulate(fractions, axis=1)[:, :-2]
         after = np.maximum.accumulate(fractions[:, ::-1], axis=1)[:, ::-1][:, 2:]
         return bool((fractions[:, 1:-1] < np.minimum(before, after)).any())
+
+    def lingers(self) -> bool:
+        """Whether an end stays hardly inflated while another segment changes by half the peak.
+
+        Then the strip may lie flat behind that end.
+        """
+        fractions = np.abs(self.pressures(_FINE))
+        steps = np.abs(np.diff(fractions, axis=0))
+        for end in (0, -1):
+            middle = 0.5 * (fractions[1:, end] + fractions[:-1, end])
+            low = (middle > 0) & (middle < _HARDLY)
+            if np.delete(steps[low], end, axis=1).sum(axis=0).max(initial=0.0) >= _MUCH:
+                return True
+        return False
+
+    def between(self) -> bool:
+        """Whether the strip may touch the ground between its ends, as its gait has it."""
+        return self.dips() or self.lingers()
 
     def pressures(self, states_per_ramp: int, cycles: int = 1) -> Array:
         """Fractions of the peak pressure along the gait.

@@ -104,7 +104,7 @@ class BoundedContacts(BoundedFriction):
         super().__init__(scene, numerics, model, data)
         nodes = node_positions(scene.strip, numerics.links)
         press = scene.ground.at(0.0).press(scene.strip.width)
-        self._finder = ContactFinder(scene.strip, nodes, press)
+        self._finder = ContactFinder(scene.strip, nodes, scene.roughness, press)
         self._half = 0.5 * scene.strip.length
         self._tendons = node_tendons(model, len(nodes))
         self._bounds[self._tendons] = 0.0

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from analytic.friction.laws import Friction
-from analytic.friction.motion import undecided_motion
+from analytic.friction.motion import motion, undecided_motion
 from analytic.locomotion import undecided
 from analytic.prediction import Prediction
 from analytic.scene.limbs import limbs_of
@@ -23,6 +23,7 @@ from mjsim.scene import Scene
 
 APART = 1e-3  # difference of displacements, over L, from which on they differ; chosen
 NEARLY = 0.05  # relative difference of nearly equal bounds, and of nearly equal pressures; chosen
+_ROUGHER = 10.0  # than the scene: how far off what is known of a ground may be; chosen
 _ROUNDED = 1.01  # a step that was printed to two digits is short enough
 _FEET = 3  # that stand without falling, if a robot of limbs has so many
 _LINKS, _STATES = 30, 25  # of the elastica that finds the end of the branch
@@ -42,6 +43,7 @@ def cautions(walk: Trajectory, theory: Reference | None, row: dict[str, Any]) ->
     assert isinstance(theory.walk, Prediction)
     return [
         *between_ends(walk.scene),
+        *_rough(walk.scene, theory.walk),
         *_later(walk.scene, theory.walk),
         *_near_ties(walk.scene, theory.walk),
         *near_end(walk.scene, theory.walk),
@@ -108,13 +110,27 @@ def near_end(scene: Scene, prediction: Prediction) -> list[str]:
 
 def between_ends(scene: Scene) -> list[str]:
     """A note on friction where a long robot touches the ground between its ends."""
-    if scene.contacts != "ends" or not scene.gait.dips():
+    if scene.contacts != "ends" or not scene.gait.between():
         return []
     everywhere = replace(scene, contacts="all")
     shift = displacement(everywhere, prediction(everywhere))
     if not np.isfinite(shift):
         return []
     return [f"friction acts at the two ends alone; wherever it touches, {shift:+.4f} L"]
+
+
+def _rough(scene: Scene, prediction: Prediction) -> list[str]:
+    """A note where gaps of a micrometre decide, by the shapes of theory on rougher ground."""
+    shapes, friction = prediction.shapes, scene.reference_friction
+    if not scene.between or not isinstance(shapes, ContactShapes) or not scene.roughness:
+        return []
+    rougher = replace(friction, roughness=_ROUGHER * scene.roughness)
+    smooth, rough = (motion(shapes, scene.ground, law)[0][-1] for law in (friction, rougher))
+    change = float(rough - smooth) / (scene.strip.length * prediction.cycles)
+    if not abs(change) > APART:
+        return []
+    micrometres = 1e6 * rougher.roughness
+    return [f"gaps of less than {micrometres:g} um between the ends decide {abs(change):.4f} L"]
 
 
 def _of_limbs(walk: Trajectory, row: dict[str, Any]) -> list[str]:

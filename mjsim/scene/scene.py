@@ -8,9 +8,9 @@ from typing import Literal
 
 import numpy as np
 
-from analytic.checks import is_number, one_of, positive, slope, whole
+from analytic.checks import is_number, not_negative, one_of, positive, slope, whole
 from analytic.fields import in_si
-from analytic.friction.laws import LAWS, Friction
+from analytic.friction.laws import LAWS, ROUGHNESS, Friction
 from analytic.scene import pneunet
 from analytic.scene.chain import CHAMBER_LAWS
 from analytic.scene.gait import GAITS, Gait
@@ -72,7 +72,11 @@ class Scene:
     contacts: Contacts = "auto"
     """where the constant bounds act: at the two ends; at all places that touch the ground; auto: at
     all of a robot of limbs, and of a strip whose gait ever inflates a segment less than one on
-    either side of it"""
+    either side of it, or keeps an end hardly inflated while another segment changes by half the
+    peak"""
+    roughness: float = ROUGHNESS
+    """of a strip's skin and the ground: gaps that are not higher count as closed where friction
+    acts at all places [m]"""
     slope: float = 0.0
     """the ground rises by this angle [rad]: towards +x"""
     uphill: float = 0.0
@@ -114,6 +118,10 @@ class Scene:
         chambers = self.robot.chambers
         object.__setattr__(self, "gait", for_robot(self.gait, self.robot))
         self.valves.check(len(chambers))
+        not_negative("roughness", self.roughness)
+        if self.roughness != ROUGHNESS and (self.in_space or not self.between):
+            where = "limbs" if self.in_space else "contacts at the ends"
+            raise ValueError(f"roughness does nothing for {where}, got {self.roughness:g}")
         if self.cycles > 1 and not self.gait.repeats:
             raise ValueError(
                 f"cycles must be 1 for gait {self.gait.name!r}, which does not repeat, got "
@@ -198,7 +206,7 @@ class Scene:
         """Tell whether friction acts between the ends of a strip, or at all contacts of limbs."""
         if self.in_space:
             return True
-        return self.contacts == "all" or (self.contacts == "auto" and self.gait.dips())
+        return self.contacts == "all" or (self.contacts == "auto" and self.gait.between())
 
     @property
     def incline(self) -> Incline:
@@ -208,7 +216,8 @@ class Scene:
     @property
     def reference_friction(self) -> Friction:
         """The friction that the quasi-static prediction takes, as strong as in the simulation."""
-        return Friction(self.friction, 1.0, self.slope, "all" if self.between else "ends")
+        where: Literal["all", "ends"] = "all" if self.between else "ends"
+        return Friction(self.friction, 1.0, self.slope, where, self.roughness)
 
     @property
     def rise_time(self) -> float:

@@ -80,7 +80,7 @@ class StickSlip:
         self._nodes = node_positions(chain.robot, chain.links)
         self._press = ground.at(0.0).press(chain.robot.width)
         self._air = ripple(chain.robot, self._nodes)
-        self._finder = ContactFinder(chain.robot, self._nodes, self._press)
+        self._finder = ContactFinder(chain.robot, self._nodes, friction.roughness, self._press)
         self._law = LAWS[friction.law]
         self._by_speed = depends_on_speed(ground)
         self._pull = friction.downhill(chain.robot) / chain.force_unit

@@ -81,7 +81,8 @@ def test_a_strip_on_its_two_ends_goes_as_by_the_anchor_rule(surface, gait):
         predict(Robot(), GAITS[gait], ground, friction=friction).locomotion.per_cycle
         for friction in (Friction(), ALL)
     )
-    assert everywhere == pytest.approx(ends, abs=1e-9 * Robot().length)
+    # at its ends alone one with less than PASSIVE is a side, elsewhere a tip once its arch is told
+    assert everywhere == pytest.approx(ends, abs=1e-6 * Robot().length)
 
 
 # two waves of two inflated segments run along eight, each as long as those of the default robot
@@ -108,12 +109,13 @@ def test_friction_between_the_ends_more_than_halves_the_way_of_a_long_robot(shap
 
 
 def between(shapes):
-    """Nodes that push in each contact between the ends, of all states."""
-    height = shapes.curve(shapes.nodes)[1]
+    """Nodes that push in each contact in the inner six of eight segments, of all states."""
+    height, count = shapes.curve(shapes.nodes)[1], len(shapes.nodes)
     return [
         len(contact.nodes)
         for state in range(len(shapes))
-        for contact in contacts_of(shapes, height, state)[1:-1]
+        for contact in contacts_of(shapes, height, state)
+        if count / 8 < contact.nodes[0] and contact.nodes[-1] < count * 7 / 8
     ]
 
 
