@@ -11,6 +11,7 @@ from walks import refusal
 from analytic import Gait, Robot, Surface
 from analytic.scene import pneunet
 from mjsim.commands import run
+from mjsim.commands.compare import compare
 from mjsim.files.tables import build
 from mjsim.files.written import as_tables
 from mjsim.fitting.walks import quasi_static
@@ -124,6 +125,14 @@ def test_the_reference_says_that_it_knows_no_ceiling_only_where_one_is_touched()
     with pytest.raises(ValueError, match="ceiling must be above all that the robot does"):
         prediction(low, "lifted")
     assert quasi_static(low, Numerics(), (0.5,)) is None
+
+
+def test_models_without_a_ceiling_are_refused_in_their_row_of_a_comparison():
+    rows = compare(Scene(ceiling="30 mm"), ("lifted", "rod", "chain"), Numerics(12, 0.02))
+    status = {row["model"]: row["status"] for row in rows}
+    assert status["lifted"].startswith("refused: ceiling must be above all that the robot does")
+    assert status["rod"].startswith("refused: body must be chain below a ceiling")
+    assert status["chain"] == "ok"
 
 
 @pytest.mark.parametrize("robot", ["strip", "quadruped"])
