@@ -16,6 +16,7 @@ from mjsim.scene import Numerics, Scene
 
 PROGRAM = "python -m studies.gallery"
 _LEFT, _RAMP, _STEP = 0.7, 8.0, 0.02  # of the quadruped: left pressure, s, s
+_GAP = 0.019  # m; 3/4 inch
 _SPINS = 2  # cycles of turning on the spot
 
 
@@ -24,8 +25,9 @@ class Options:
     """Walk one cycle on each named surface and film it.
 
     Writes one video per surface, one of all, and a picture of the start and the end of the cycle on
-    each; then the quadruped, one video per surface, one of a gait that turns it, one of turning on
-    the spot, and a picture of stages. Exit code 0: done; 2: bad input; 3: nothing here can render.
+    each; then the quadruped, one video per surface, one below a ceiling, one of a gait that turns
+    it, one of turning on the spot, and a picture of stages. Exit code 0: done; 2: bad input; 3:
+    nothing here can render.
     """
 
     out: Path = Path("docs")
@@ -73,6 +75,7 @@ def _quadrupeds() -> dict[str, Scene]:
             name: Scene(quadruped(), gait=straight, ground=surface)
             for name, surface in SURFACES.items()
         },
+        "gap": Scene(quadruped(), gait=straight, ground=SURFACES["felt"], ceiling=_GAP),
         "turn": Scene(quadruped(), gait=turn, ground=gelatin),
         "spin": Scene(quadruped(), gait=spin, ground=gelatin, cycles=_SPINS),
     }

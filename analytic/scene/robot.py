@@ -111,6 +111,11 @@ class Robot:
         return _THREE if count == 3 else tuple(f"{number}" for number in range(1, count + 1))
 
     @property
+    def flat_height(self) -> float:
+        """Height of the flat strip over the ground: its layer, and the chambers on it [m]."""
+        return self.thickness + self.chamber_height
+
+    @property
     def weight(self) -> float:
         """Of the whole robot [N]."""
         return self.weight_per_length * self.length

@@ -103,12 +103,15 @@ def compare(scene: Scene, models: Sequence[str], numerics: Numerics | None = Non
     exact = _reference(scene, numerics)
     rows = []
     for model in models:
-        if model == reference_name(scene):
-            row = exact
-        elif model in SOLVERS:
-            row = _weak(scene, model)
-        else:
-            row = _simulated(replace(scene, body=model), numerics)
+        try:
+            if model == reference_name(scene):
+                row = exact
+            elif model in SOLVERS:
+                row = _weak(scene, model)
+            else:
+                row = _simulated(replace(scene, body=model), numerics)
+        except ValueError as error:
+            row = _row(None, None, None, f"refused: {error}")
         shift, zero = row["displacement_over_L"], exact["displacement_over_L"]
         comparable = shift is not None and zero is not None
         row = {

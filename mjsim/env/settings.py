@@ -10,7 +10,7 @@ import numpy as np
 
 from analytic.checks import is_number, positive
 from analytic.scene.limbs import LimbedRobot, limbs_of
-from mjsim.files.keys import INCLINE
+from mjsim.files.keys import WITH_ANY_SURFACE
 from mjsim.files.quantities import check_field, field_value, with_fields
 from mjsim.files.tables import Tables, build
 from mjsim.scene import Numerics, Resolved, Scene, resolved
@@ -59,7 +59,7 @@ class Settings:
     def __post_init__(self) -> None:
         positive("control_period", self.control_period, "s")
         positive("duration", self.duration, "s")
-        ground = self.base.get("ground", {}).keys() - set(INCLINE)
+        ground = self.base.get("ground", {}).keys() - set(WITH_ANY_SURFACE)
         if self.surfaces is None and not ground:
             object.__setattr__(self, "surfaces", ("gelatin",))
         elif self.surfaces is not None and not self.surfaces:

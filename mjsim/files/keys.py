@@ -62,11 +62,17 @@ class GroundKeys:
     """the ground rises by this angle [deg]: towards +x"""
     uphill_deg: float = 0.0
     """or of a robot of limbs towards this direction, from +x to the left [deg]"""
+    ceiling: float | None = None
+    """height of a rigid ceiling over the ground, which the robot is to pass below [m]"""
+    ceiling_friction: float = 0.0
+    """coefficient of the ceiling's friction, by load under either law [1]"""
 
 
 OF_A_LOG = ("columns", "cycle", "commands")
 TRAPEZOID = ("lag", "duty", "ramp")
 INCLINE = ("slope_deg", "uphill_deg")
+CEILING = ("ceiling", "ceiling_friction")
+WITH_ANY_SURFACE = tuple(field.name for field in fields(GroundKeys))  # keys of [ground]
 SIDES = ("left", "right")  # of the quadruped
 SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation", "gravity",
                 "settle_time")  # fmt: skip
@@ -80,7 +86,7 @@ KEYS: Mapping[str, tuple[str, ...]] = {
     "robot": (*(field.name for field in fields(Robot)), *LIMB_KEYS),
     "gait": tuple(field.name for field in fields(GaitKeys)),
     "valves": tuple(field.name for field in fields(Valves)),
-    "ground": ("surface", *SURFACE_FIELDS, *INCLINE, "patches"),
+    "ground": ("surface", *SURFACE_FIELDS, *WITH_ANY_SURFACE, "patches"),
     "numerics": (*SCENE_FIELDS, *(field.name for field in fields(Numerics))),
 }
 NAMES = tuple(KEYS)

@@ -14,12 +14,12 @@ from mjsim.files.cli import ALL, Plugins
 from mjsim.files.dataclass_options import given, optional, parts
 from mjsim.files.gait_files import is_file
 from mjsim.files.keys import (
-    INCLINE,
     KEYS,
     SCENE_FIELDS,
     SIDES,
     SURFACE_FIELDS,
     TRAPEZOID,
+    WITH_ANY_SURFACE,
     GaitKeys,
     GroundKeys,
 )
@@ -40,7 +40,14 @@ _GaitOptions = optional(
     {"columns": "--columns", "cycle": "--cycle"},
 )
 _GroundOptions = optional(
-    "GroundOptions", {GroundKeys: INCLINE}, {"slope_deg": "--slope", "uphill_deg": "--uphill"}
+    "GroundOptions",
+    {GroundKeys: WITH_ANY_SURFACE},
+    {
+        "slope_deg": "--slope",
+        "uphill_deg": "--uphill",
+        "ceiling": "--ceiling",
+        "ceiling_friction": "--ceiling-friction",
+    },
 )
 _NumericsOptions = optional(
     "NumericsOptions",
@@ -98,7 +105,7 @@ class SceneOptions:
     ground_: Annotated[_GroundOptions, tyro.conf.arg(name="ground")] = field(
         default_factory=_GroundOptions
     )
-    """how the ground lies"""
+    """how the ground lies, and what is above it"""
     numerics_: Annotated[_NumericsOptions, tyro.conf.arg(name="numerics")] = field(
         default_factory=_NumericsOptions
     )

@@ -8,7 +8,8 @@
                 side get
     [valves]    fields of mjsim.scene.Valves: time constants, dead time, flow limit
     [ground]    surface, a name; or fields of analytic.Surface; or patches beside each other,
-                [[ground.patches]] with `from` [m] and a surface; slope_deg, uphill_deg
+                [[ground.patches]] with `from` [m] and a surface; slope_deg, uphill_deg,
+                ceiling
     [numerics]  body, friction, cycles, ... of mjsim.Scene, and fields of mjsim.Numerics
 
 Every table and every key is optional over the defaults. A number may be a text with its unit, as in
@@ -30,6 +31,7 @@ from analytic.scene.surface import SURFACES, Ground, Surface
 from analytic.scene.trapezoid import trapezoid
 from mjsim.files.gait_files import is_log, shortest_ramp
 from mjsim.files.keys import (
+    CEILING,
     INCLINE,
     NAMES,
     OF_A_LOG,
@@ -37,6 +39,7 @@ from mjsim.files.keys import (
     SIDES,
     SURFACE_FIELDS,
     TRAPEZOID,
+    WITH_ANY_SURFACE,
     GaitKeys,
     check_keys,
 )
@@ -77,7 +80,7 @@ def merged(*layers: Tables) -> Tables:
     for layer in layers:
         for name, table in layer.items():
             if name == "ground" and {"surface", "patches"} & table.keys():
-                result[name] = {k: v for k, v in result[name].items() if k in INCLINE}
+                result[name] = {k: v for k, v in result[name].items() if k in WITH_ANY_SURFACE}
             if name == "robot" and of_limbs(table):
                 result[name] = {k: v for k, v in result[name].items() if k not in LIMB_KEYS}
             if name == "gait" and {"name", "stages", "file", *TRAPEZOID} & table.keys():
@@ -126,12 +129,14 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
         math.radians(as_type(float, ground.get(key, 0.0), f"{where}[ground] {key}", "deg"))
         for key in INCLINE
     )
+    above = {key: ground[key] for key in CEILING if key in ground}
+    above = checked(Scene, above, f"{where}[ground] ")
     scene_values = {key: value for key, value in values.items() if key in SCENE_FIELDS}
     checked_values = checked(Scene, scene_values, f"{where}[numerics] ")
     under = build_ground(ground, f"{where}[ground] ")
     try:
         scene = Scene(robot=robot, gait=gait, ground=under, slope=slope, uphill=uphill,
-                      valves=valves, **checked_values)  # fmt: skip
+                      valves=valves, **above, **checked_values)  # fmt: skip
         resolved(scene, numerics)
     except ValueError as error:
         word = str(error).split(maxsplit=1)[0]
@@ -148,7 +153,7 @@ def build_ground(table: Table, where: str = "") -> Ground:
     if "patches" not in table:
         return build_surface(table, where)
     patches = table["patches"]
-    uniform = [key for key in table if key not in ("patches", *INCLINE)]
+    uniform = [key for key in table if key not in ("patches", *WITH_ANY_SURFACE)]
     if uniform:
         raise ValueError(f"{where}patches or {uniform[0]} must be given, not both")
     if not (isinstance(patches, list) and all(isinstance(patch, dict) for patch in patches)):

@@ -8,10 +8,10 @@ from typing import Any
 
 import tomli_w
 
-from analytic.scene.ground import Incline, Patches
+from analytic.scene.ground import Patches
 from analytic.scene.limbs import Limb, limbs_of
-from analytic.scene.surface import SURFACES, Ground, Surface
-from mjsim.files.keys import INCLINE, SCENE_FIELDS, SURFACE_FIELDS
+from analytic.scene.surface import SURFACES, Surface
+from mjsim.files.keys import CEILING, INCLINE, SCENE_FIELDS, SURFACE_FIELDS
 from mjsim.files.limb_tables import PEAK
 from mjsim.files.tables import Tables
 from mjsim.files.typed import Table
@@ -41,7 +41,7 @@ def as_tables(scene: Scene, numerics: Numerics) -> Tables:
         "gait": _plain({"name": gait.name, "stages": gait.stages, "ramp_time": gait.ramp_time,
                         "repeats": gait.repeats}),
         **({} if scene.valves.ideal else {"valves": _plain(asdict(scene.valves))}),
-        "ground": _ground(scene.ground, scene.incline),
+        "ground": _ground(scene),
         "numerics": _plain({name: getattr(scene, name) for name in SCENE_FIELDS} | named),
     }  # fmt: skip
 
@@ -60,9 +60,12 @@ def as_toml(tables: Tables, comments: Sequence[str] = ()) -> str:
     return above + _LIST.sub(lambda numbers: f"[{' '.join(numbers[1].split())}]", text)
 
 
-def _ground(ground: Ground, incline: Incline) -> Table:
-    angles = zip(INCLINE, incline, strict=True)
+def _ground(scene: Scene) -> Table:
+    ground = scene.ground
+    angles = zip(INCLINE, scene.incline, strict=True)
     table: Table = {key: math.degrees(angle) for key, angle in angles if angle}
+    if scene.ceiling is not None:
+        table |= {key: getattr(scene, key) for key in CEILING}
     if isinstance(ground, Surface):
         return {**_surface(ground), **table}
     if not isinstance(ground, Patches):

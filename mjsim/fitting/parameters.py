@@ -8,7 +8,7 @@ from typing import Any
 from analytic.scene.limbs import AnyRobot, limbs_of
 from analytic.scene.robot import GRAVITY, Robot
 from analytic.scene.surface import SURFACES, Ground
-from mjsim.files.keys import INCLINE, NAMES, SURFACE_FIELDS, check_keys
+from mjsim.files.keys import NAMES, SURFACE_FIELDS, WITH_ANY_SURFACE, check_keys
 from mjsim.files.limb_tables import build_robot, of_limbs
 from mjsim.files.quantities import field_unit, spelled_out, with_fields
 from mjsim.files.tables import Tables, build_ground
@@ -157,8 +157,8 @@ def _ground(ground: Table, surface: str | None) -> Table:
     if surface is None:
         return ground
     if surface in SURFACES:
-        slope = {key: value for key, value in ground.items() if key in INCLINE}
-        return {**slope, "surface": surface}
+        kept = {key: value for key, value in ground.items() if key in WITH_ANY_SURFACE}
+        return {**kept, "surface": surface}
     return {**spelled_out(ground, _SUFFIX), "surface": surface}
 
 

@@ -24,7 +24,7 @@ from mjsim.files.tables import Tables, build
 from mjsim.fitting.observations import RUN, Run, Series
 from mjsim.fitting.parameters import robot_of, with_values
 from mjsim.results.measures import measure
-from mjsim.results.prediction import reference
+from mjsim.results.prediction import clears, reference
 from mjsim.scene import Numerics, Scene, resolved
 from mjsim.simulation.simulation import simulate
 
@@ -95,12 +95,13 @@ def quasi_static(scene: Scene, numerics: Numerics, places: tuple[float, ...]) ->
         friction=scene.reference_friction, cycles=scene.cycles,
         path=scene.robot.peak_pressure * fractions, times=times,
     )  # fmt: skip
-    if not math.isfinite(walk.locomotion.per_cycle):
+    height = float(walk.shapes.amplitude.max())
+    if not (math.isfinite(walk.locomotion.per_cycle) and clears(scene, height)):
         return None
     x, z = walk.shapes.curve(np.array(places) * scene.robot.length)
     return Motion(
         walk.times, walk.locomotion.left[:, None] + x, z, places,
-        float(walk.by_cycle[-1]), float(walk.shapes.amplitude.max()), 0.0, scene.gait.period,
+        float(walk.by_cycle[-1]), height, 0.0, scene.gait.period,
     )  # fmt: skip
 
 
@@ -109,6 +110,8 @@ def _quasi_static_limbs(
 ) -> Motion | None:
     theory, links = reference(scene, numerics), resolved(scene, numerics).links
     assert isinstance(theory.walk, Path)
+    if not clears(scene, theory.height):
+        return None
     nodes = np.array([rest.nodes for rest in theory.walk.rests])
     half = nodes.shape[1] // 2
     trunk = 0.5 * (nodes[:, : links + 2] + nodes[:, half : half + links + 2])

@@ -4,6 +4,8 @@ The length follows from the ground's forces, finer than the pads; see
 analytic.friction.contact_length. Plain floats: numpy is slow on a few numbers.
 """
 
+from collections.abc import Iterable
+
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -42,7 +44,8 @@ class ContactForces:
         place = np.full(model.ngeom, np.nan)
         place[pads] = arclength[:, None]
         self._place: list[float] = place.tolist()  # arclength of a pad, by its geom
-        self._node: list[int] = node_of_geom(model, pads).tolist()
+        self._node: list[int] = node_of_geom(model, pads, other=-1).tolist()
+        self._pads_alone = scene.ceiling is None
         pyramidal = model.opt.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
         self._pyramidal = bool(pyramidal) and model.geom_condim[pads[0, 0]] > 1
         self._six = np.zeros(6)
@@ -70,7 +73,7 @@ class ContactForces:
     def by_node(self) -> tuple[list[float], list[float]]:
         """Normal force on each node and its height, (N + 2,) each [N, m]."""
         force = [0.0] * len(self._rows)
-        for geom, push in zip(self._data.contact.geom2.tolist(), self._pushes(), strict=True):
+        for geom, push in self._touching():
             force[self._node[geom]] += push
         return force, (self._pad_heights() - self._radius).tolist()
 
@@ -86,7 +89,7 @@ class ContactForces:
         middle, end, place = self._arclength[heights.index(top)], self._length, self._place
         left = right = moment_left = moment_right = 0.0
         # the ground is a plane, and MuJoCo names the plane of a pair first
-        for geom, push in zip(self._data.contact.geom2.tolist(), self._pushes(), strict=True):
+        for geom, push in self._touching():
             s = place[geom]
             if s < middle:
                 left += push
@@ -99,6 +102,13 @@ class ContactForces:
     def _pad_heights(self) -> Array:
         """Heights of the centres of one pad per node, (N + 2,) [m]."""
         return self._heights if self._only_pads else self._heights[self._rows]
+
+    def _touching(self) -> Iterable[tuple[int, float]]:
+        """Pads that touch the ground, and the normal force on each [N]."""
+        pairs = zip(self._data.contact.geom2.tolist(), self._pushes(), strict=True)
+        if self._pads_alone:
+            return pairs
+        return [(geom, push) for geom, push in pairs if self._node[geom] >= 0]
 
     def _pushes(self) -> list[float]:
         """Normal force of each contact [N]."""

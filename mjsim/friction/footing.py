@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from analytic.friction.contact_length import may_lie_flat
 from mjsim.friction.between_ends import BoundedContacts, ContactFrictionEverywhere
+from mjsim.friction.ceiling import CeilingPush
 from mjsim.friction.in_plane import LimbFooting
 from mjsim.friction.traction import BoundedEnds, ContactFriction
 from mjsim.model.body import Joints
@@ -17,6 +18,8 @@ from mjsim.results.status import FALLEN, THROWN
 from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
+
+_COLUMNS = ("contact_left", "contact_right", "left_slip_fraction", "drift")
 
 
 class Footing(Protocol):
@@ -56,9 +59,10 @@ class StripFooting:
         scene, numerics: what is simulated.
         model, data: as compiled.
         joints: of the body.
-    """
 
-    columns: tuple[str, ...] = ("contact_left", "contact_right", "left_slip_fraction", "drift")
+    Attributes:
+        columns: see Footing.
+    """
 
     def __init__(
         self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData,
@@ -70,6 +74,8 @@ class StripFooting:
         )  # fmt: skip
         law = by_load if scene.friction == "coulomb" else bounded
         self._law = law(scene, numerics, model, data)
+        self._ceiling = CeilingPush(model, data)
+        self.columns = (*_COLUMNS, *self._ceiling.columns)
         self._slopes, self._shift, self._dt = joints.slopes, joints.shift, numerics.timestep
         self._before, self._after = self._law.before_step, self._law.after_step
         self._peak = scene.robot.peak_pressure
@@ -96,7 +102,8 @@ class StripFooting:
         if excess:
             self._shift(excess)
         law = self._law
-        return law.contact_left, law.contact_right, law.left_slip, law.drift
+        pushed = self._ceiling.numbers()
+        return law.contact_left, law.contact_right, law.left_slip, law.drift, *pushed
 
     def stands(self) -> bool:
         """Tell whether both ends are still feet, and the strip is not thrown."""

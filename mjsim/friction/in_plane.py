@@ -20,6 +20,7 @@ from analytic.scene.chain import link_lengths
 from analytic.solvers.limbs.contacts import Contact, Contacts
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.rest import Rest
+from mjsim.friction.ceiling import CeilingPush
 from mjsim.friction.point_friction import STANDS, PointFriction
 from mjsim.model.limbs import joints_to, limbed, link_prefix, points_of
 from mjsim.model.pads import edges, node_of_geom, pads_of
@@ -45,10 +46,9 @@ class LimbFooting:
         model, data: as compiled.
 
     Attributes:
+        columns: see Footing.
         contacts: in the coming step.
     """
-
-    columns: tuple[str, ...] = ("contacts",)
 
     def __init__(
         self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
@@ -56,6 +56,8 @@ class LimbFooting:
         robot = limbed(scene)
         self._model, self._data, self._numerics = model, data, numerics
         self._ground, self._length = scene.ground, robot.length
+        self._ceiling = CeilingPush(model, data)
+        self.columns = ("contacts", *self._ceiling.columns)
         self._tree = Tree(robot, numerics.links, incline=scene.incline)
         self._finder = Contacts(self._tree, scene.friction)
         self.contacts: list[Contact] = []
@@ -80,7 +82,7 @@ class LimbFooting:
         self._trunk = self._links[0][0], self._links[0][-1], length
         self._starts = [starts.tolist() for starts in self._tree.starts]
         self._pads = edges(pads_of(model, scene))
-        self._node_of_geom = node_of_geom(model, self._pads)
+        self._node_of_geom = node_of_geom(model, self._pads, other=-1)
         mass = robot.weight / scene.gravity
         self._viscosity = mass / numerics.tie_time  # of all points together [N s/m]
         mujoco.mj_kinematics(model, data)
@@ -135,10 +137,9 @@ class LimbFooting:
         data = self._data
         contact = data.contact
         row = contact.efc_address
-        acts = row >= 0
-        force = np.bincount(
-            self._node_of_geom[contact.geom2[acts]], data.efc_force[row[acts]], len(self._pads)
-        )
+        node = self._node_of_geom[contact.geom2]
+        acts = (row >= 0) & (node >= 0)
+        force = np.bincount(node[acts], data.efc_force[row[acts]], len(self._pads))
         nodes = data.geom_xpos[self._pads]
         nodes[:, 2] -= self._numerics.pad_radius
         return Rest(data.qpos, nodes, np.asarray(force, dtype=float), True)
@@ -213,12 +214,12 @@ class LimbFooting:
         step: of it the motion of the whole that explains most is taken off.
 
         Returns:
-            Number of limbs that touched the ground in the step.
+            Number of limbs that touched the ground in the step, and the ceiling's push.
         """
         model, data, dt = self._model, self._data, self._numerics.timestep
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
-        touching = (float(len({contact.limb for contact in self.contacts})),)
+        touching = (float(len({c.limb for c in self.contacts})), *self._ceiling.numbers())
         if not self._resisting:
             return touching
         moved = [(point.bound + STANDS, *point.after_step(data, dt)) for point in self._resisting]

@@ -75,7 +75,9 @@ class ContactRecorder:
         contact = kind == _CONTACT
         begins = np.cumsum([0, *(len(part) for part in geoms)])  # of the contacts of each step
         geom = np.concatenate(geoms)[begins[step[contact]] + ids[contact]]
-        np.add.at(normal, (step[contact], self._node_of_geom[geom]), force[contact])
+        node = self._node_of_geom[geom]
+        pad = node >= 0
+        np.add.at(normal, (step[contact][pad], node[pad]), force[contact][pad])
 
         tendon = kind == _TENDON
         step, ids, force = step[tendon], ids[tendon], force[tendon]
@@ -96,8 +98,10 @@ class ContactRecorder:
         normal, friction = np.zeros((2, self._nodes))
         contacts = self._data.contact
         for i, (geom, frame) in enumerate(zip(contacts.geom2, contacts.frame, strict=True)):
-            mujoco.mj_contactForce(self._model, self._data, i, self._six)
             node = self._node_of_geom[geom]
+            if node < 0:  # the ceiling's
+                continue
+            mujoco.mj_contactForce(self._model, self._data, i, self._six)
             normal[node] += self._six[0]
             friction[node] += self._six[1] * frame[3] + self._six[2] * frame[6]
         return normal, friction

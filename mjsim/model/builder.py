@@ -4,6 +4,7 @@ import mujoco
 import numpy as np
 
 from mjsim.files.assets import BARE
+from mjsim.model.ceiling import add_ceiling
 from mjsim.model.limbs import tree_spec
 from mjsim.model.parts import PREFIX, set_options, start_height
 from mjsim.model.stage import stage
@@ -45,6 +46,7 @@ def on_ground(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> mujoco.M
         # not by a frame, which dm_control does not read
         item.pos = np.add(item.pos, (0.0, 0.0, height))
     spec.attach(strip, prefix=PREFIX, frame=spec.worldbody.add_frame())
+    add_ceiling(spec, scene, numerics)
     return spec
 
 

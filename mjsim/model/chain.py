@@ -20,6 +20,7 @@ from analytic.scene.chain import (
 )
 from mjsim.model import parts
 from mjsim.model.body import Joints
+from mjsim.model.ceiling import add_upper_edges
 from mjsim.model.links import UP, add_links
 from mjsim.model.pneumatics import add_actuators, controls
 from mjsim.scene import Resolved, Scene
@@ -56,6 +57,8 @@ class Chain:
         first.add_joint(name="pitch", axis=UP)
         for number, (body, place) in enumerate(nodes):
             parts.add_pads(body, scene, numerics, number, [place])
+        if scene.ceiling is not None:
+            add_upper_edges([body for body, _ in nodes[:-1]], scene, numerics)
         parts.add_ends(spec, scene, nodes)
         if scene.actuation == "actuators":
             add_actuators(spec, scene, numerics)

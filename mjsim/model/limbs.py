@@ -17,10 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene import pneunet
-from analytic.scene.chain import joint_springs
+from analytic.scene.chain import joint_springs, link_lengths
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb, limbs_of, rotation
 from analytic.solvers.limbs.contacts import ripple
 from mjsim.model import parts
+from mjsim.model.ceiling import add_ceiling, add_upper_edge
 from mjsim.model.links import UP, add_links
 from mjsim.model.parts import PREFIX, Node
 from mjsim.scene import Resolved, Scene
@@ -117,6 +118,7 @@ def tree_spec(
         chains[limb.name] = nodes
     if with_friction:
         _add_friction(spec, robot, numerics)
+    add_ceiling(spec, scene, numerics)
     return spec
 
 
@@ -141,12 +143,17 @@ def _add_limb(carrier: mujoco.MjsBody, scene: Scene, numerics: Resolved, limb: L
                       twists=twist_prefix(limb.name))  # fmt: skip
     for body, _ in nodes[:-1]:
         body.inertia[2] *= 1 - _THIN
+    lengths = link_lengths(limb.strip, numerics.links).tolist()
     for number, (body, (x, _, _)) in enumerate(nodes):
         for side, y in (("right", -0.5 * width), ("left", 0.5 * width)):
             name = f"{PREFIX}{limb.name}_pad_{number}_{side}"
             pad = parts.add_pad(body, name, (x, y, 0.0), numerics)
             pad.solref[:] = numerics.contact_time * numerics.timestep, 1.0
             pad.solimp[:3] = impedance, impedance, 0.001
+            if scene.ceiling is not None and number < len(lengths):
+                edge = f"{PREFIX}{limb.name}_top_{number}_{side}"
+                add_upper_edge(body, edge, limb.strip, lengths[number], y,
+                               (pad.solref, pad.solimp[:3]), scene.ceiling_friction)  # fmt: skip
     return nodes
 
 

@@ -146,7 +146,7 @@ def _show_links(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
     robot = scene.strip
     lengths = link_lengths(robot, numerics.links)
     segment = segment_overlap(robot.borders, numerics.links).argmax(axis=1)
-    height = robot.thickness + robot.chamber_height
+    height = robot.flat_height
     for link, length in enumerate(lengths.tolist()):
         shade = _DARKER if segment[max(link - 1, 0)] % 2 else 1.0
         box = spec.body(f"{PREFIX}link_{link}").add_geom(name=f"{PREFIX}look_{link}")

@@ -22,6 +22,7 @@ from analytic.scene.limbs import AnyRobot, LimbedRobot
 from analytic.scene.surface import Surface
 from analytic.solvers.models import SOLVERS, Elastica
 from analytic.uncertainty import flagged_change
+from mjsim.results.prediction import clears
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.scene import Contacts
 
@@ -134,7 +135,8 @@ class Objective:
             return [-math.inf] * len(surfaces)
         return [
             (self.sign * walk.locomotion.per_cycle - flagged_change(walk)) / robot.length
-            if math.isfinite(walk.locomotion.per_cycle) else -math.inf
+            if math.isfinite(walk.locomotion.per_cycle)
+            and clears(scene, float(walk.shapes.amplitude.max())) else -math.inf
             for walk in walks
         ]  # fmt: skip
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from analytic.scene.limbs import plan
 from analytic.scene.robot import Robot
+from mjsim.model.ceiling import stretch
 from mjsim.model.limb_skins import add_camera, add_skins
 from mjsim.model.limbs import limbed, tree_spec
 from mjsim.model.stage import stage
@@ -41,8 +42,9 @@ class LimbLook(Look):
         self.model.stat.extent *= robot.length / Robot.length
         sizes = self.model.geom_size
         sizes[self.grounds, :2] = np.maximum(sizes[self.grounds, :2], reach)
+        stretch(self.model, reach)
         strips = [limb.strip for limb in robot.limbs for _ in limb.strip.segments]
-        self._thickness = [strip.thickness + strip.chamber_height for strip in strips]
+        self._thickness = [strip.flat_height for strip in strips]
 
     def pose(self, position: Array, coordinates: Array, fractions: Array) -> None:
         """Pose as Look.pose does; chambers look thicker as they fill."""

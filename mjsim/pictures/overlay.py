@@ -50,7 +50,10 @@ class Overlay(ABC):
         time = f"t = {max(0.0, float(walk.time[step])):4.1f} s"
         if self._faster > 1:
             time += f", {self._faster:g} times as fast"
-        words = (walk.scene.ground.name, f"gait {walk.scene.gait.name}", time)
+        gait, ceiling = f"gait {walk.scene.gait.name}", walk.scene.ceiling
+        if ceiling is not None:
+            gait += f", below {1e3 * ceiling:g} mm"
+        words = (walk.scene.ground.name, gait, time)
         self._write(pen, edge, [(text, INK) for text in words], "la")
         self._write(pen, picture.width - edge, self._displacement(step), "ra")
         self._draw_state(pen, picture.width, step)

@@ -11,6 +11,7 @@ from analytic.scene.ground import Patches
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground
 from mjsim.model.builder import scene_spec
+from mjsim.model.ceiling import stretch
 from mjsim.model.skin import add_skins
 from mjsim.pictures.look import Look
 from mjsim.scene import Numerics, Resolved, Scene, resolved
@@ -38,6 +39,7 @@ class StripLook(Look):
             more(spec)
         super().__init__(spec, scene)
         self._fit(scene, reach)
+        stretch(self.model, reach)
 
     def _bend(self, position: Array, coordinates: Array) -> None:
         (nodes,) = position

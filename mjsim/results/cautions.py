@@ -36,12 +36,14 @@ def cautions(walk: Trajectory, theory: Reference | None, row: dict[str, Any]) ->
         walk, theory: the walk and its reference, None if it has none.
         row: its record, see mjsim.results.record.
     """
+    above = _of_ceiling(row)
     if walk.scene.in_space:
-        return _of_limbs(walk, row)
+        return above + _of_limbs(walk, row)
     if theory is None or row["predicted_displacement_over_L"] is None:
-        return []
+        return above
     assert isinstance(theory.walk, Prediction)
     return [
+        *above,
         *between_ends(walk.scene),
         *_rough(walk.scene, theory.walk),
         *_later(walk.scene, theory.walk),
@@ -112,7 +114,7 @@ def between_ends(scene: Scene) -> list[str]:
     """A note on friction where a long robot touches the ground between its ends."""
     if scene.contacts != "ends" or not scene.gait.between():
         return []
-    everywhere = replace(scene, contacts="all")
+    everywhere = replace(scene, contacts="all", ceiling=None)
     shift = displacement(everywhere, prediction(everywhere))
     if not np.isfinite(shift):
         return []
@@ -131,6 +133,14 @@ def _rough(scene: Scene, prediction: Prediction) -> list[str]:
         return []
     micrometres = 1e6 * rougher.roughness
     return [f"gaps of less than {micrometres:g} um between the ends decide {abs(change):.4f} L"]
+
+
+def _of_ceiling(row: dict[str, Any]) -> list[str]:
+    """A note on how long and how strongly the ceiling is touched."""
+    if not row["ceiling_time_fraction"]:
+        return []
+    return [f"at the ceiling for {row['ceiling_time_fraction']:.0%} of the time, by up to "
+            f"{1e3 * row['ceiling_force_N']:.0f} mN"]  # fmt: skip
 
 
 def _of_limbs(walk: Trajectory, row: dict[str, Any]) -> list[str]:

@@ -71,8 +71,11 @@ def bending(walk: "Trajectory") -> Bending:
 
 
 def balance(walk: "Trajectory") -> Balance | None:
-    """Balance in every state; None where the ground's forces were not recorded."""
-    if walk.forces is None:
+    """Balance in every state; None where the ground's forces were not recorded.
+
+    None too where a ceiling pressed, whose force is known as a whole, not by place.
+    """
+    if walk.forces is None or walk.ceiling_force.any():
         return None
     scene, dt = walk.scene, walk.numerics.timestep
     weights = scene.strip.weight_per_length * link_lengths(scene.strip, walk.numerics.links)

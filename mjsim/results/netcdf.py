@@ -54,6 +54,9 @@ def variables(walk: "Trajectory") -> Iterator[Variable]:
     yield Variable("x", nodes, x, "m", "position of the vertices along the ground")
     yield Variable("y", nodes, y, "m", "position of the vertices to the left of the x-axis")
     yield Variable("height", nodes, z, "m", "height of the vertices over flat rest")
+    if len(walk.ceiling_force):
+        yield Variable("ceiling_force", ("time",), walk.ceiling_force, "N",
+                       "push of the ceiling on the robot, downwards")  # fmt: skip
     yield Variable("coordinates", ("time", "dof"), walk.coordinates, "1",
                    "generalised coordinates of MuJoCo, in m and rad")  # fmt: skip
     for name in ("wall_time", "cpu_time"):
@@ -115,16 +118,16 @@ def _mechanics(walk: "Trajectory") -> Iterator[Variable]:
     yield Variable("pressure_work", time, bent.work, "J",
                    "that changes of pressure have done on the strip")  # fmt: skip
     yield Variable("damping_dissipation", time, bent.damped, "J", "lost in the joints so far")
-    balanced, forces = balance(walk), walk.forces
-    if forces is None or balanced is None:
+    forces, slipped, balanced = walk.forces, slip(walk), balance(walk)
+    if forces is None or slipped is None:
         return
-    slipped = slip(walk)
-    assert slipped is not None
     yield Variable("normal_force", nodes, forces.normal, "N", "push of the ground on the vertices")
     yield Variable("friction_force", nodes, forces.friction, "N",
                    "of the ground on the vertices, along x")  # fmt: skip
     yield Variable("slip_speed", nodes, slipped, "m s-1",
                    "along x of the vertices that touch the ground")  # fmt: skip
+    if balanced is None:
+        return
     yield Variable("tension", ("time", "link"), balanced.tension, "N",
                    "along the links, by statics of what is left of them")  # fmt: skip
     yield Variable("potential_energy", time, balanced.potential, "J", "of weight")

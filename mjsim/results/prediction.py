@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from analytic.prediction import Prediction, predict
-from analytic.scene.limbs import LimbedRobot
+from analytic.scene.limbs import LimbedRobot, limbs_of
 from analytic.scene.surface import Surface
 from analytic.solvers.limbs.path import Path
 from analytic.solvers.limbs.walk import walk as walk_of_limbs
@@ -23,6 +23,7 @@ _RESOLVED = 3e-5  # error over L that no halving shows; with it bars cover 56 of
 _LINKS, _LINKS_A_SEGMENT = 60, 24  # of the reference: contacts between the ends need finer links
 HALF = 0.5  # of links and states, with which the error bar compares
 QUASI_STATIC = "quasi-static"  # the reference of robots of limbs
+CEILING = "touches_ceiling"  # flag of a reference whose robot would touch it
 LIMB_STATES = 20  # of the quasi-static reference, in a change by the peak pressure
 
 
@@ -72,12 +73,35 @@ def reference(
         path, times: pressures in the chambers to follow in place of the gait's, (B, S) [Pa], and
             when, (B,) [s].
 
+    It knows no ceiling: of a robot that would touch it there is no displacement, and a flag.
+
     Raises:
         ValueError: the reference does not know what the scene asks for.
     """
     if isinstance(scene.robot, LimbedRobot):
-        return _of_limbs(scene, scene.robot, resolved(scene, numerics), finer, bent, path, times)
-    walk = prediction(scene, REFERENCE, finer, bent=bent, path=path, times=times)
+        numerics = resolved(scene, numerics)
+        found = _of_limbs(scene, scene.robot, numerics, finer, bent, path, times)
+    else:
+        found = _of_strip(scene, finer, bent, path, times)
+    if clears(scene, found.height):
+        return found
+    return found._replace(displacement=np.full(2, math.nan), flags=(*found.flags, CEILING))
+
+
+def clears(scene: Scene, height: float) -> bool:
+    """Tell whether a robot never touches the ceiling, by the height of its neutral lines [m].
+
+    Their highest place is taken for level, as it is but in a robot that rolls.
+    """
+    if scene.ceiling is None:
+        return True
+    return height + max(limb.strip.flat_height for limb in limbs_of(scene.robot)) <= scene.ceiling
+
+
+def _of_strip(
+    scene: Scene, finer: float, bent: bool, path: Array | None, times: Array | None
+) -> Reference:
+    walk = _predicted(scene, REFERENCE, finer, None, bent, path, times)
     flags = tuple(flag.name.lower() for flag in walk.flags if flag.name)
     by_cycle = walk.by_cycle / scene.strip.length
     ahead = displacement(scene, walk)
@@ -149,8 +173,20 @@ def prediction(
             when, (B,) [s].
 
     Raises:
-        ValueError: the solver does not know what the scene asks for.
+        ValueError: the solver does not know what the scene asks for, such as a ceiling that the
+            robot touches.
     """
+    walk = _predicted(scene, solver, finer, states, bent, path, times)
+    if not clears(scene, float(walk.shapes.amplitude.max())):
+        raise ValueError(f"ceiling must be above all that the robot does for model {solver}, got "
+                         f"{scene.ceiling:g} m: it touches, which MuJoCo alone knows")  # fmt: skip
+    return walk
+
+
+def _predicted(
+    scene: Scene, solver: str, finer: float, states: int | None, bent: bool,
+    path: ArrayLike | None, times: ArrayLike | None,
+) -> Prediction:  # fmt: skip
     if scene.in_space:
         raise ValueError(f"model {solver} is for strips; of a robot of limbs take {QUASI_STATIC}")
     friction = scene.reference_friction

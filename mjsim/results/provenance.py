@@ -54,7 +54,7 @@ def _plain(value: Any) -> Any:
     """A part of a scene as plain data; of the ground of a plugin its name."""
     if is_dataclass(value) and not isinstance(value, type):
         return asdict(value)
-    return value if isinstance(value, str | int | float) else value.name
+    return value if isinstance(value, str | int | float | None) else value.name
 
 
 def configuration(described: dict[str, Any]) -> tuple[Scene, Resolved]:

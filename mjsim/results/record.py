@@ -39,7 +39,7 @@ def record(walk: Trajectory, without: str = "") -> dict[str, Any]:
     simulated = float(len(walk.time) * numerics.timestep)
     shift = numbers and numbers.displacement
     turn = numbers and math.degrees(numbers.turn)
-    touching = walk.contacts[walk.start :]
+    touching, pushed = walk.contacts[walk.start :], walk.ceiling_force[walk.start :]
     row: dict[str, Any] = {
         "surface": scene.ground.name,
         "robot": ", ".join(limb.name for limb in limbs_of(scene.robot)),
@@ -76,6 +76,9 @@ def record(walk: Trajectory, without: str = "") -> dict[str, Any]:
         "heading_deg": numbers and math.degrees(numbers.heading),
         "sideways_over_L": numbers and numbers.sideways,
         "amplitude_over_L": numbers and numbers.amplitude,
+        "ceiling_m": scene.ceiling,
+        "ceiling_time_fraction": float(np.mean(pushed > 0)) if len(pushed) else None,
+        "ceiling_force_N": float(pushed.max()) if len(pushed) else None,
         "slid_over_L": slid_over_length(walk) if walk.status == "slid" else None,
         "fewest_limbs_on_ground": int(touching.min()) if scene.in_space else None,
         "sim_time_s": simulated,

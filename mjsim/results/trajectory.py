@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-OPTIONAL = ("contact_left", "contact_right", "left_slip_fraction", "drift", "contacts")
+OPTIONAL = ("contact_left", "contact_right", "left_slip_fraction", "drift", "contacts",
+            "ceiling_force")  # fmt: skip
 _WHOLE = ("x", "y", "height", "yaw", "pitch", "roll")  # coordinates that belong to no hinge
 _YAW = 3
 
@@ -58,6 +59,7 @@ class Trajectory:
         drift: of a strip, speed of what friction should have anchored, NaN where left_slip_fraction
             says which end that is, (T,) [m/s].
         contacts: of a robot of limbs, how many of them touch the ground, (T,).
+        ceiling_force: push of the ceiling on the robot, downwards, (T,) [N]; empty without one.
         forces: of the ground on each node of a strip; None where it was not recorded.
     """
 
@@ -75,6 +77,7 @@ class Trajectory:
     left_slip_fraction: Array = field(default_factory=_nothing)
     drift: Array = field(default_factory=_nothing)
     contacts: Array = field(default_factory=_nothing)
+    ceiling_force: Array = field(default_factory=_nothing)
     forces: GroundForces | None = None
 
     def __repr__(self) -> str:

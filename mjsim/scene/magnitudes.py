@@ -9,6 +9,7 @@ import math
 from collections.abc import Collection
 from dataclasses import replace
 
+from analytic.checks import not_negative, positive
 from analytic.scene import pneunet
 from analytic.scene.ground import Patches
 from analytic.scene.limbs import AnyRobot, LimbedRobot, limbs_of
@@ -65,6 +66,35 @@ def check_ground(ground: Ground, length: float, cycles: int) -> None:
                 f"from must be where a robot {length:g} m long may come, got a patch from "
                 f"{border:g} m{_asked(near[:1])}"
             )
+
+
+def check_ceiling(ceiling: float | None, friction: float, robot: AnyRobot) -> None:
+    """Refuse a ceiling that a flat robot does not fit below, or that is no height.
+
+    Args:
+        ceiling: its height over the ground; None if there is none [m].
+        friction: coefficient of its friction [1].
+        robot: what is to pass below it.
+
+    Raises:
+        ValueError: it is one, or there is friction of none.
+    """
+    not_negative("ceiling_friction", friction)
+    if ceiling is None:
+        if friction:
+            raise ValueError(f"ceiling_friction is for a ceiling, whose height must be given as "
+                             f"ceiling, got {friction:g} alone")  # fmt: skip
+        return
+    positive("ceiling", ceiling, "m")
+    flat = max(limb.strip.flat_height for limb in limbs_of(robot))
+    if ceiling <= flat:
+        raise ValueError(f"ceiling must be above {flat:.6g} m, the height of the flat robot, got "
+                         f"{ceiling:g} m")  # fmt: skip
+    if ceiling > _FAR * robot.length:
+        near = [(unit, ceiling) for unit, size in _LENGTHS
+                if flat < ceiling * size <= robot.length]  # fmt: skip
+        raise ValueError(f"ceiling must be near a robot {robot.length:g} m long, got "
+                         f"{ceiling:g} m{_asked(near[:1])}")  # fmt: skip
 
 
 def _wrong(strip: Robot, given: Collection[str]) -> str | None:

@@ -32,7 +32,7 @@ from analytic.scene.quadruped_gaits import for_robot
 from analytic.scene.robot import GRAVITY, Robot
 from analytic.scene.surface import SURFACES, Ground
 from mjsim.scene import registry
-from mjsim.scene.magnitudes import check_ground, check_robot
+from mjsim.scene.magnitudes import check_ceiling, check_ground, check_robot
 from mjsim.scene.numerics import Numerics, Resolved, path_of, short_enough
 from mjsim.scene.valves import Valves
 
@@ -81,6 +81,11 @@ class Scene:
     """the ground rises by this angle [rad]: towards +x"""
     uphill: float = 0.0
     """or of a robot of limbs towards this direction, from +x to the left [rad]"""
+    ceiling: float | None = None
+    """height of a rigid ceiling over the ground, as steep as it, which the robot's upper side
+    touches; none if not given [m]"""
+    ceiling_friction: float = 0.0
+    """coefficient of the ceiling's friction, by load under either law [1]"""
     chamber: Chamber = "linearized"
     """air in the chambers as the strip bends: linearized, (9); sealed, the exact law of closed
     valves (6); constant-pressure"""
@@ -115,6 +120,11 @@ class Scene:
         check_robot(self.robot)
         check_ground(self.ground, self.robot.length, self.cycles)
         positive("settle_time", self.settle_time, "s")
+        check_ceiling(self.ceiling, self.ceiling_friction, self.robot)
+        if self.ceiling is not None and self.body != Scene.body:
+            raise ValueError(
+                f"body must be {Scene.body} below a ceiling, got {self.body!r}, without upper side"
+            )
         chambers = self.robot.chambers
         object.__setattr__(self, "gait", for_robot(self.gait, self.robot))
         self.valves.check(len(chambers))

@@ -88,5 +88,8 @@ def measured(scene: Scene, numerics: Numerics | None = None) -> str:
     line = f"measured with mj_step alone, one cycle of gait {gait.name}: {', '.join(told)}"
     if refusal(scene) is None:
         bounds = reference(replace(scene, chamber="constant-pressure"))
-        line += f"; quasi-statically by these bounds: {bounds.displacement[0]:+.3f} L"
+        if math.isfinite(bounds.displacement[0]):
+            line += f"; quasi-statically by these bounds: {bounds.displacement[0]:+.3f} L"
+        elif scene.ceiling is not None:
+            line += "; shoes have the contact lengths of a robot that touches no ceiling"
     return line

@@ -35,6 +35,8 @@ def refusal(scene: Scene) -> str | None:
         return "the robot must be a strip"
     if (scene.body, scene.friction, scene.actuation) != ("chain", "constant", "rest-angles"):
         return "body, friction and actuation must be chain, constant and rest-angles"
+    if scene.ceiling is not None:
+        return "there must be no ceiling"
     if scene.between:
         return "friction must act at the ends alone"
     if scene.chamber == "sealed":

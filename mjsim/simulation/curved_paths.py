@@ -11,6 +11,7 @@ import mujoco
 import numpy as np
 
 from analytic.scene.chain import link_lengths
+from mjsim.model.ceiling import ceiling_of
 from mjsim.model.pads import node_of_geom, pads_by_node
 from mjsim.scene import Resolved, Scene
 
@@ -30,7 +31,7 @@ class CurvedPaths:
         self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         pads = pads_by_node(model)
-        self._node = node_of_geom(model, pads)
+        self._node = node_of_geom(model, pads, other=-1)
         self._lengths = -np.asarray(link_lengths(scene.strip, numerics.links))
         self._rise, self._dt = np.zeros(len(pads)), numerics.timestep
         self._rates, self._angles = data.qvel[_PITCH:], data.qpos[_PITCH:]
@@ -47,13 +48,16 @@ class CurvedPaths:
         mujoco.mj_step1(model, data)
         contact = data.contact
         rows, pads = contact.efc_address, contact.geom2
-        if len(rows) and rows.min() < 0:  # in an adhesive gap
-            rows, pads = rows[rows >= 0], pads[rows >= 0]
+        nodes = self._node[pads]
+        # in an adhesive gap, or at the ceiling, where paths are taken for straight
+        if len(rows) and min(rows.min(), nodes.min()) < 0:
+            acts = (rows >= 0) & (nodes >= 0)
+            rows, pads, nodes = rows[acts], pads[acts], nodes[acts]
         # J' v of a node over dt: the links turn by constant rates
         (self._lengths * np.sin(self._angles.cumsum()) * squares).cumsum(out=self._rise[1:])
         # dt (1 + c), of the pads' time constants c dt
         reach = self._softness[pads] + self._dt
-        data.efc_pos[rows] += 0.5 * reach * reach * self._rise[self._node[pads]]
+        data.efc_pos[rows] += 0.5 * reach * reach * self._rise[nodes]
         mujoco.mj_step2(model, data)
 
 
@@ -65,7 +69,7 @@ class CurvedPathsInSpace:
     """
 
     def __init__(self, model: mujoco.MjModel, numerics: Resolved) -> None:
-        self._dt = model.opt.timestep
+        self._dt, self._ceiling = model.opt.timestep, ceiling_of(model)
         # ((1 + c) dt)^2 over dt^2
         self._stretch = (1.0 + numerics.contact_time) ** 2
 
@@ -81,7 +85,8 @@ class CurvedPathsInSpace:
         data.qpos[:] = before
         mujoco.mj_step1(model, data)
         contact = data.contact
-        acts = contact.efc_address >= 0
+        # at the ceiling paths are taken for straight
+        acts = (contact.efc_address >= 0) & (contact.geom1 != self._ceiling)
         rows, pads = contact.efc_address[acts], contact.geom2[acts]
         straight = data.geom_xpos[pads, 2] + self._dt * data.efc_vel[rows]
         data.efc_pos[rows] += self._stretch * (ahead[pads] - straight)
