@@ -66,7 +66,11 @@ class PlanarMotion(NamedTuple):
 
 
 def least_dissipation_in_plane(
-    bounds: Array, places: Array, moves: Array, viscous: Array | None = None
+    bounds: Array,
+    places: Array,
+    moves: Array,
+    viscous: Array | None = None,
+    shares: Array | None = None,
 ) -> PlanarMotion:
     """The motion of the whole that dissipates least.
 
@@ -75,6 +79,7 @@ def least_dissipation_in_plane(
         places: r_j, shape (C, 2) [m].
         moves: m_j by which the shape moves them, shape (C, 2) [m].
         viscous: k_j, at least 0, shape (C,) [N/m]; none if None.
+        shares: of each in the equal viscosity that vanishes, shape (C,); 1 if None.
 
     Raises:
         ValueError: the arrays are not of one number of contacts, or there is no contact.
@@ -94,7 +99,8 @@ def least_dissipation_in_plane(
     reach = float(np.abs(arms).max()) or 1.0
     thick = np.zeros(count) if viscous is None else np.asarray(viscous, dtype=float) * size
     strongest = float(max(bounds.max(), thick.max())) or 1.0
-    friction = SmoothFriction(bounds / strongest, thick / strongest + _VISCOSITY)
+    least = _VISCOSITY * (np.ones(count) if shares is None else shares)
+    friction = SmoothFriction(bounds / strongest, thick / strongest + least)
     # how the slips, over the largest move, follow from the shift and the turn of the centre
     lever = np.zeros((count, 2, 3))
     lever[:, 0, 0] = lever[:, 1, 1] = 1.0

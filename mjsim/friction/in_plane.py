@@ -1,37 +1,36 @@
-"""Friction of a robot of limbs: each contact resists at its points by a bound in the plane.
+"""Friction of a robot of limbs: each contact resists by a bound in the plane, over its area.
 
 Contacts and their bounds are those of analytic.solvers.limbs.contacts, found from the forces of the
-step before. At a point there are two rows: dry friction of the whole bound V along the slip, or
-along the force where it does not slide, and across that V v / |u|, where u is the slip of the step
-before: together the tangent of V u / |u|, as in Newton's method, so that friction opposes the slip
-whatever its direction. What the bounds leave open is left to viscosity at all points alike, as in
-analytic.friction.dissipation_in_plane; it is small beside them.
+step before. Each has three rows, see mjsim.friction.point_friction: dry friction of the whole bound
+V along its slip s, turning included, or along the traction where it does not slide, and across that
+V v / |s|, where s is the slip of the step before: together the tangent of V s / |s|, as in Newton's
+method, so that friction opposes the slip whatever its direction. What the bounds leave open is left
+to viscosity at all contacts alike, as in analytic.friction.dissipation_in_plane; it is small beside
+them.
 """
 
 import math
 from bisect import bisect_right
-from collections.abc import Iterator
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.chain import link_lengths
-from analytic.solvers.limbs.contacts import Contact, Contacts
+from analytic.solvers.limbs.contact_search import Contact, parts_of
+from analytic.solvers.limbs.contacts import Contacts
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.rest import Rest
 from mjsim.friction.ceiling import CeilingPush
-from mjsim.friction.point_friction import STANDS, PointFriction
-from mjsim.model.limbs import joints_to, limbed, link_prefix, points_of
+from mjsim.friction.point_friction import AHEAD, STANDS, PointFriction
+from mjsim.model.limbs import ROWS, contact_name, joints_to, limbed, link_prefix
 from mjsim.model.pads import edges, node_of_geom, pads_of
-from mjsim.model.parts import PREFIX
 from mjsim.results.status import THROWN
 from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
 
 _WHOLE = 0.999  # of the bound: the point slides
-_AHEAD = (1.0, 0.0)
 _WEAK = 0.005  # of all bounds and drags, that viscosity adds at most; chosen
 _TIPPED = 1.0  # rad of pitch or roll of the trunk as a whole: it fell over; chosen
 _STEEP, _LEANS = math.tan(_TIPPED), math.sin(_TIPPED)
@@ -62,17 +61,18 @@ class LimbFooting:
         self._finder = Contacts(self._tree, scene.friction)
         self.contacts: list[Contact] = []
         self._resisting: list[PointFriction] = []
-        self._points = [
-            [
-                PointFriction(model, f"{PREFIX}{name}_friction_{number}",
-                              len(joints_to(robot, numerics.links, i, numerics.twists)))
-                for number in range(points_of(robot, i))
-            ]
-            for i, name in enumerate(robot.names)
+        self._rows = [
+            {
+                part: PointFriction(model, contact_name(limb.name, part),
+                                    len(joints_to(robot, numerics.links, i, numerics.twists)))
+                for part in parts_of(limb, robot, scene.friction)
+            }
+            for i, limb in enumerate(robot.limbs)
         ]  # fmt: skip
         self._by_tendon = {
-            tendon: (point, row)
-            for limb in self._points for point in limb for row, tendon in enumerate(point.ids)
+            tendon: (rows, number)
+            for limb in self._rows for rows in limb.values() for number, tendon in
+            enumerate(rows.ids)
         }  # fmt: skip
         self._links = [
             [model.body(f"{link_prefix(name)}{i}").id for i in range(numerics.links + 1)]
@@ -106,26 +106,27 @@ class LimbFooting:
         for point in self._resisting:
             point.release()
         resisting = []
-        for contact, at, point in self._places():
+        for contact in self.contacts:
+            point, at = self._rows[contact.limb][contact.part], contact.middle
             starts = self._starts[contact.limb]
             link = min(bisect_right(starts, at), len(starts)) - 1
-            point.move_to(model, data, self._links[contact.limb][link], at - starts[link])
+            body = self._links[contact.limb][link]
+            point.move_to(model, data, body, at - starts[link], self._finder.radius(contact))
             if point not in self._resisting:
-                u, v = point.velocity
-                speed = math.hypot(u, v)
-                point.direction = (u / speed, v / speed) if speed else _AHEAD
-            point.resist(*self._finder.resistance(contact, self._ground.at(point.place[0])))
+                point.turn(AHEAD)
+                point.turn(point.velocity)
+            bound, drag = self._finder.resistance(contact, self._ground.at(point.place[0]))
+            point.resist(bound, drag)
             resisting.append(point)
-        share = self._viscous(resisting)
+        viscous = self._viscous(resisting)
         applied = np.zeros(model.nv)
         for point in resisting:
-            u, v = point.velocity
-            applied -= (share * u) * point.jacobian[0] + (share * v) * point.jacobian[1]
+            applied -= viscous * np.array(point.velocity) @ point.jacobian
         data.qfrc_applied[:] = applied
         self._resisting = resisting
 
     def _viscous(self, points: list[PointFriction]) -> float:
-        """Resistance of each point to what the bounds leave open [N s/m]."""
+        """Resistance of each contact to what the bounds leave open [N s/m]."""
         bound, drag = sum(point.bound for point in points), sum(point.drag for point in points)
         speed = max((math.hypot(*point.velocity) for point in points), default=0.0)
         whole = self._viscosity
@@ -168,7 +169,7 @@ class LimbFooting:
 
     def side_contacts(self) -> Array:
         """Length over which each limb lies on its side in the coming step, (L,) [m]."""
-        lengths = np.zeros(len(self._points))
+        lengths = np.zeros(len(self._rows))
         for contact in self.contacts:
             lengths[contact.limb] += contact.length
         return lengths
@@ -181,30 +182,17 @@ class LimbFooting:
         lists = (column[:count].tolist() for column in columns)
         for tendon, force, stiffness in zip(*lists, strict=True):
             point, row = self._by_tendon[tendon]
-            forces.setdefault(point, [0.0, 0.0])[row] = force
+            forces.setdefault(point, [0.0] * ROWS)[row] = force
             if row:
-                point.update_inverse_mass(stiffness)
-        for point, (along, across) in forces.items():
-            size, (c, s) = math.hypot(along, across), point.direction
-            u, v, _ = (point.jacobian @ data.qvel).tolist()
-            speed = math.hypot(u, v)
-            if abs(along) > _WHOLE * point.bound and speed > 0:
-                point.direction = u / speed, v / speed
-            elif size > 0:
-                point.direction = (c * along - s * across) / size, (s * along + c * across) / size
-
-    def _places(self) -> Iterator[tuple[Contact, float, PointFriction]]:
-        """Contacts, the arclength of each of their points, and the friction there."""
-        for contact in self.contacts:
-            points, at = self._points[contact.limb], contact.at
-            length = self._tree.robot.limbs[contact.limb].strip.length
-            first = 0
-            if len(points) > 2:  # it carries others: its beginning, its end, or between
-                first = 2 if sum(at) > 0.5 * length * len(at) else 0
-                if len(at) == 1 and at[0] not in (0.0, length):
-                    first = 4
-            for number, place in enumerate(at):
-                yield contact, place, points[first + number]
+                point.update_inverse_mass(row, stiffness)
+        for point, rows in forces.items():
+            u, v, w = (point.jacobian @ data.qvel).tolist()
+            if abs(rows[0]) > _WHOLE * point.bound and math.hypot(u, v, w) > 0:
+                point.turn((u, v, w))
+            else:
+                x, y, z = (sum(f * axis[i] for f, axis in zip(rows, point.axes, strict=True))
+                           for i in range(ROWS))  # fmt: skip
+                point.turn((x, y, z))
 
     def after_step(self) -> tuple[float, ...]:
         """Take off how far the step moved anchored points, by the order of the integrator alone.

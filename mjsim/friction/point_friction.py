@@ -1,46 +1,64 @@
-"""Friction of one point of a robot in space, as two rows of MuJoCo's dry friction."""
+"""Friction of one contact of a robot in space, as rows of MuJoCo's dry friction.
+
+A contact with area resists by its bound V as it slips and turns about its middle: with the slip u
+of its middle, its turning rate w and its mean distance r from the middle the limit surface is taken
+as an ellipsoid (Howe and Cutkosky 1996),
+
+    power = V |s|,    s = (u_x, u_y, r w),
+
+exact where it only slips and where it only turns. So its traction lies along s, in three rows.
+"""
 
 import math
 
 import mujoco
 import numpy as np
 
+from mjsim.model.limbs import ROWS
+
+Slip = tuple[float, float, float]
+
 # over the tangent: the direction follows within steps and does not swing; measured
 _STIFFER = 128.0
 _VISCOUS = 100.0  # b dt; chosen
 _SOFTEST, _STIFFEST = 1e-4, 0.9999  # impedances that MuJoCo takes
-STANDS = 1e-9  # m/s; N: no point is anchored by less
+STANDS = 1e-9  # m/s; N: no contact is anchored by less
+AHEAD = (1.0, 0.0, 0.0)
+_LEVEL = 1e-6  # of a direction: its part in plan is none
 
 
 class PointFriction:
-    """Two rows of dry friction at one point: along a direction, and across it.
+    """Rows of dry friction of one contact: along a direction of s, and across it.
 
     Attributes:
         ids: of the tendons that the rows are of.
-        direction: of the first row, (2,).
-        body, offset: link that the point is of, and where it is in its frame along x [m].
-        jacobian: of the point's motion, (3, nv).
-        place, velocity: of the point in plan, (2,) [m, m/s].
+        axes: directions of the rows, the first along the slip, each a part of s.
+        body, offset: link that its middle is of, and where that is in its frame along x [m].
+        radius: r [m].
+        jacobian: of s, (3, nv).
+        place, velocity: of the middle in plan, (2,) [m]; s [m/s].
         bound, drag: of its friction [N]; its viscous resistance [N s/m].
-        inverse_mass: that MuJoCo sees across, in the step before [1/kg].
+        inverse_mass: that MuJoCo sees in the rows across, in the step before [1/kg].
     """
 
     def __init__(self, model: mujoco.MjModel, name: str, joints: int) -> None:
         first = model.tendon(f"{name}_0").id
-        self.ids = (first, first + 1)
-        self._bounds = model.tendon_frictionloss[first : first + 2]
-        self._time = model.tendon_solref_fri[first + 1]
-        self._impedance = model.tendon_solimp_fri[first + 1]
-        self.inverse_mass = float(model.tendon_invweight0[first + 1])
+        self.ids = tuple(range(first, first + ROWS))
+        rows, across = slice(first, first + ROWS), slice(first + 1, first + ROWS)
+        self._bounds = model.tendon_frictionloss[rows]
+        self._times = model.tendon_solref_fri[across, 0]
+        self._impedances = model.tendon_solimp_fri[across, :2]
+        self.inverse_mass: list[float] = model.tendon_invweight0[across].tolist()
         self._dt = model.opt.timestep
-        self._drags = model.tendon_damping[first : first + 2]
+        self._drags = model.tendon_damping[rows]
         begin = model.tendon_adr[first]
-        self._coefficients = model.wrap_prm[begin : begin + 2 * joints].reshape(2, joints)
+        self._coefficients = model.wrap_prm[begin : begin + ROWS * joints].reshape(ROWS, joints)
         self._dofs = model.jnt_dofadr[model.wrap_objid[begin : begin + joints]]
-        self.direction, self.body, self.offset = (1.0, 0.0), 0, 0.0
+        self.axes = _axes(AHEAD)
+        self.body, self.offset, self.radius = 0, 0.0, 0.0
         self.bound = self.drag = 0.0
-        self.place = self.velocity = (0.0, 0.0)
-        self.jacobian = np.zeros((3, model.nv))
+        self.place, self.velocity = (0.0, 0.0), (0.0, 0.0, 0.0)
+        self.jacobian, self._turning = np.zeros((3, model.nv)), np.zeros((3, model.nv))
         self.release()
 
     def release(self) -> None:
@@ -48,35 +66,51 @@ class PointFriction:
         self._bounds[:] = 0.0
         self._drags[:] = 0.0
 
-    def move_to(self, model: mujoco.MjModel, data: mujoco.MjData, body: int, offset: float) -> None:
-        """Take a point of a link, with its Jacobian and its velocity in this state."""
-        self.body, self.offset = body, offset
+    def move_to(
+        self, model: mujoco.MjModel, data: mujoco.MjData, body: int, offset: float, radius: float
+    ) -> None:
+        """Take a place on a link, with the Jacobian and the value of s in this state."""
+        self.body, self.offset, self.radius = body, offset, radius
         place = data.xpos[body] + offset * data.xmat[body, ::3]
-        mujoco.mj_jac(model, data, self.jacobian, None, place, body)
+        turning = self._turning if radius else None
+        mujoco.mj_jac(model, data, self.jacobian, turning, place, body)
+        self.jacobian[2] = radius * self._turning[2]
         self.place = (place.item(0), place.item(1))
-        velocity = self.jacobian @ data.qvel
-        self.velocity = (velocity.item(0), velocity.item(1))
+        u, v, w = (self.jacobian @ data.qvel).tolist()
+        self.velocity = (u, v, w)
+        if not radius and self.axes[0][2]:  # it had an area, which is gone
+            self.turn(AHEAD)
+            self.turn(self.velocity)
+
+    def turn(self, slip: Slip) -> None:
+        """Lay the first row along a slip, or along a traction; as they are if it is none."""
+        size = math.hypot(*slip)
+        if size > 0:
+            x, y, z = slip
+            self.axes = _axes((x / size, y / size, z / size))
 
     def resist(self, bound: float, drag: float) -> None:
         """Set the bound and the viscous resistance of the next step [N, N s/m]."""
-        self.bound, self.drag, (c, s) = bound, drag, self.direction
-        across, along = self.jacobian[:2].take(self._dofs, axis=1)[::-1]
-        self._coefficients[0] = c * along + s * across
-        self._coefficients[1] = c * across - s * along
-        self._bounds[:] = bound
-        self._drags[:] = drag
+        self.bound, self.drag = bound, drag
+        self._coefficients[:] = np.array(self.axes) @ self.jacobian.take(self._dofs, axis=1)
+        # one that cannot turn has no row for it, and its slip is in plan
+        rows = ROWS if self.radius else ROWS - 1
+        self._bounds[:rows], self._bounds[rows:] = bound, 0.0
+        self._drags[:rows] = drag
         # the discrete integrator makes of a row f = -D (dv/dt + b v), D = d / (1 - d) / its inverse
         # mass and b = 2 / (d time): with b much above 1 / dt it is viscous, f = -D b v
         speed = max(math.hypot(*self.velocity), STANDS)
-        ratio = _STIFFER * bound * self.inverse_mass * self._dt / speed / _VISCOUS
-        impedance = min(max(ratio / (1.0 + ratio), _SOFTEST), _STIFFEST)
-        self._time[0] = 2.0 * self._dt / (impedance * _VISCOUS)
-        self._impedance[:2] = impedance
+        factor = _STIFFER * bound * self._dt / speed / _VISCOUS
+        for row, inverse in enumerate(self.inverse_mass):
+            ratio = factor * inverse
+            impedance = min(max(ratio / (1.0 + ratio), _SOFTEST), _STIFFEST)
+            self._times[row] = 2.0 * self._dt / (impedance * _VISCOUS)
+            self._impedances[row] = impedance
 
-    def update_inverse_mass(self, stiffness: float) -> None:
-        """Take the inverse mass of the row across from its D = d / (1 - d) / inverse mass."""
-        impedance = self._impedance.item(0)
-        self.inverse_mass = impedance / ((1.0 - impedance) * stiffness)
+    def update_inverse_mass(self, row: int, stiffness: float) -> None:
+        """Take the inverse mass of a row across from its D = d / (1 - d) / inverse mass."""
+        impedance = self._impedances.item(row - 1, 0)
+        self.inverse_mass[row - 1] = impedance / ((1.0 - impedance) * stiffness)
 
     def after_step(self, data: mujoco.MjData, dt: float) -> tuple[complex, complex, float]:
         """Place x + i y, its motion beyond dt times its velocity, and its speed [m, m, m/s]."""
@@ -85,3 +119,11 @@ class PointFriction:
         x, y = place.item(0), place.item(1)
         excess = complex(x - self.place[0] - dt * u, y - self.place[1] - dt * v)
         return complex(x, y), excess, math.hypot(u, v)
+
+
+def _axes(first: Slip) -> tuple[Slip, Slip, Slip]:
+    """Three axes at right angles of which the first is given; the second lies in plan."""
+    x, y, z = first
+    level = math.hypot(x, y)
+    a, b = (-y / level, x / level) if level > _LEVEL else (1.0, 0.0)
+    return first, (a, b, 0.0), (-z * b, z * a, x * b - y * a)

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from analytic.scene import pneunet
 from analytic.scene.chain import joint_springs, link_lengths
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb, limbs_of, rotation
-from analytic.solvers.limbs.contacts import ripple
+from analytic.solvers.limbs.contact_search import parts_of, ripple
 from mjsim.model import parts
 from mjsim.model.ceiling import add_ceiling, add_upper_edge
 from mjsim.model.links import UP, add_links
@@ -29,6 +29,7 @@ from mjsim.scene import Resolved, Scene
 Array = NDArray[np.float64]
 
 ROOT = ("x", "y", "z", "yaw", "pitch", "roll")
+ROWS = 3  # of friction at each contact, see mjsim.friction.point_friction
 _THIN = 1e-9  # MuJoCo wants A + B >= C of inertias, of which a plate has A + B = C
 _TOWARDS = 3.0  # times the centripetal acceleration that contacts yield to; measured
 _SOFTEST = 0.1  # beyond, limbs sink in as they walk; chosen
@@ -117,22 +118,9 @@ def tree_spec(
             _add_root(first, angle)
         chains[limb.name] = nodes
     if with_friction:
-        _add_friction(spec, robot, numerics)
+        _add_friction(spec, scene, numerics)
     add_ceiling(spec, scene, numerics)
     return spec
-
-
-def points_of(robot: LimbedRobot, number: int) -> int:
-    """Number of points of a limb that may resist at once.
-
-    Two of a side, for each end that something may touch the ground by, and one between such ends;
-    a limb of several segments may touch there too.
-    """
-    limb = robot.limbs[number]
-    free_end_alone = (
-        limb.on is not None and limb.name in robot.outer and len(limb.strip.segments) == 1
-    )
-    return 2 if free_end_alone else 5
 
 
 def _add_limb(carrier: mujoco.MjsBody, scene: Scene, numerics: Resolved, limb: Limb) -> list[Node]:
@@ -168,12 +156,18 @@ def _add_root(body: mujoco.MjsBody, angle: float) -> None:
             joint.axis[:2] = np.array(axis[:2]) @ rotation(angle)
 
 
-def _add_friction(spec: mujoco.MjSpec, robot: LimbedRobot, numerics: Resolved) -> None:
-    """Add a tendon for each point and row of mjsim.friction.point_friction."""
-    for number, limb in enumerate(robot.names):
+def contact_name(limb: str, part: str) -> str:
+    """Name of the friction of a contact of a limb, see analytic.solvers.limbs.contacts."""
+    return f"{PREFIX}{limb}_friction_{part}"
+
+
+def _add_friction(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
+    """Add a tendon for each contact and row of mjsim.friction.point_friction."""
+    robot = limbed(scene)
+    for number, limb in enumerate(robot.limbs):
         joints = joints_to(robot, numerics.links, number, numerics.twists)
-        for point, row in itertools.product(range(points_of(robot, number)), (0, 1)):
-            name = f"{PREFIX}{limb}_friction_{point}_{row}"
+        for part, row in itertools.product(parts_of(limb, robot, scene.friction), range(ROWS)):
+            name = f"{contact_name(limb.name, part)}_{row}"
             tendon = parts.friction_tendon(spec, name, parts.NO_BOUND)
             for joint in joints:
                 tendon.wrap_joint(joint, float(joint == PREFIX + ROOT[0]))

@@ -119,6 +119,7 @@ def _of_limbs(
     walk = walk_of_limbs(
         robot, scene.gait, scene.ground, round(LIMB_STATES * finer), links, cycles, scene.friction,
         bent, scene.chamber, path, times, scene.incline, min(numerics.twists, links // 2),
+        all_on_tips=finer < 1,  # the other way to share a load: error bars show what it is worth
     )  # fmt: skip
     moves, turns = walk.by_cycle(cycles)
     move = moves[-1] if isinstance(scene.ground, Surface) else moves.mean(axis=0)

@@ -244,22 +244,25 @@ class Tree:
         upper = np.where(self._above.T, inner, 0.0)
         return np.asarray(upper + np.tril(upper.T, -1) * (~self._above.T))
 
-    def points(self, limbs: Sequence[int], at: Sequence[float]) -> Array:
-        """Weights of the nodes in points of the limbs' middle lines, (C, P).
+    def points(self, limbs: Sequence[int], at: Sequence[float], aside: Sequence[float]) -> Array:
+        """Weights of the nodes in points of the limbs, (C, P).
 
         Args:
             limbs: of each point, (C,).
             at: arclength of each, (C,) [m].
+            aside: of each to the left of the middle line, (C,) [m].
         """
         half = len(self.weight) // 2
         weights = np.zeros((len(at), 2 * half))
-        for row, limb, place in zip(weights, limbs, at, strict=True):
+        for row, limb, place, left in zip(weights, limbs, at, aside, strict=True):
             vertices = self.vertices[limb]
             ends = self.arclength[vertices]
             link = int(np.clip(np.searchsorted(ends, place, side="right") - 1, 0, self.elements))
             part = (place - ends[link]) / (ends[link + 1] - ends[link])
-            for node in (vertices.start + link, half + vertices.start + link):
-                row[node : node + 2] = 0.5 * (1 - part), 0.5 * part
+            across = 0.5 * left / self._half_widths[limb]
+            first = vertices.start + link
+            for node, share in ((first, 0.5 - across), (half + first, 0.5 + across)):
+                row[node : node + 2] = share * (1 - part), share * part
         return weights
 
 

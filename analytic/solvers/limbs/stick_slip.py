@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from analytic.progress import counted
 from analytic.scene.surface import Ground
-from analytic.solvers.limbs.contacts import Contact, Contacts, spans_of
+from analytic.solvers.limbs.contact_search import Contact
+from analytic.solvers.limbs.contacts import Contacts, shares, spans_of
 from analytic.solvers.limbs.friction import ContactFriction
 from analytic.solvers.limbs.path import Path
 from analytic.solvers.limbs.rest import Rest
@@ -44,6 +45,7 @@ def stick_slip_path(
     ground: Ground,
     law: str = "constant",
     times: Array | None = None,
+    all_on_tips: bool = False,
 ) -> Path:
     """The path along pressures on a ground that bends the robot.
 
@@ -54,13 +56,15 @@ def stick_slip_path(
         statics: of the tree.
         pressures: of its chambers, (B, S) [Pa].
         ground, law, times: see analytic.solvers.limbs.walk.follow.
+        all_on_tips: see analytic.solvers.limbs.contacts.Contacts.
 
     Raises:
         ValueError: see analytic.solvers.limbs.walk.follow.
     """
     spans = spans_of(ground, times, len(pressures))
     when = np.arange(float(len(pressures))) if times is None else times
-    return _StickSlip(statics, ground, law).along(pressures, when.tolist(), spans.tolist())
+    finder = Contacts(statics.tree, law, all_on_tips)
+    return _StickSlip(statics, ground, finder).along(pressures, when.tolist(), spans.tolist())
 
 
 class _State(NamedTuple):
@@ -127,17 +131,16 @@ class _Increment:
         part = bounds / np.maximum(np.sqrt((held**2).sum(axis=1)), _TINY)
         part = np.where(holds, np.minimum(1.0, part), part)
         return ContactFriction(
-            weights, weights @ before.rest.nodes[:, :2], bounds, film + least, bounds / self._slip,
-            part[:, None] * held, holds,
+            weights, weights @ before.rest.nodes[:, :2], bounds,
+            film + least * shares(self.contacts), bounds / self._slip, part[:, None] * held, holds,
         )  # fmt: skip
 
 
 class _StickSlip:
     """One walk: its states so far."""
 
-    def __init__(self, statics: Statics, ground: Ground, law: str) -> None:
-        self._statics, self._ground = statics, ground
-        self._finder = Contacts(statics.tree, law)
+    def __init__(self, statics: Statics, ground: Ground, finder: Contacts) -> None:
+        self._statics, self._ground, self._finder = statics, ground, finder
         strength = self._finder.strength(ground) or statics.tree.robot.weight
         self._viscosity = _VISCOSITY * strength / statics.length
         self._states: list[_State] = []
@@ -253,17 +256,17 @@ def _carried(
     kinds, others = _kinds(contacts), _kinds(now)
     if kinds == others:
         return friction.held, friction.holds
-    ends = np.cumsum([count for _, count in kinds])
-    parts = {kind: slice(end - kind[1], end) for kind, end in zip(kinds, ends, strict=True)}
+    ends = np.cumsum([count for *_, count in kinds])
+    parts = {kind: slice(end - kind[2], end) for kind, end in zip(kinds, ends, strict=True)}
     points = [
         (friction.held[parts[kind]], friction.holds[parts[kind]]) if kind in parts
-        else (np.zeros((kind[1], 2)), np.ones(kind[1], dtype=bool))
+        else (np.zeros((kind[2], 2)), np.ones(kind[2], dtype=bool))
         for kind in others
     ]  # fmt: skip
     held = np.concatenate([np.zeros((0, 2)), *(point[0] for point in points)])
     return held, np.concatenate([np.zeros(0, dtype=bool), *(point[1] for point in points)])
 
 
-def _kinds(contacts: list[Contact]) -> list[tuple[int, int]]:
-    """Limb and number of points of each contact."""
-    return [(contact.limb, len(contact.at)) for contact in contacts]
+def _kinds(contacts: list[Contact]) -> list[tuple[int, str, int]]:
+    """Limb, part of it and number of points of each contact."""
+    return [(contact.limb, contact.part, len(contact.at)) for contact in contacts]

@@ -18,7 +18,7 @@ from analytic.scene.gait import Gait
 from analytic.scene.ground import LEVEL, Incline
 from analytic.scene.limbs import LimbedRobot, rotation
 from analytic.scene.surface import Ground
-from analytic.solvers.limbs.contacts import Contacts, spans_of
+from analytic.solvers.limbs.contacts import Contacts, shares, spans_of
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.path import Path
 from analytic.solvers.limbs.rest import Rest
@@ -87,7 +87,9 @@ def follow(
             weights = finder.weights(state)
             before, after = weights @ begin.nodes[:, :2], weights @ end.nodes[:, :2]
             bounds, viscous = finder.resistances(state, ground, place[i, 0] + before @ turned[0])
-            motion = least_dissipation_in_plane(bounds, before, after - before, viscous / spans[i])
+            motion = least_dissipation_in_plane(
+                bounds, before, after - before, viscous / spans[i], shares(state)
+            )
             shift += 0.5 * motion.shift
             turn += 0.5 * motion.turn
         place[i + 1] = place[i] + turned @ shift
@@ -100,7 +102,7 @@ def walk(
     robot: LimbedRobot, gait: Gait, ground: Ground, states: int = 40, elements: int = 6,
     cycles: int = 1, law: str = "constant", bent: bool = True, chamber: str = "linearized",
     path: Array | None = None, times: Array | None = None, incline: Incline = LEVEL,
-    twists: int = 0,
+    twists: int = 0, all_on_tips: bool = False,
 ) -> Path:  # fmt: skip
     """Walk a gait quasi-statically, or along a path of pressures.
 
@@ -119,6 +121,8 @@ def walk(
             [s].
         incline: of the ground; places are along it.
         twists: of each limb, half as many as its hinges at most; 0 where limbs do not twist.
+        all_on_tips: of friction by load that bends the robot, see
+            analytic.solvers.limbs.contacts.Contacts.
 
     Raises:
         ValueError: the gait or the path is not for so many chambers, a pressure is no number, times
@@ -152,7 +156,7 @@ def walk(
     path, times = _with_thresholds(robot, path, clock)
     if bent:
         statics = Statics(Tree(robot, elements, twists, incline), chamber)
-        return stick_slip_path(statics, path, ground, law, times)
+        return stick_slip_path(statics, path, ground, law, times, all_on_tips)
     tree, rests = shapes(robot, path, elements, chamber, twists)
     return follow(tree, rests, path, ground, law, times)
 

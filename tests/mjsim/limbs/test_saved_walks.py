@@ -4,6 +4,7 @@ import tomllib
 from dataclasses import replace
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pytest
 from walks import turned, went
@@ -16,9 +17,10 @@ from mjsim import load
 from mjsim.commands import replay, report
 from mjsim.files.tables import build
 from mjsim.files.written import as_tables, as_toml
+from mjsim.model.pads import pads_of
 from mjsim.pictures import gl
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.simulation import simulate
+from mjsim.simulation.simulation import Simulation, simulate
 
 NUMERICS = Numerics(links=2, timestep=0.04)
 GROUNDS = [
@@ -85,12 +87,17 @@ def test_a_saved_walk_is_drawn_again(tmp_path):
     assert (tmp_path / "walk.mp4").stat().st_size > 10_000
 
 
-def test_a_file_of_the_version_before_is_read_as_the_walk_that_it_was(monkeypatch):
+def test_a_file_of_the_version_before_is_read_as_the_walk_that_it_was():
     """It has angles limb by limb, the places of the trunk alone, and elements for links."""
-    monkeypatch.setattr("mjsim.model.builder._CREEP", 1.0)  # as friction crept then
-    path = Path(__file__).parents[1] / "results" / "limbs_of_0.2.0.nc"
-    before = load(path)
+    before = load(Path(__file__).parents[1] / "results" / "limbs_of_0.2.0.nc")
+    simulation = Simulation(before.scene, before.numerics)
+    model, data, robot = simulation.model, simulation.data, before.scene.robot
+    pads, radius = pads_of(model, before.scene), simulation.numerics.pad_radius
+    for state in (0, len(before.time) // 2, -1):
+        data.qpos[:] = before.coordinates[state]
+        mujoco.mj_kinematics(model, data)
+        places = data.geom_xpos[pads].mean(axis=2) - [0.0, 0.0, radius]
+        assert before.position[state] == pytest.approx(places, abs=1e-6 * robot.length)
+    # its tips had no width, which changes how far it goes ahead by little
     walk = simulate(before.scene, before.numerics)
-    assert np.array_equal(before.coordinates, walk.coordinates)
-    assert before.position == pytest.approx(walk.position, abs=1e-6 * before.scene.robot.length)
-    assert went(before) == pytest.approx(went(walk), abs=1e-12)
+    assert went(before)[0] == pytest.approx(went(walk)[0], abs=0.002 * robot.length)
