@@ -24,6 +24,7 @@ import numpy as np
 from nodewise_rods import (
     GROUNDS,
     LEFT,
+    LENGTHS,
     PASSIVE,
     SHEAR,
     STAGES,
@@ -39,7 +40,7 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
 STIFF, SOFT = 5e3 * WEIGHT / L, 1e-5 * L  # of the ground at an edge of a node, and its smooth depth
 SLIPS = (1e-3, 1e-4, 1e-5, 1e-6)  # beside which slip counts, one after the other, over L
-VISCOUS = 1e-4 * WEIGHT / L  # of all that touches [N/m]: decides what no bound does
+VISCOUS = 1e-4 * WEIGHT / L  # of a tip or a side [N/m]: decides what no bound does
 ITERATIONS, TRIES = 150, 40
 STILL, LONGEST = 1e-9, 0.3  # gradient over weight times L; change of an angle in a step [rad]
 
@@ -187,7 +188,11 @@ def walk(case: Case) -> Array:
 def resistances(
     rods: Rods, middle: Array, edge: Array, pressures: Array, tip: float, side: float, area: bool
 ) -> tuple[Array, Array]:
-    """Bounds of the points that resist, (lines, 5, n + 1) [N], and what touches, (5, n + 1)."""
+    """Bounds of the points that resist, (lines, 5, n + 1) [N], and parts in viscosity, (5, n + 1).
+
+    What no bound decides, as of four inflated legs on felt, is left to weak viscosity where
+    friction acts: at the tip of an inflated leg, along a limb without pressure.
+    """
     z = np.stack([middle - edge, middle + edge])[..., 2]
     push = STIFF * SOFT * np.logaddexp(0, -z / SOFT) / (1 + np.exp(np.clip(z / SOFT, -500, 500)))
     lies = np.clip(push.sum(axis=0) / rods.weight, 0.0, 1.0)  # part of a node's length
@@ -198,8 +203,11 @@ def resistances(
         bounds[0] = 0.0  # a torso is a side of no area
     legs = ~passive & (np.arange(5) > 0)
     bounds[legs, -1] = 0.5 * tip * TIP * (lies[legs, -1] > 1e-2)
+    parts = lies * rods.share / LENGTHS[:, None]
+    parts[~passive] = 0.0
+    parts[legs, -1] = lies[legs, -1]
     lines = len(rods.lines)
-    return np.repeat(bounds[None] / lines, lines, axis=0), lies
+    return np.repeat(bounds[None] / lines, lines, axis=0), parts
 
 
 def main() -> None:
