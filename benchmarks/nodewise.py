@@ -1,7 +1,7 @@
 """The quadruped node by node, by a model that shares no code with the rest: twist and area.
 
-    python benchmarks/nodewise.py                       # the wave on gelatin, 10 minutes of CPU
-    python benchmarks/nodewise.py --left 0.7 --ground felt gelatin --elements 12 --states 24
+    python benchmarks/nodewise.py                       # the wave on gelatin, 3 minutes of CPU
+    python benchmarks/nodewise.py --left 0.7 --ground felt gelatin
     python benchmarks/nodewise.py --lateral             # limbs bend sideways as well
 
 Limbs are rods of constant strain in each of N equal elements, bending and, where they are free,
@@ -218,8 +218,8 @@ def main() -> None:
     parser.add_argument("--ground", nargs="+", default=["gelatin"], choices=GROUNDS)
     parser.add_argument("--left", type=float, default=1.0, help="part of the left legs' pressure")
     parser.add_argument("--lateral", action="store_true", help="limbs bend sideways as well")
-    parser.add_argument("--elements", type=int, default=16, help="of each limb, even")
-    parser.add_argument("--states", type=int, default=40, help="of a ramp, even")
+    parser.add_argument("--elements", type=int, default=12, help="of each limb, even")
+    parser.add_argument("--states", type=int, default=24, help="of a ramp, even")
     parser.add_argument("--jobs", type=int, default=2)
     given = parser.parse_args()
     n, states = given.elements, given.states

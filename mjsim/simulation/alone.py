@@ -18,7 +18,7 @@ from mjsim.simulation.schedule import before_start, walking
 
 Array = NDArray[np.float64]
 
-_RIGID = "; limbs do not twist in it, for --twists is not given"
+_RIGID = "; its limbs do not twist, as numerics.twists is not given"
 RAMP_TIMES = (2.0, 8.0)  # s; at which distances are told; chosen
 
 
