@@ -43,7 +43,8 @@ def main(folder: Path | None = None, links: int = 48) -> dict[str, float]:
                 axes.bar(np.arange(3) + offset, values, 0.23, label=label, color=colour)
             axes.set_xticks(range(3), list(SURFACES))
             axes.set(title=part, ylabel="displacement per cycle / L")
-        figure.axes[0].legend(frameon=False, fontsize=7)
+        entries = figure.axes[0].get_legend_handles_labels()
+        figure.legend(*entries, loc="outside upper center", ncols=3, frameon=False, fontsize=8)
         figure.savefig(folder / "long_robot.png")
     return shifts
 

@@ -1,6 +1,7 @@
 """Turns of the quadruped over pressures, error against cost, and the steps at which walking fails.
 
-`python -m studies.limbs`, about ten minutes on two cores. Drake's walks are read from
+`python -m studies.limbs`, about ten minutes on two cores. Limbs do not twist here, as Drake's do
+not. Drake's walks are read from
 docs/quadruped_drake.csv, which benchmarks/peers/quadruped.py writes.
 """
 
@@ -73,7 +74,7 @@ def simulated(surface: str, law: str, left: float, step: float, elements: int) -
     """One walk by MuJoCo."""
     gait = replace(undulation("wave", left=left), ramp_time=RAMP)
     scene = Scene(quadruped(), gait, GROUNDS[surface], friction=law)
-    walk = simulate(scene, Numerics(links=elements, timestep=step))
+    walk = simulate(scene, Numerics(links=elements, timestep=step, twists=0))
     numbers = measure(walk)
     assert numbers is not None
     return Point(surface, law, left, step, elements, numbers.displacement, numbers.aside,
@@ -84,7 +85,7 @@ def simulated(surface: str, law: str, left: float, step: float, elements: int) -
 def predicted(surface: str, law: str, left: float, states: int, elements: int) -> Point:
     """One walk by the quasi-static reference."""
     path = quasi_static(quadruped(), undulation("wave", left=left), GROUNDS[surface], states,
-                        elements, law=law)  # fmt: skip
+                        elements, law=law, twists=0)  # fmt: skip
     ahead, aside = path.displacement / LENGTH
     return Point(surface, law, left, 0.0, elements, ahead, aside, float(np.degrees(path.turn)), 0.0,
                  "ok" if path.converged else "unconverged")  # fmt: skip

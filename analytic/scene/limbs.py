@@ -13,10 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.checks import file_word, is_number, one_of, positive
+from analytic.scene.ground import LEVEL, Incline
 from analytic.scene.robot import GRAVITY, Robot
 
 Array = NDArray[np.float64]
 End = Literal["begin", "end"]
+
+_IN_LINE = 1e-9  # of its length, that a robot in one line is wide
 
 
 @dataclass(frozen=True)
@@ -165,6 +168,24 @@ def outline(robot: LimbedRobot) -> tuple[float, float]:
     places = np.array([place for ends in plan(robot).values() for place in ends])
     along, across = np.ptp(places @ rotation(robot.limbs[0].angle), axis=0)
     return float(along), float(across)
+
+
+def usual_twists(robot: AnyRobot, links: int, incline: Incline = LEVEL) -> int:
+    """Twists of each limb unless their number is given.
+
+    Half of its links, with which distances are as near to those of many as by the links themselves;
+    none where limbs lie in one line that nothing rolls, as there is nothing to twist.
+
+    Args:
+        robot: its limbs.
+        links: of each limb, even.
+        incline: of the ground, which rolls what lies across it.
+    """
+    if not isinstance(robot, LimbedRobot):
+        return 0
+    length, width = outline(robot)
+    across = incline.slope * np.sin(incline.uphill - robot.limbs[0].angle)
+    return links // 2 if width > _IN_LINE * length or abs(across) > _IN_LINE else 0
 
 
 def rotation(angle: float) -> Array:

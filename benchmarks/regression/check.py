@@ -104,7 +104,8 @@ def of_limbs(case: Case, change: float = 0.0) -> dict[str, Row]:
     scene = replace(scene, robot=robot)
     rows = {"mujoco": simulated_limbs(scene, numerics)}
     if case["theory"]:
-        rows["theory"] = quasi_static_limbs(scene, case["hinges"], rows["mujoco"]["length"])
+        length, twists = rows["mujoco"]["length"], numerics.twists
+        rows["theory"] = quasi_static_limbs(scene, case["hinges"], length, twists)
     return rows
 
 
@@ -125,8 +126,9 @@ def simulated_limbs(scene: Scene, numerics: Numerics) -> Row:
     return row
 
 
-def quasi_static_limbs(scene: Scene, hinges: int, length: float) -> Row:
-    path = walk_of_limbs(scene.robot, scene.gait, scene.ground, STATES, hinges, law=scene.friction)
+def quasi_static_limbs(scene: Scene, hinges: int, length: float, twists: int) -> Row:
+    path = walk_of_limbs(scene.robot, scene.gait, scene.ground, STATES, hinges, law=scene.friction,
+                         twists=twists)  # fmt: skip
     ahead, aside = (path.displacement @ rotation(scene.robot.limbs[0].angle) / length).tolist()
     return {"displacement": ahead, "sideways": aside, "turn": float(path.turn),
             "height": max(float(rest.q[2]) for rest in path.rests) / length,

@@ -1,5 +1,6 @@
 """The scenes of limbs whose numbers a redesign keeps: tables of scene files, in SI units."""
 
+import itertools
 from collections.abc import Iterator
 from typing import Any
 
@@ -34,13 +35,15 @@ def case(
     theory: bool = True,
     hinges: int = 4,
     timestep: float = 0.02,
+    twists: int = 0,
     **numerics: Any,
 ) -> Case:
     """One scene, and what its numbers are known to lack."""
     here = ground(*SURFACES[where]) if isinstance(where, str) else where
     return {
         "tables": {"robot": robot, "gait": {"ramp_time": ramp, **gait}, "ground": here,
-                   "numerics": {"friction": friction, "timestep": timestep, **numerics}},
+                   "numerics": {"friction": friction, "timestep": timestep, "twists": twists,
+                                **numerics}},
         "hinges": hinges, "awaits": awaits, "theory": theory,
     }  # fmt: skip
 
@@ -113,6 +116,10 @@ def of_named() -> Iterator[tuple[str, Case]]:
         there = ground(0.4, 0.8) if where == "felt" else where
         yield f"coulomb {where}", case(NAMED, {"right": 0.8}, there, friction="coulomb",
                                        awaits=(TWIST, LOAD))  # fmt: skip
+    for where, left in itertools.product(SURFACES, (1.0, 0.7)):
+        yield f"twisting left {left:g} {where}", case(NAMED, {"left": left}, where, twists=2)
+    yield "twisting coulomb", case(NAMED, {"right": 0.8}, ground(0.4, 0.8), friction="coulomb",
+                                   awaits=(LOAD,), twists=2)  # fmt: skip
     for viscosity in (100.0, 3000.0):
         wet = ground(0.5, 1.0, viscosity=viscosity)
         yield f"wet {viscosity:g}", case(NAMED, {"left": 0.8}, wet, awaits=(TWIST,))
@@ -166,6 +173,8 @@ def of_others() -> Iterator[tuple[str, Case]]:
     for where in SURFACES:
         yield f"three legs {where}", case(star(3), three, where, hinges=6,
                                           awaits=(LINKS, TWIST, AREA))  # fmt: skip
+    yield "three legs twisting", case(star(3), three, "gelatin", hinges=6, twists=3,
+                                      awaits=(LINKS, AREA))  # fmt: skip
     turned = star(3, 90.0)
     turned["limbs"][0] = {**turned["limbs"][0], "angle_deg": 90.0}
     yield "three legs turned", case(turned, three, "gelatin", hinges=6,

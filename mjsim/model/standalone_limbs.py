@@ -2,7 +2,8 @@
 
 Friction is by load, at every pad; pressures are the controls, in Pa, of chambers at constant
 pressure. An end has pads of its side a little before it and of its tip a little above: the tip
-touches where it is steep, the side where it is flat.
+touches where it is steep, the side where it is flat. Limbs do not twist unless they are told to: at
+the step of these files, by load at edges of limbs that twist, distances are not sure.
 """
 
 from dataclasses import replace
@@ -31,7 +32,7 @@ def spec_in_space(scene: Scene, numerics: Numerics | None = None) -> mujoco.MjSp
     """The scene, whose friction is by load, to open in MuJoCo's viewer: one slider per chamber."""
     numerics = numerics or Numerics()
     timestep = numerics.timestep or _TIMESTEP
-    given = replace(numerics, timestep=timestep, pad_radius=_RADIUS)
+    given = replace(numerics, timestep=timestep, pad_radius=_RADIUS, twists=numerics.twists or 0)
     resolution = resolved(scene, given)
     spec = tree_spec(scene, resolution, stage(scene.ground), with_friction=False)
     spec.modelname = scene.ground.name

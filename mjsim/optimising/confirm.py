@@ -62,7 +62,7 @@ def confirm(objective: Objective, gait: Gait, surface: Surface, contacts: Contac
 
 def _simulated(scene: Scene, given: Numerics | None) -> tuple[float, str]:
     try:
-        check = walk_checked(scene, 0.02, twists=given.twists if given else 0)
+        check = walk_checked(scene, 0.02, twists=given.twists if given else None)
     except ValueError as error:
         return math.nan, str(error)
     numbers = measure(check.walk)

@@ -34,10 +34,11 @@ _LINKS = 36  # of the elastica in a search; within 2e-4 L of 60, measured
 
 
 def coarse(scene: Scene, given: Numerics | None = None) -> Numerics:
-    """Links and time step of MuJoCo in a search; limbs twist if they do in numerics."""
+    """Links and time step of MuJoCo in a search; limbs do not twist if they do not in numerics."""
     step = min(scene.gait.ramp_times) / _STEPS
     if scene.in_space:
-        twists = min(given.twists, _OF_A_LIMB // 2) if given else 0
+        stated = given.twists if given else None
+        twists = None if stated is None else min(stated, _OF_A_LIMB // 2)
         return Numerics(_OF_A_LIMB, min(_LONGEST_IN_SPACE, step), twists=twists)
     per_segment = _BETWEEN if scene.between else _AT_ENDS
     return Numerics(per_segment * len(scene.strip.segments), min(_LONGEST, step))

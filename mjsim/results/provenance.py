@@ -68,6 +68,7 @@ def configuration(described: dict[str, Any]) -> tuple[Scene, Resolved]:
     for old, new in _RENAMED.items():
         if old in numbers:
             numbers[new] = numbers.pop(old)
+    numbers.setdefault("twists", 0)  # files without it are of limbs that did not twist
     body = values.get("body", Scene.body)
     values["body"] = _RENAMED_BODY.get(body, body)
     if isinstance(values["ground"], dict) and "borders" in values["ground"]:

@@ -84,9 +84,9 @@ class Numerics:
     tie_time: float = 0.1
     """of a robot in space: in which motion that no bound stops dies down, by viscosity at all
     contacts alike, which is weak where some are bound [s]; chosen"""
-    twists: int = 0
-    """of a robot in space: places at which each limb may twist, at most half its links, by which
-    distances hardly depend on them any more; 0: limbs do not twist"""
+    twists: int | None = None
+    """of a robot in space: places at which each limb may twist, at most half its links, which are
+    as many as it has unless its limbs lie in one line; 0: limbs do not twist"""
 
     def __post_init__(self) -> None:
         in_si(self)
@@ -99,7 +99,8 @@ class Numerics:
             if item.name not in ("links", "twists", *_WORDS) and value is not None:
                 positive(item.name, value)
                 object.__setattr__(self, item.name, float(value))
-        whole("twists", self.twists, 0)
+        if self.twists is not None:
+            whole("twists", self.twists, 0)
         if self.contact_softness >= 1:
             raise ValueError(f"contact_softness must be below 1, got {self.contact_softness!r}")
         if self.timestep is not None and self.timestep > LONGEST_STEP:
@@ -127,6 +128,7 @@ class Numerics:
             "steep_contact_time": 4.0 if body == "cable" else 2.0,
             "pad_radius": 1e-5 if friction == "coulomb" and not in_space else 1e-3,
             "edge_time": 0.5,
+            "twists": 0,  # the robot knows whether there is something to twist
         }
         if self.integrator != "discrete":
             step = chosen["timestep"] if self.timestep is None else self.timestep
@@ -139,7 +141,7 @@ class Numerics:
                 where = "in space" if in_space else "in the plane"
                 raise ValueError(f"{name} does nothing for a robot {where}, got {given[name]!r}")
         links = self.links or chosen["links"]
-        if in_space and self.twists > links // 2:
+        if in_space and (self.twists or 0) > links // 2:
             raise ValueError(f"twists must be at most half the {links:g} links of a limb, got "
                              f"{self.twists}")  # fmt: skip
         values: dict[str, Any] = {k: chosen[k] if v is None else v for k, v in given.items()}
@@ -191,4 +193,5 @@ class Resolved(Numerics):
     steep_contact_time: float = 2.0
     pad_radius: float = 1e-3
     edge_time: float = 0.5
+    twists: int = 0
     contact_path: Path = "straight"

@@ -27,6 +27,7 @@ from analytic.scene.limbs import (
     chambers_by_limb,
     limbs_of,
     quadruped,
+    usual_twists,
 )
 from analytic.scene.quadruped_gaits import for_robot
 from analytic.scene.robot import GRAVITY, Robot
@@ -258,9 +259,13 @@ def resolved(scene: Scene, numerics: Numerics | None = None) -> Resolved:
         ValueError: they do not go with the robot.
     """
     given = numerics or Numerics()
+    links = given.resolved(scene.body, scene.friction, scene.in_space).links
+    if given.twists is None:
+        given = replace(given, twists=usual_twists(scene.robot, links, scene.incline))
     torsion = next((limb.strip.torsion for limb in limbs_of(scene.robot) if limb.strip.torsion), 0)
     if torsion and not given.twists:
-        where = "limbs that do not twist; give twists" if scene.in_space else "a strip in the plane"
+        where = (f"limbs that do not twist; give twists up to {links // 2}" if scene.in_space
+                 else "a strip in the plane")  # fmt: skip
         raise ValueError(f"torsion does nothing for {where}, got {torsion:g}")
     if given.timestep is None:
         usual = given.resolved(scene.body, scene.friction, scene.in_space).timestep

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from analytic.scene.chain import segment_overlap
 from analytic.scene.gait import Gait
+from analytic.scene.limbs import usual_twists
 from mjsim.model.shoes import refusal
 from mjsim.model.standalone import standalone_spec
 from mjsim.results.prediction import reference
@@ -17,6 +18,7 @@ from mjsim.simulation.schedule import before_start, walking
 
 Array = NDArray[np.float64]
 
+_RIGID = "; its limbs do not twist, as numerics.twists is not given"
 RAMP_TIMES = (2.0, 8.0)  # s; at which distances are told; chosen
 
 
@@ -76,6 +78,7 @@ def measured(scene: Scene, numerics: Numerics | None = None) -> str:
         return (f"its gravity is that of ground which rises by {math.degrees(scene.slope):g} "
                 f"degrees{towards}; not measured, since by load it may slide")  # fmt: skip
     model = standalone_spec(scene, numerics).compile()
+    rigid = "" if numerics and numerics.twists else _RIGID * usual_twists(scene.robot, 2)
     if not model.nu:
         return "it has no controls: pressure is a couple on each edge, which mjsim applies"
     gait: Gait = scene.gait
@@ -85,7 +88,7 @@ def measured(scene: Scene, numerics: Numerics | None = None) -> str:
     for time in times:
         (shift,) = distance(scene, time, numerics, model=model)
         told.append(f"{shift:+.3f} L at {time:g} s per ramp" if time else f"{shift:+.3f} L")
-    line = f"measured with mj_step alone, one cycle of gait {gait.name}: {', '.join(told)}"
+    line = f"measured with mj_step alone, one cycle of gait {gait.name}: {', '.join(told)}{rigid}"
     if refusal(scene) is None:
         bounds = reference(replace(scene, chamber="constant-pressure"))
         if math.isfinite(bounds.displacement[0]):

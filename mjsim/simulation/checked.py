@@ -51,7 +51,7 @@ def walk_checked(
     tolerance: float,
     progress: Callable[[int], None] | None = None,
     forces: bool = False,
-    twists: int = 0,
+    twists: int | None = None,
 ) -> Checked:
     """Walk until the displacement is sure to be within a tolerance, relative or 0.001 L.
 
@@ -78,17 +78,17 @@ def walk_checked(
     return Checked(walk, error, agreed, tried)
 
 
-def refinements(scene: Scene, twists: int = 0) -> Iterator[Numerics]:
+def refinements(scene: Scene, twists: int | None = None) -> Iterator[Numerics]:
     """Numerics for a scene, each finer than the one before; the last if none agree before.
 
     Args:
         scene: the walk.
-        twists: of limbs in space, as many as their links allow.
+        twists: of limbs in space, as many as their links allow; if None as the robot asks for.
     """
     longest = min(scene.gait.ramp_times) / _STEPS_A_RAMP
     if scene.in_space:
         for links, timestep in _IN_SPACE:
-            few = min(twists, links // 2)
+            few = None if twists is None else min(twists, links // 2)
             yield Numerics(links=links, timestep=min(timestep, longest), twists=few)
         return
     borders = np.asarray(scene.strip.borders)

@@ -139,12 +139,13 @@ def _finer(scene: Scene, numerics: Resolved) -> Resolved:
     """Twice the links and half the time step, and no coarser than usual."""
     usual, twice = resolved(scene), 2 * numerics.links
     links = max(usual.links, twice if twice <= MAX_LINKS else numerics.links)
-    return replace(numerics, links=links, timestep=min(0.5 * numerics.timestep, usual.timestep))
+    step, twists = min(0.5 * numerics.timestep, usual.timestep), numerics.twists
+    return replace(numerics, links=links, timestep=step, twists=twists * links // numerics.links)
 
 
 def _of_numerics(walk: Trajectory, moved: Moved, fine: Moved, finer: Resolved) -> str:
     """The note on links, time step or both, whichever change the distance."""
-    one = _walked(walk.scene, replace(walk.numerics, links=finer.links))
+    one = _walked(walk.scene, replace(walk.numerics, links=finer.links, twists=finer.twists))
     change, cause, told = fine.away(moved), "links and time step", _words(finer)
     if isinstance(one, Moved) and one.away(fine) < 0.5 * change:
         cause, told = "links", f"{finer.links} links"

@@ -16,7 +16,7 @@ from analytic.friction.laws import LAWS
 from analytic.progress import counted
 from analytic.scene.gait import Gait
 from analytic.scene.ground import LEVEL, Incline
-from analytic.scene.limbs import LimbedRobot, rotation
+from analytic.scene.limbs import LimbedRobot, rotation, usual_twists
 from analytic.scene.surface import Ground
 from analytic.solvers.limbs.contacts import Contacts, shares, spans_of
 from analytic.solvers.limbs.kinematics import Tree
@@ -35,7 +35,7 @@ def shapes(
     pressures: Array,
     elements: int,
     chamber: str = "linearized",
-    twists: int = 0,
+    twists: int | None = None,
 ) -> tuple[Tree, list[Rest]]:
     """Equilibria along a path of pressures that begins near none.
 
@@ -44,9 +44,9 @@ def shapes(
         pressures: of its chambers, (B, S) [Pa].
         elements: hinges of each limb, even.
         chamber: law of the chambers, see analytic.scene.chain.
-        twists: of each limb.
+        twists: of each limb; as usual_twists has them if None.
     """
-    tree = Tree(robot, elements, twists)
+    tree = Tree(robot, elements, usual_twists(robot, elements) if twists is None else twists)
     statics = Statics(tree, chamber)
     rest, rests = statics.flat(), []
     for row in counted(list(pressures)):
@@ -102,7 +102,7 @@ def walk(
     robot: LimbedRobot, gait: Gait, ground: Ground, states: int = 40, elements: int = 6,
     cycles: int = 1, law: str = "constant", bent: bool = True, chamber: str = "linearized",
     path: Array | None = None, times: Array | None = None, incline: Incline = LEVEL,
-    twists: int = 0, all_on_tips: bool = False,
+    twists: int | None = None, all_on_tips: bool = False,
 ) -> Path:  # fmt: skip
     """Walk a gait quasi-statically, or along a path of pressures.
 
@@ -120,7 +120,8 @@ def walk(
         path, times: pressures in the chambers in place of the gait's, (B, S) [Pa], and when, (B,)
             [s].
         incline: of the ground; places are along it.
-        twists: of each limb, half as many as its hinges at most; 0 where limbs do not twist.
+        twists: of each limb, half as many as its hinges at most; 0 where limbs do not twist; as
+            analytic.scene.limbs.usual_twists has them if None.
         all_on_tips: of friction by load that bends the robot, see
             analytic.solvers.limbs.contacts.Contacts.
 
@@ -154,6 +155,8 @@ def walk(
     spans_of(ground, times, len(path))  # refuses what has no times and needs them
     clock = np.arange(float(len(path))) if times is None else np.asarray(times, dtype=float)
     path, times = _with_thresholds(robot, path, clock)
+    if twists is None:
+        twists = usual_twists(robot, elements, incline)
     if bent:
         statics = Statics(Tree(robot, elements, twists, incline), chamber)
         return stick_slip_path(statics, path, ground, law, times, all_on_tips)

@@ -1,13 +1,16 @@
 """Limbs that twist, in MuJoCo: places, stiffness, walks of the reference, symmetry, refusals."""
 
+import importlib
 from dataclasses import replace
+from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
 from walks import turned, went
 
-from analytic.scene.limbs import LENGTH, quadruped
+from analytic.scene.gait import GAITS
+from analytic.scene.limbs import LENGTH, as_strip, quadruped
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
@@ -23,6 +26,7 @@ from mjsim.results.trajectory import load
 from mjsim.scene import Numerics, Scene, resolved
 from mjsim.simulation.simulation import simulate
 
+BENCHMARKS = Path(__file__).parents[3] / "benchmarks"
 NUMERICS = Numerics(timestep=0.04, links=4, twists=2)
 
 
@@ -91,12 +95,33 @@ def test_twisted_limbs_swapped_left_and_right_go_the_mirrored_way():
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("twists", [0, 3])
+def test_limbs_go_as_far_as_node_by_node_with_and_without_twist(twists, monkeypatch):
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    nodewise = importlib.import_module("nodewise")
+    case = nodewise.Case("gelatin", 1.0, bool(twists), False, False, elements=8, states=12)
+    wave = Scene(quadruped(), ground=SURFACES["gelatin"])
+    ahead = reference(wave, Numerics(twists=twists)).displacement[0]
+    assert ahead == pytest.approx(nodewise.walk(case)[0], abs=1e-3)
+
+
+@pytest.mark.slow
 def test_limbs_that_hardly_twist_go_as_those_that_do_not():
     stiff = Robot(torsion=0.05)
-    plain = reference(scene("gelatin"))
+    plain = reference(scene("gelatin"), Numerics(twists=0))
     stiffly = replace(scene("gelatin"), robot=quadruped(stiff))
     stiff_walk = reference(stiffly, Numerics(twists=2))
     assert stiff_walk.displacement[0] == pytest.approx(plain.displacement[0], abs=3e-4)
+
+
+def test_limbs_twist_by_half_their_links_where_there_is_something_to_twist():
+    for links in (2, 6, 8):
+        assert resolved(scene(), Numerics(links=links)).twists == links // 2
+    assert resolved(scene(), Numerics(twists=0)).twists == 0
+    in_line = replace(scene(), robot=as_strip(Robot()), gait=GAITS["wave"])
+    assert resolved(in_line).twists == 0
+    assert resolved(replace(in_line, slope=0.02, uphill=0.5 * np.pi)).twists == 3
+    assert resolved(Scene()).twists == 0
 
 
 def test_twists_where_there_can_be_none_are_refused():
@@ -108,6 +133,6 @@ def test_twists_where_there_can_be_none_are_refused():
         Numerics(twists=-1)
     given = replace(scene(), robot=quadruped(Robot(torsion=3e-4)))
     with pytest.raises(ValueError, match="torsion does nothing for limbs that do not twist"):
-        resolved(given)
+        resolved(given, Numerics(twists=0))
     with pytest.raises(ValueError, match="torsion does nothing for a strip in the plane"):
         resolved(Scene(Robot(torsion=3e-4)))

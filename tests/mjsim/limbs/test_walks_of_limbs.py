@@ -71,7 +71,7 @@ def test_at_rest_it_has_the_shape_of_the_statics():
         simulation.step(part * pressures)
     for _ in range(200):
         simulation.step(pressures)
-    tree = Tree(own.robot, NUMERICS.links)
+    tree = Tree(own.robot, NUMERICS.links, NUMERICS.links // 2)
     statics, rest = Statics(tree), Statics(tree).flat()
     for part in np.linspace(0, 1, 9):
         rest = statics.equilibrium(part * pressures, rest)

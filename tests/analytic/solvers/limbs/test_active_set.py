@@ -12,14 +12,14 @@ from analytic.solvers.limbs.walk import walk
 QUADRUPED = quadruped()
 
 
-@pytest.mark.parametrize(("name", "left"), [("felt", 1.0), ("gelatin", 0.7)])
+@pytest.mark.parametrize(("name", "left", "twists"), [("felt", 1.0, 2), ("gelatin", 0.7, 0)])
 def test_states_on_their_contacts_are_those_of_least_energy_and_dissipation(
-    name, left, monkeypatch
+    name, left, twists, monkeypatch
 ):
     gait, ground = undulation("wave", left), SURFACES[name]
-    found = walk(QUADRUPED, gait, ground, 6, 4)
+    found = walk(QUADRUPED, gait, ground, 6, 4, twists=twists)
     monkeypatch.setattr(statics, "on_contacts", lambda *_: None)
-    least = walk(QUADRUPED, gait, ground, 6, 4)
+    least = walk(QUADRUPED, gait, ground, 6, 4, twists=twists)
     assert found.converged
     assert least.converged
     assert found.displacement == pytest.approx(least.displacement, abs=1e-4 * QUADRUPED.length)
