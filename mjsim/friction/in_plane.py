@@ -65,7 +65,7 @@ class LimbFooting:
             {
                 part: PointFriction(model, contact_name(limb.name, part),
                                     len(joints_to(robot, numerics.links, i, numerics.twists)))
-                for part in parts_of(limb, robot, scene.friction)
+                for part in parts_of(limb, robot)
             }
             for i, limb in enumerate(robot.limbs)
         ]  # fmt: skip

@@ -166,7 +166,7 @@ def _add_friction(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None
     robot = limbed(scene)
     for number, limb in enumerate(robot.limbs):
         joints = joints_to(robot, numerics.links, number, numerics.twists)
-        for part, row in itertools.product(parts_of(limb, robot, scene.friction), range(ROWS)):
+        for part, row in itertools.product(parts_of(limb, robot), range(ROWS)):
             name = f"{contact_name(limb.name, part)}_{row}"
             tendon = parts.friction_tendon(spec, name, parts.NO_BOUND)
             for joint in joints:

@@ -267,12 +267,11 @@ class _State(NamedTuple):
     reached: set[tuple[int, str]]
 
 
-def parts_of(limb: Limb, robot: LimbedRobot, law: str) -> tuple[str, ...]:
+def parts_of(limb: Limb, robot: LimbedRobot) -> tuple[str, ...]:
     """Parts of a limb that may be contacts, see Contact.part."""
     if limb.on is None or limb.name not in robot.outer:
         return "begin", "end", "between"
-    rests = LAWS[law].needs_load or len(limb.strip.segments) > 1
-    return ("end", "between") if rests else ("end",)
+    return "end", "between"
 
 
 def _runs(inner: list[int], height: list[float], place: list[float]) -> list[list[int]]:
