@@ -21,7 +21,7 @@ def climbing(degrees, uphill):
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("uphill", [0.0, 180.0])
+@pytest.mark.parametrize("uphill", [0.0, pytest.param(180.0, marks=pytest.mark.slow)])
 def test_on_a_slope_it_goes_as_far_as_by_its_reference(uphill):
     scene = climbing(1.0, uphill)
     level = reference(climbing(0.0, 0.0)).displacement[0]
