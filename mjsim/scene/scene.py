@@ -32,8 +32,9 @@ from analytic.scene.quadruped_gaits import for_robot
 from analytic.scene.robot import GRAVITY, Robot
 from analytic.scene.surface import SURFACES, Ground
 from mjsim.scene import registry
-from mjsim.scene.magnitudes import check_ceiling, check_ground, check_robot
+from mjsim.scene.magnitudes import check_robot
 from mjsim.scene.numerics import Numerics, Resolved, path_of, short_enough
+from mjsim.scene.surroundings import check_ceiling, check_ground, check_times
 from mjsim.scene.valves import Valves
 
 Chamber = Literal["linearized", "sealed", "constant-pressure"]
@@ -117,8 +118,8 @@ class Scene:
         whole("cycles", self.cycles, 1)
         object.__setattr__(self, "cycles", int(self.cycles))
         positive("gravity", self.gravity, "m/s^2")
-        check_robot(self.robot)
-        check_ground(self.ground, self.robot.length, self.cycles)
+        check_robot(self.robot, gravity=self.gravity)
+        check_ground(self.ground, self.robot, self.cycles)
         positive("settle_time", self.settle_time, "s")
         check_ceiling(self.ceiling, self.ceiling_friction, self.robot)
         if self.ceiling is not None and self.body != Scene.body:
@@ -128,6 +129,7 @@ class Scene:
         chambers = self.robot.chambers
         object.__setattr__(self, "gait", for_robot(self.gait, self.robot))
         self.valves.check(len(chambers))
+        check_times(self.gait, self.valves, self.settle_time, self.robot.peak_pressure)
         not_negative("roughness", self.roughness)
         if self.roughness != ROUGHNESS and (self.in_space or not self.between):
             where = "limbs" if self.in_space else "contacts at the ends"
