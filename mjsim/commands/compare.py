@@ -72,7 +72,8 @@ Row = dict[str, Any]  # one model on one scene; what does not exist is None
 COLUMNS = (
     Column("surface", "surface"), Column("gait", "gait"), Column("model", "model"),
     Column("direction", "direction"), Column("Δ/L", "displacement_over_L", "+.4f"),
-    Column("±", "uncertainty_over_L", ".4f"), Column("- ref", "difference_over_L", "+.4f"),
+    Column("±", "uncertainty_over_L", ".4f", error=True),
+    Column("- ref", "difference_over_L", "+.4f"),
     Column("turn °", "turn_deg", "+.2f"), Column("height/L", "amplitude_over_L", ".3f"),
     Column("status", "status"),
 )  # fmt: skip

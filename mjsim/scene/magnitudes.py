@@ -50,6 +50,34 @@ def check_robot(robot: AnyRobot, given: Collection[str] = (), gravity: float = G
         raise ValueError(_unbent(robot, given))
 
 
+def check_turn(
+    strip: Robot, peak_pressure: float, fullest: float, gait: str, what: str = "this strip"
+) -> None:
+    """Refuse pressures at which a strip closes into a circle.
+
+    Args:
+        strip: its length, modulus, chambers.
+        peak_pressure: of the robot that it is, or is a limb of [Pa].
+        fullest: part of the strip that is at the peak, at most, in the gait's stages [1].
+        gait: name of the gait.
+        what: closes.
+
+    Raises:
+        ValueError: it does.
+    """
+    turn = pneunet.curvature_per_pressure(strip) * peak_pressure * strip.length * fullest
+    if turn < 2 * math.pi:
+        return
+    limit, hint = 2 * math.pi / turn * peak_pressure, ""
+    if limit < 0.1 * peak_pressure:
+        hint = (f"; is its length {strip.length:g} m, its modulus {strip.modulus:g} Pa, "
+                f"its thickness {strip.thickness:g} m?")  # fmt: skip
+    raise ValueError(
+        f"peak_pressure must be below {limit:.6g} Pa, where gait {gait} would close {what} into a "
+        f"circle, got {peak_pressure:g}{hint}"
+    )
+
+
 def _wrong(strip: Robot, given: Collection[str], gravity: float) -> str | None:
     """Message about a magnitude that is none."""
     name = _disproportion(strip)

@@ -9,7 +9,6 @@ from analytic.fields import in_si
 MIN_LINKS, MAX_LINKS = 6, 384
 FEWEST_IN_SPACE = 2  # of a limb
 LONGEST_STEP = 0.1  # s
-_SHORTEST_STEP = 1e-6  # s; a cycle would take longer than anyone waits; chosen
 FEWEST_STEPS = 4  # of a ramp; with fewer the gait is not seen; chosen
 
 SHORT_STEPS = (0.005, 0.0025, 0.001, 0.0005, 0.00025)  # s; of fast gaits
@@ -105,8 +104,6 @@ class Numerics:
             raise ValueError(f"contact_softness must be below 1, got {self.contact_softness!r}")
         if self.timestep is not None and self.timestep > LONGEST_STEP:
             raise ValueError(f"timestep must be at most {LONGEST_STEP} s, got {self.timestep!r}")
-        if self.timestep is not None and self.timestep < _SHORTEST_STEP:
-            raise ValueError(f"timestep must be at least {_SHORTEST_STEP} s, got {self.timestep!r}")
 
     def resolved(self, body: str, friction: str, in_space: bool = False) -> "Resolved":
         """Fill in the numbers that are chosen for body, law, integrator and robot.

@@ -10,10 +10,11 @@ from collections.abc import Iterable
 
 from analytic.checks import not_negative, positive
 from analytic.fields import units
+from analytic.friction.laws import ROUGHNESS
 from analytic.scene import pneunet
 from analytic.scene.gait import Gait
 from analytic.scene.ground import Patches, surfaces_of
-from analytic.scene.limbs import AnyRobot, limbs_of
+from analytic.scene.limbs import AnyRobot, LimbedRobot, limbs_of
 from analytic.scene.surface import Ground, Surface
 from mjsim.scene.magnitudes import LENGTHS, asked, readings
 from mjsim.scene.valves import Valves
@@ -24,8 +25,9 @@ _OF_SURFACES = {  # in SI
     "friction": (1e-6, 20.0), "tip_friction": (1e-6, 20.0), "viscosity": (1e-4, 1e8),
     "static_ratio": (1.0, 100.0), "stribeck_speed": (1e-7, 10.0), "adhesion": (1e-6, 1e4),
 }  # fmt: skip
+_ROUGH = (1e-10, 1e-2)  # m, and over the length
 _REACH = (1e-9, 0.5)  # of adhesion: m, and over the length
-_RAMP = (1e-3, 1e3)  # s, of the longest one
+_RAMP = (1e-4, 1e3)  # s, of the longest one
 _LAG = (1e-6, 1e2)  # s, of valves and chambers
 _SETTLED = (0.0, 1e3)  # s
 
@@ -69,6 +71,27 @@ def _check_surface(surface: Surface, robot: AnyRobot) -> None:
     if surface.adhesion:
         bounds = _REACH[0], _REACH[1] * robot.length
         _check("adhesion_reach", (surface.adhesion_reach,), bounds, "that of a ground", "m")
+
+
+def check_roughness(roughness: float, robot: AnyRobot, between: bool) -> None:
+    """Refuse a roughness that does nothing, or is none of a ground.
+
+    Args:
+        roughness: of skin and ground [m].
+        robot: what walks.
+        between: whether friction acts between its ends.
+
+    Raises:
+        ValueError: it is one.
+    """
+    not_negative("roughness", roughness, "m")
+    limbs = isinstance(robot, LimbedRobot)
+    if roughness != ROUGHNESS and (limbs or not between):
+        where = "a robot of limbs" if limbs else "one whose contacts are its ends (see contacts)"
+        raise ValueError(f"roughness is for friction between the ends of a strip and does nothing "
+                         f"for {where}, got {roughness:g} m")  # fmt: skip
+    bounds = _ROUGH[0], _ROUGH[1] * robot.length
+    _check("roughness", (roughness,), bounds, "that of skin and ground", "m")
 
 
 def check_times(gait: Gait, valves: Valves, settle_time: float, peak_pressure: float) -> None:
