@@ -108,8 +108,8 @@ def test_a_picture_that_cannot_be_written_leaves_the_gait_and_its_numbers(
     monkeypatch.setattr("mjsim.optimising.search.search", generations)
     monkeypatch.setattr("mjsim.optimising.picture.draw", full)
     monkeypatch.setattr("mjsim.files.plugins.processes", lambda *words: Here())
-    monkeypatch.setattr("mjsim.optimising.confirm.confirm",
-                        lambda *job: Confirmation("felt", "ends", 0.01, 0.01, 0.01, "ok", 0.0, 0.02))  # fmt: skip
+    row = Confirmation("felt", "ends", 0.01, 0.01, 0.01, "ok", 0.0, 0.02)
+    monkeypatch.setattr("mjsim.optimising.confirm.confirm", lambda *job: row)
     words = ["--surface", "felt", "--evaluations", "16", "--model", "modes", "--out", str(tmp_path)]
     with pytest.raises(SystemExit) as stop:
         optimise.main([*words, "--json"])
