@@ -2,14 +2,11 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Annotated, Any
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
-import tyro
 
-from analytic.checks import one_of
 from analytic.locomotion import direction
 from analytic.scene.gait import GAITS
 from analytic.scene.limbs import ORDER, AnyRobot, LimbedRobot
@@ -18,10 +15,12 @@ from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
 from analytic.solvers.models import SOLVERS
 from analytic.uncertainty import modes_error
-from mjsim.files import plugins
-from mjsim.files.cli import ALL, Plugins, bar, choose, fail, parse, say, strict_json
+from mjsim.files.cli import ALL, bar, choose, fail, parse, say, strict_json
+from mjsim.files.dataclass_options import given
+from mjsim.files.gait_files import is_file
+from mjsim.files.keys import SIDES, WITH_ANY_SURFACE
 from mjsim.files.limb_tables import build_robot, of_limbs
-from mjsim.files.options import ROBOTS
+from mjsim.files.options import SceneOptions, tables_of
 from mjsim.files.tables import Tables, build, merged, read_tables
 from mjsim.files.text_table import Column, text_table
 from mjsim.files.typed import Table, make
@@ -42,35 +41,29 @@ PROGRAM = "undulator compare"
 EXAMPLES = (
     "--surface felt,gelatin --gait wave --model modes,elastica,chain",
     "--robot quadruped --surface gelatin --gait wave",
-    "--scene my.toml",
+    "--scene my.toml --slope 2",
 )
 
 
 @dataclass(frozen=True)
-class Options:
+class Options(SceneOptions):
     """Compare the quasi-static models and MuJoCo on one cycle of each gait on each surface.
 
     Prints one row per model; docs/output.md explains models and columns. Exit code 0: done, also
     where a model has no answer (its status says why); 2: bad input.
     """
 
-    surface: str = "all"
-    """felt, polyethylene, gelatin, several with commas between; all: those three, or the scene's"""
-    gait: str = "all"
+    surface: str = ALL
+    """felt, polyethylene, gelatin, several with commas between; all: those three, or the ground
+    that a scene or options describe"""
+    gait: str = ALL
     """wave, full-wave, pulse, of the quadruped spin and crawl too, several with commas between;
-    all: those, or the scene's"""
-    model: str = "all"
+    all: those, or the gait that a scene or options describe; or one file, as of undulator run"""
+    model: str = ALL
     """modes, lifted, obstacle, elastica, chain, cable, rod, a body of a plugin, several with commas
     between, or all; of a robot of limbs quasi-static and chain"""
-    scene: Annotated[Path | None, tyro.conf.arg(help_behavior_hint="")] = None
-    """a TOML file, whose robot walks; its gait and its ground where none is named"""
-    robot: Annotated[str | None, tyro.conf.arg(help_behavior_hint="")] = None
-    """strip or quadruped, in place of a scene's"""
-    plugin: Plugins = ()
     reverse: bool = False
     """run the gaits backwards too"""
-    pressure: float | None = None
-    """peak pressure of a chamber [Pa]"""
     json: bool = False
     """print one JSON object instead of the table"""
 
@@ -79,7 +72,8 @@ Row = dict[str, Any]  # one model on one scene; what does not exist is None
 COLUMNS = (
     Column("surface", "surface"), Column("gait", "gait"), Column("model", "model"),
     Column("direction", "direction"), Column("Δ/L", "displacement_over_L", "+.4f"),
-    Column("±", "uncertainty_over_L", ".4f"), Column("- ref", "difference_over_L", "+.4f"),
+    Column("±", "uncertainty_over_L", ".4f", error=True),
+    Column("- ref", "difference_over_L", "+.4f"),
     Column("turn °", "turn_deg", "+.2f"), Column("height/L", "amplitude_over_L", ".3f"),
     Column("status", "status"),
 )  # fmt: skip
@@ -130,7 +124,8 @@ def _reference(scene: Scene, numerics: Numerics | None) -> Row:
     if not math.isfinite(ahead):
         return _row(None, None, None, "+".join(fine.flags))
     bar, _ = error_bars(scene, fine, reference(scene, numerics, HALF))
-    return _row(ahead, bar, fine.height / scene.robot.length, "+".join(fine.flags) or "ok",
+    return _row(ahead, bar, fine.height / scene.robot.length,
+                ("+".join(fine.flags) or "ok") + _without_valves(scene),
                 math.degrees(fine.turn) if scene.in_space else None)  # fmt: skip
 
 
@@ -144,8 +139,13 @@ def _weak(scene: Scene, model: str) -> Row:
         shift if finite else None,
         bar if math.isfinite(bar) and bar > 0 else None,
         float(walk.shapes.amplitude.max()) / length if finite else None,
-        f"{flags}, {WEAK}",
+        f"{flags}, {WEAK}{_without_valves(scene)}",
     )
+
+
+def _without_valves(scene: Scene) -> str:
+    """Words for the status of a theory, which takes the gait's pressures as the chambers'."""
+    return "" if scene.valves.ideal else ", ideal valves"
 
 
 def _simulated(scene: Scene, numerics: Numerics | None) -> Row:
@@ -186,7 +186,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     options = parse(Options, PROGRAM, argv, EXAMPLES)
     gl.prepare()
     try:
-        plugins.load(options.plugin)
         cases = [build(tables) for tables in _tables(options)]
         chosen = choose("model", options.model, models(cases[0][0].robot))
     except ValueError as error:
@@ -214,29 +213,33 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _tables(options: Options) -> list[Tables]:
     """Tables of every scene: gait by gait, each on all surfaces."""
-    base = merged(read_tables(options.scene)) if options.scene else merged()
-    if options.robot is not None:
-        one_of("robot", options.robot, ROBOTS)
-        base = {**base, "robot": {"name": options.robot} if options.robot != ROBOTS[0] else {}}
-    if options.pressure is not None:
-        base = merged(base, {"robot": {"peak_pressure": options.pressure}})
+    body = given(options.numerics_).get("body")
+    if body is not None:
+        raise ValueError(f"body must be given as --model, got {body!r}")
+    from_file = is_file(options.gait)
+    shared = {item.name: getattr(options, item.name) for item in fields(SceneOptions)}
+    shared |= {"surface": None, "gait": options.gait if from_file else None, "reverse": False}
+    (base,) = tables_of(SceneOptions(**shared))
     table = base["robot"]
     chambers = (build_robot(table) if of_limbs(table) else make(Robot, table)).chambers
     gaits = {**GAITS, **QUADRUPED_GAITS} if chambers == ORDER else GAITS
     named = gaits if chambers in (ORDER, Robot().chambers) else {}
+    scene = read_tables(options.scene) if options.scene else {}
+    own_gait, own_ground = (
+        bool(scene.get(name)) or not base[name].keys() <= {*kept}
+        for name, kept in (("gait", ("ramp_time", *SIDES)), ("ground", WITH_ANY_SURFACE))
+    )
     layers = [
         merged({"gait": gait}, {"ground": ground}, {"gait": {"reverse": True} if backward else {}})
-        for gait in _choice("gait", options.gait, named, base["gait"], "name")
+        for gait in _choice("gait", ALL if from_file else options.gait, named, own_gait, "name")
         for backward in (False, *([True] if options.reverse else []))
-        for ground in _choice("surface", options.surface, SURFACES, base["ground"], "surface")
+        for ground in _choice("surface", options.surface, SURFACES, own_ground, "surface")
     ]
     return [merged(base, layer) for layer in layers]
 
 
-def _choice(
-    option: str, text: str, known: Iterable[str], table: Table, key: str
-) -> list[Table]:  # fmt: skip
+def _choice(option: str, text: str, known: Iterable[str], own: bool, key: str) -> list[Table]:
     """Tables of what is named; for all of it, the scene's own alone if it has one."""
-    if text == ALL and (table or not known):
+    if text == ALL and (own or not known):
         return [{}]
     return [{key: name} for name in choose(option, text, known)]

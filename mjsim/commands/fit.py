@@ -2,8 +2,9 @@
 
 import contextlib
 import math
+import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -79,15 +80,24 @@ def main(argv: Sequence[str] | None = None) -> int:
         doubts = doubts_of(fit, base)
         tables, refusal = _scene(fit, base)
         notes = [*doubts.notes, *remarks(fit, doubts), *refusal, *ignored(fit)]
-        paths = _write(options.out, fit, tables, doubts, notes)
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
+    paths: list[Path] = []
+    end: OSError | None = None
+    try:
+        for path in _write(options.out, fit, tables, doubts, notes):
+            paths.append(path)
+    except OSError as error:
+        end = error  # after the numbers, which are not lost
     if options.json:
         files = {"files": [str(path) for path in paths]}
         say(strict_json(record_of(fit, doubts, notes) | record | files))
     else:
         say("\n".join([table(fit, doubts), *zeros(fit), _summary(fit, record), *notes]))
         print(*paths)
+    if end is not None:
+        sys.stdout.flush()
+        fail(PROGRAM, str(end))
     return FAILED if doubts.notes else 0
 
 
@@ -144,7 +154,8 @@ def _scene(fit: "Estimate", base: Tables) -> tuple[Tables, list[str]]:
 
 def _write(
     folder: Path, fit: "Estimate", tables: Tables, doubts: "Doubts", notes: list[str]
-) -> list[Path]:
+) -> Iterator[Path]:
+    """Paths of the scene's file and its picture, each once it is written."""
     from mjsim.files.written import as_toml
     from mjsim.fitting.picture import draw
     from mjsim.fitting.report import table, zeros
@@ -157,8 +168,9 @@ def _write(
             f"{name} = {fit.values[name]:.6g}" for name in others))  # fmt: skip
     with whole(folder / "fit.toml") as part:
         part.write_text(as_toml(tables, comments), "utf-8")
+    yield folder / "fit.toml"
     draw(fit, folder / "fit.png")
-    return [folder / "fit.toml", folder / "fit.png"]
+    yield folder / "fit.png"
 
 
 def _summary(fit: "Estimate", record: dict[str, Any]) -> str:

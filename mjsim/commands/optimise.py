@@ -3,8 +3,9 @@
 import itertools
 import math
 import os
+import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -82,17 +83,26 @@ def main(argv: Sequence[str] | None = None) -> int:
         except KeyboardInterrupt as error:
             if not history:
                 raise
-            path, _ = _write(options, objective, history)
+            path, *_ = _write(options, objective, history)
             raise KeyboardInterrupt(
                 f"the best of {history[-1].evaluations} gaits is in {path}"
             ) from error
         seconds = time.perf_counter() - began
-        files = _write(options, objective, history)
     except (ValueError, OSError, MissingExtraError) as error:
         fail(PROGRAM, str(error))
+    files: list[str] = []
+    end = ""
+    try:
+        for path in _write(options, objective, history):
+            files.append(path)
+    except OSError as error:
+        end = str(error)  # after the numbers, which are not lost
     record = _record(options, objective, history[-1], best, start) | {
         "wall_time_s": seconds, "files": files}  # fmt: skip
     say(strict_json(record) if options.json else _text(record))
+    if end:
+        sys.stdout.flush()
+        fail(PROGRAM, end)
     return 0 if record["objective"] > -math.inf else FAILED
 
 
@@ -149,7 +159,8 @@ def _search(
     return confirmed[: len(jobs) // 2], confirmed[len(jobs) // 2 :]
 
 
-def _write(options: Options, objective: "Objective", history: "list[Generation]") -> list[str]:
+def _write(options: Options, objective: "Objective", history: "list[Generation]") -> Iterator[str]:
+    """Paths of the gait's file and its picture, each once it is written."""
     from mjsim.files.written import as_toml
     from mjsim.optimising.picture import draw
 
@@ -162,8 +173,9 @@ def _write(options: Options, objective: "Objective", history: "list[Generation]"
     with whole_file(path) as part:
         text = as_toml({"gait": table}, words)
         part.write_text(text.replace("[gait]\n", ""), "utf-8")
+    yield str(path)
     draw(gait, objective.scene.gait, history, options.out / "best.png")
-    return [str(path), str(options.out / "best.png")]
+    yield str(options.out / "best.png")
 
 
 def _record(

@@ -1,8 +1,9 @@
 """Tables of measured numbers: CSV whose heads name their units, as `time [s]` or `p1_kPa`.
 
 Units may also stand as in `Time (in ms)`, `p1 / kPa`, `p1, psig` or `p1 kgf/cm2`. Columns are
-separated by commas, or by semicolons, tabs or blanks, then with decimal commas or points; lines
-that begin with # are comments, and the last of them the heads where numbers follow.
+separated by commas, or by semicolons, tabs, bars or blanks, then with decimal commas or points; the
+lines of a table in Markdown may be framed by bars. Lines that begin with # are comments, and the
+last of them the heads where numbers follow.
 """
 
 import csv
@@ -22,6 +23,7 @@ _BRACKETS = re.compile(r"(.*?)\s*[\[({]\s*(?:in\s+)?(.+?)\s*[\])}]\s*")
 _BARE = re.compile(r"(.*?)(?:\s*[,/:]\s*|\s+in\s+|\s+|_)(\S+(?:\s*\(?(?:g|a|gauge|abs)\)?)?)\s*")
 _SINGLE = ("s", "m", "N", "%")  # units of one letter that need no brackets
 _EMPTY = ("", "nan", "na")
+MARKS = ";\t|,"  # between cells; a comma may be part of a head where one of the others stands
 _CELL = re.compile(r'"[^"]*"|\S+')
 _UNIT = re.compile(r"\s+(?=[\[({])")  # blanks between a name and its unit
 _NUMBER = re.compile(r"[-+]?(\d|[.,]\d)[-+\d.,eE]*")
@@ -130,6 +132,8 @@ def read_csv(path: Path, what: str) -> CsvTable:
     if comments and _are_heads(comments[-1], lines[0][1]):
         lines.insert(0, (0, comments[-1]))
     mark = _mark(lines[0][1])
+    if mark == "|":
+        lines = _unframed(lines)
     decimal = "." if mark == "," else ","
     try:
         (_, heads), *rows = _cells(lines, mark)
@@ -148,6 +152,14 @@ def read_csv(path: Path, what: str) -> CsvTable:
             f"{head} [{unit}]" if unit else head for head, unit in zip(heads, units, strict=True)
         ]
     return CsvTable(where, heads, rows)
+
+
+def _unframed(lines: list[tuple[int, str]]) -> list[tuple[int, str]]:
+    """Lines of a table without bars around them, and without a rule below its heads."""
+    begun = lines[0][1].lstrip().startswith("|")
+    bare = [(number, line.strip().removesuffix("|")) for number, line in lines]
+    bare = [(number, line.removeprefix("|") if begun else line) for number, line in bare]
+    return [(number, line) for number, line in bare if set(line) - set("|-:+ ")]
 
 
 def _cells(lines: list[tuple[int, str]], mark: str | None) -> list[tuple[int, list[str]]]:
@@ -171,7 +183,7 @@ def _cells(lines: list[tuple[int, str]], mark: str | None) -> list[tuple[int, li
 
 def _mark(heads: str) -> str | None:
     """Mark between cells; None where they are separated by blanks."""
-    return next((mark for mark in ";\t," if mark in heads), None)
+    return next((mark for mark in MARKS if mark in heads), None)
 
 
 def _are_heads(comment: str, first: str) -> bool:

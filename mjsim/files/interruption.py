@@ -1,9 +1,9 @@
 """Ctrl-C: one line and exit code 130, at any moment of a command.
 
 Python raises KeyboardInterrupt between any two instructions. In the middle of an import libraries
-swallow it, or make an ImportError of it; in a destructor it is printed and lost. There it comes a
-moment later, when it can end what it is meant to end. This module imports nothing that takes time,
-so that it is there before all that does.
+swallow it, or make an ImportError of it; in a destructor or a callback of a weak reference it is
+printed and lost. There it comes a moment later, when it can end what it is meant to end. This
+module imports nothing that takes time, so that it is there before all that does.
 """
 
 import contextlib
@@ -47,6 +47,15 @@ class _Interruption:
             return
         self.raised, self.since = now, None
         raise KeyboardInterrupt
+
+    def lost(self, what: "sys.UnraisableHookArgs") -> None:
+        """Try it again where it was raised in a function out of which no exception gets."""
+        awaited = signal.getsignal(signal.SIGINT) is self
+        if _TIMER and awaited and isinstance(what.exc_value, KeyboardInterrupt):
+            self.raised, self.since = -_TWICE, time.monotonic()
+            signal.setitimer(signal.ITIMER_REAL, _AGAIN)
+        else:
+            sys.__unraisablehook__(what)
 
 
 _handler = _Interruption()
@@ -92,11 +101,13 @@ def guarded(program: str, command: Callable[[], int]) -> int:
         program: name of the command.
         command: function that returns its exit code; words of its KeyboardInterrupt are printed.
     """
+    unraisable = sys.unraisablehook
     try:
         if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:  # as of a command under nohup
             signal.signal(signal.SIGINT, _handler)
             if _TIMER:
                 signal.signal(signal.SIGALRM, _handler)
+            sys.unraisablehook = _handler.lost
         code = command()
         sys.stdout.flush()
     except KeyboardInterrupt as stop:
@@ -114,6 +125,7 @@ def guarded(program: str, command: Callable[[], int]) -> int:
         return BAD_INPUT
     finally:
         _ignore()  # what is left is the end of the process
+        sys.unraisablehook = unraisable
     return code
 
 

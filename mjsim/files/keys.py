@@ -74,8 +74,8 @@ INCLINE = ("slope_deg", "uphill_deg")
 CEILING = ("ceiling", "ceiling_friction")
 WITH_ANY_SURFACE = tuple(field.name for field in fields(GroundKeys))  # keys of [ground]
 SIDES = ("left", "right")  # of the quadruped
-SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "chamber", "actuation", "gravity",
-                "settle_time")  # fmt: skip
+SCENE_FIELDS = ("cycles", "body", "friction", "contacts", "roughness", "chamber", "actuation",
+                "gravity", "settle_time")  # fmt: skip
 SURFACE_FIELDS = tuple(field.name for field in fields(Surface) if field.name != "name")
 KINDS: Mapping[str, tuple[type, ...]] = {
     "robot": (Robot,), "gait": (GaitKeys,), "valves": (Valves,), "ground": (Surface, GroundKeys),

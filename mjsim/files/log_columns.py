@@ -94,7 +94,8 @@ def find_columns(table: CsvTable, chambers: Sequence[str], chosen: Sequence[str]
     others = [i for i in range(len(heads)) if i != time]
     if not others:
         raise ValueError(
-            f"{table.where}: needs a column of time and one per segment, got {table.heads}"
+            f"{table.where}: needs a column of time and one per segment, with commas, semicolons, "
+            f"tabs, bars or blanks between, got one column, {table.heads[0]!r}"
         )
     keys = _keys(heads, others)
     known = [_normal(name) for name in chambers]

@@ -13,7 +13,7 @@ from multiprocessing.context import BaseContext
 from types import TracebackType
 from typing import Any
 
-from mjsim.files.interruption import not_inherited
+from mjsim.files.interruption import not_inherited, uninterrupted
 
 
 def clean_start(*modules: str) -> BaseContext:
@@ -36,9 +36,9 @@ def clean_start(*modules: str) -> BaseContext:
 
 @contextlib.contextmanager
 def _apart() -> Iterator[None]:
-    """Start processes out of the reach of Ctrl-C."""
+    """Start processes out of the reach of Ctrl-C, and whole."""
     resource_tracker.ensure_running()  # as it lets Ctrl-C through once it has started
-    with not_inherited():
+    with not_inherited(), uninterrupted():  # other threads of this process may catch it
         yield
 
 

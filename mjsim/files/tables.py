@@ -102,12 +102,14 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
         build_robot(table, f"{where}[robot] ") if of_limbs(table)
         else make(Robot, table, f"{where}[robot] ")
     )  # fmt: skip
-    try:
-        check_robot(robot, table)
-    except ValueError as error:
-        raise ValueError(f"{where}[robot] {error}") from error
     values = tables.get("numerics", {})
     check_keys("numerics", values, where)
+    scene_values = {key: value for key, value in values.items() if key in SCENE_FIELDS}
+    checked_values = checked(Scene, scene_values, f"{where}[numerics] ")
+    try:
+        check_robot(robot, table, checked_values.get("gravity", Scene.gravity))
+    except ValueError as error:
+        raise ValueError(f"{where}[robot] {error}") from error
     rest = {key: value for key, value in values.items() if key not in SCENE_FIELDS}
     numerics = make(Numerics, rest, f"{where}[numerics] ")
     valves = make(Valves, tables.get("valves", {}), f"{where}[valves] ")
@@ -131,8 +133,6 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
     )
     above = {key: ground[key] for key in CEILING if key in ground}
     above = checked(Scene, above, f"{where}[ground] ")
-    scene_values = {key: value for key, value in values.items() if key in SCENE_FIELDS}
-    checked_values = checked(Scene, scene_values, f"{where}[numerics] ")
     under = build_ground(ground, f"{where}[ground] ")
     try:
         scene = Scene(robot=robot, gait=gait, ground=under, slope=slope, uphill=uphill,

@@ -13,18 +13,26 @@ class Column(NamedTuple):
         head: its title.
         key: of the rows' values.
         form: how a number is written, as "+.4f"; empty in a column of words.
+        error: whether it is of errors, of which one that is less than its digits show is written
+            as "<0.0001", not as none.
     """
 
     head: str
     key: str
     form: str = ""
+    error: bool = False
 
     def cell(self, row: dict[str, Any]) -> str:
         """The value of a row as it is written; a dash where there is none."""
         value = row.get(self.key)
         if value is None or value == "":
             return NONE
-        return value if isinstance(value, str) else format(value, self.form)
+        if isinstance(value, str):
+            return value
+        text = format(value, self.form)
+        if self.error and value and not float(text):
+            return f"<{text[:-1]}1"
+        return text
 
 
 def counts(numbers: Mapping[str, int]) -> str:

@@ -41,6 +41,8 @@ class TypedOptions:
             keys = {name.rpartition(".")[2].lstrip("-").replace("-", "_") for name in names}
             tables = {name.lstrip("-").partition(".")[0] for name in names if "." in name}
             tables = {_TABLES.get(table, table) for table in tables}
+            if "period" in keys:  # which the ramps are parts of
+                keys.add("ramp_time")
             if typed == "--gait":
                 keys, tables = {"name"}, {"gait"}
             if match["key"] in keys and (match["table"] is None or match["table"] in tables

@@ -7,7 +7,6 @@ the outermost pads keep the friction of tips while an end lies on its side, and 
 integrator's first order.
 """
 
-import shutil
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -136,7 +135,8 @@ def write(
     for texture in spec.textures:
         source = MODELS / TEXTURES / texture.file
         if texture.file and source.resolve() != (folder / texture.file).resolve():
-            shutil.copyfile(source, folder / texture.file)
+            with whole(folder / texture.file) as part:
+                part.write_bytes(source.read_bytes())
     with whole(path) as part:
         part.write_text(text, encoding="utf-8")
 

@@ -19,7 +19,8 @@ _HERE = Path(__file__).parent
 COLUMNS = (
     Column("run", "run"), Column("Δ/L a cycle", "displacement_over_L", "+.4f"),
     Column("mm/s", "mm_per_s", "+.2f"), Column("theory", "predicted_displacement_over_L", "+.4f"),
-    Column("±", "prediction_uncertainty_over_L", ".4f"), Column("error", "error_over_L", "+.4f"),
+    Column("±", "prediction_uncertainty_over_L", ".4f", error=True),
+    Column("error", "error_over_L", "+.4f"),
     Column("turn [°]", "turn_deg", "+.2f"), Column("height/L", "amplitude_over_L", ".3f"),
     Column("status", "status"),
 )  # fmt: skip
@@ -101,8 +102,10 @@ def _sentence(row: dict[str, Any]) -> str:
     shift = row["displacement_over_L"]
     if shift is None:
         return f"{gait}: {row['status']}, so there is no distance."
+    aside = row["aside_over_L"] if row.get("slope_deg") and row["robot"] != "strip" else None
+    beside = "" if aside is None else f", and {aside:+.4f} L to the left"
     way = "no direction" if row["direction"] == "none" else f"walks {row['direction']}"
-    return f"{gait}: {way}, {1e3 * row['displacement_m']:+.2f} mm = {shift:+.4f} L a cycle."
+    return f"{gait}: {way}, {1e3 * row['displacement_m']:+.2f} mm = {shift:+.4f} L a cycle{beside}."
 
 
 def _chart(figure: Any) -> str:

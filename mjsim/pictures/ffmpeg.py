@@ -32,7 +32,7 @@ class Encoder:
 
         mediapy.set_ffmpeg(imageio_ffmpeg.get_ffmpeg_exe())
         self._video = mediapy.VideoWriter(path, (lines, columns), fps=FPS, crf=quality)
-        self._ended = False
+        self._path, self._ended = path, False
 
     def add(self, frame: Frame) -> None:
         """Write a frame, (lines, columns, 3)."""
@@ -53,8 +53,10 @@ class Encoder:
         trace: TracebackType | None,
     ) -> None:  # fmt: skip
         failure = self._failure()
-        if kind is None and failure:
-            raise failure
+        if kind is None:
+            if failure:
+                raise failure
+            _check_written(self._path)
 
     def _failure(self) -> OSError | None:
         """End ffmpeg; why it failed, if it did."""
@@ -90,6 +92,13 @@ def stack(parts: Sequence[Path], path: Path, columns: int, quality: int) -> None
         errors.seek(0)
         if process.returncode:
             raise _failed(errors.read().decode(errors="replace"))
+    _check_written(path)
+
+
+def _check_written(path: Path) -> None:
+    """Raise OSError for a file that a program in ffmpeg's place left without a video."""
+    if not (path.is_file() and path.stat().st_size):
+        raise _failed("it wrote nothing")
 
 
 def _h264(path: Path, quality: int) -> list[str]:

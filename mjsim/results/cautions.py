@@ -132,7 +132,10 @@ def _rough(scene: Scene, prediction: Prediction) -> list[str]:
     if not abs(change) > APART:
         return []
     micrometres = 1e6 * rougher.roughness
-    return [f"gaps of less than {micrometres:g} um between the ends decide {abs(change):.4f} L"]
+    return [
+        f"gaps of less than {micrometres:g} um between the ends decide {abs(change):.4f} L: "
+        f"whether they count as contact is up to --roughness, {1e6 * scene.roughness:g} um"
+    ]
 
 
 def _of_ceiling(row: dict[str, Any]) -> list[str]:

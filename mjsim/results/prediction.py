@@ -192,6 +192,9 @@ def _predicted(
         raise ValueError(f"model {solver} is for strips; of a robot of limbs take {QUASI_STATIC}")
     friction = scene.reference_friction
     if not (bent and solver == REFERENCE):
+        if scene.slope:
+            raise ValueError(f"slope must be 0 for model {solver}, whose friction bends nothing, "
+                             f"got {math.degrees(scene.slope):g} degrees")  # fmt: skip
         friction = replace(friction, tension=0.0)
     model = SOLVERS[solver]()
     if isinstance(model, Elastica):

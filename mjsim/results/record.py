@@ -51,6 +51,7 @@ def record(walk: Trajectory, without: str = "") -> dict[str, Any]:
         "timestep_s": numerics.timestep,
         "peak_pressure_Pa": scene.robot.peak_pressure,
         "length_m": length,
+        "slope_deg": math.degrees(scene.slope),
         "displacement_over_L": shift,
         "displacement_by_cycle_over_L": list(numbers.by_cycle) if numbers else None,
         "displacement_m": None if shift is None else shift * length,
@@ -133,15 +134,20 @@ def _number(value: float | None) -> float | None:
 def table(records: list[dict[str, Any]]) -> str:
     """Table of one line per run: displacement beside the prediction, and what it cost."""
     by, in_space = records[0]["predicted_by"], records[0]["robot"] != "strip"
+    sloping = any(row.get("slope_deg") for row in records)
+    aside = (
+        Column("aside/L", "aside_over_L", "+.4f"), Column(by, "predicted_aside_over_L", "+.4f"),
+    ) if in_space and sloping else ()  # fmt: skip
     middle = (
+        *aside,
         Column("turn °", "turn_deg", "+.2f"), Column(by, "predicted_turn_deg", "+.2f"),
-        Column("±", "prediction_uncertainty_deg", ".2f"),
+        Column("±", "prediction_uncertainty_deg", ".2f", error=True),
     ) if in_space else (Column("unexpl.", "unexplained_over_L", "+.4f"),)  # fmt: skip
     columns = (
         Column("surface", "surface"), Column("direction", "direction"),
         Column("Δ/L", "displacement_over_L", "+.4f"),
         Column(by, "predicted_displacement_over_L", "+.4f"),
-        Column("±", "prediction_uncertainty_over_L", ".4f"),
+        Column("±", "prediction_uncertainty_over_L", ".4f", error=True),
         Column("error", "error_over_L", "+.4f"), *middle,
         Column("height/L", "amplitude_over_L", ".3f"), Column("sim s", "sim_time_s", ".1f"),
         Column("wall s", "wall_time_s", ".2f"), Column("× real", "realtime_factor", ".0f"),

@@ -10,6 +10,7 @@ import h5netcdf
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.checks import missing
 from analytic.scene.limbs import LimbedRobot, depth_first, rotation
 from analytic.solvers.limbs.kinematics import Tree
 from mjsim.results.forces import GroundForces
@@ -237,11 +238,18 @@ def read(path: Path) -> tuple[Trajectory, dict[str, Any]]:
     Raises:
         ValueError: the file is no such file, or cannot be read.
     """
+    where = f"cannot read a trajectory from {str(path)!r}"
+    try:
+        path.open("rb").close()
+    except OSError as error:
+        raise ValueError(f"{where}: {missing(path, error)}") from error
     try:
         with h5netcdf.File(path, "r") as file:
             return load(path), json.loads(file.attrs["provenance"])
-    except (OSError, KeyError, TypeError, ValueError) as error:
-        raise ValueError(f"cannot read a trajectory from {str(path)!r}: {error}") from error
+    except OSError as error:  # in HDF5's words
+        raise ValueError(f"{where}: no whole file of undulator run: {error}") from error
+    except (KeyError, TypeError, ValueError) as error:
+        raise ValueError(f"{where}: {error}") from error
 
 
 def of_angles(scene: Scene, numerics: Resolved, file: Any) -> tuple[Array, Array]:

@@ -2,102 +2,83 @@
 
 The bounds go by ratios, so that a robot may be of any size: a strip is slender, as heavy as a body
 is, and bends under its pressure. They lie an order of magnitude or more beyond robots that were
-built; all are chosen.
+built; all are chosen. Those of grounds and times: mjsim.scene.surroundings.
 """
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 
-from analytic.checks import not_negative, positive
 from analytic.scene import pneunet
-from analytic.scene.ground import Patches
 from analytic.scene.limbs import AnyRobot, LimbedRobot, limbs_of
 from analytic.scene.robot import GRAVITY, PSI, Robot
-from analytic.scene.surface import Ground
 
 _OVER_LENGTH = {"thickness": (1e-4, 0.5), "width": (1e-3, 30.0), "chamber_height": (0.0, 1.0)}
-_DENSE = (0.0, 1e5)  # kg/m^3, mass over the volume of the strain-limiting layer alone
+_DENSE = (10.0, 1e5)  # kg/m^3, mass over the volume of the strain-limiting layer alone
 _STIFF = (1e2, 1e12)  # Pa; gels to diamond
 _BENT = 5e-3  # rad, by which the whole strip bends at its peak pressure at least
-_FAR = 100.0  # L; with one more for each cycle, beyond where any robot of this kind comes
+_STIFFENED = 100.0  # times its rigidity without pressure, at the peak
 _DECADE = math.log(10.0)
+_BENDS = ("peak_pressure", "chamber_height")  # fields of which a meant one must bend the strip
+_BENDING = ("peak_pressure", "modulus", "thickness", "chamber_height", "chamber_fraction")
 
-_LENGTHS = (("mm", 1e-3), ("um", 1e-6), ("cm", 1e-2))
+Units = tuple[tuple[str, float], ...]  # names and sizes
+
+LENGTHS = (("mm", 1e-3), ("um", 1e-6), ("cm", 1e-2))
 _MASSES = (("g", 1e-3), ("mg", 1e-6))
+_UP = (1e3, 1e6)  # factors that a value may be too small by
 _PRESSURES = (("kPa", 1e3), ("psi", PSI), ("MPa", 1e6), ("bar", 1e5))
 
 
-def check_robot(robot: AnyRobot, given: Collection[str] = ()) -> None:
+def check_robot(robot: AnyRobot, given: Collection[str] = (), gravity: float = GRAVITY) -> None:
     """Refuse a robot of which a magnitude is none, with what may be meant.
 
     Args:
         robot: its limbs.
         given: names of what was given, of which one is named rather than what follows from it.
+        gravity: under which it has its weight [m/s^2].
 
     Raises:
         ValueError: there is one.
     """
     for limb in limbs_of(robot):
         where = f"limb {limb.name!r}: " if isinstance(robot, LimbedRobot) else ""
-        message = _wrong(limb.strip, given)
+        message = _wrong(limb.strip, given, gravity)
         if message:
             raise ValueError(f"{where}{message}")
     if isinstance(robot, Robot) and pneunet.turn_number(robot) < _BENT:
         raise ValueError(_unbent(robot, given))
 
 
-def check_ground(ground: Ground, length: float, cycles: int) -> None:
-    """Refuse a patch that a robot cannot come to, with what may be meant.
+def check_turn(
+    strip: Robot, peak_pressure: float, fullest: float, gait: str, what: str = "this strip"
+) -> None:
+    """Refuse pressures at which a strip closes into a circle.
 
     Args:
-        ground: of which patches have borders.
-        length: of the robot, L [m].
-        cycles: that it walks.
+        strip: its length, modulus, chambers.
+        peak_pressure: of the robot that it is, or is a limb of [Pa].
+        fullest: part of the strip that is at the peak, at most, in the gait's stages [1].
+        gait: name of the gait.
+        what: closes.
 
     Raises:
-        ValueError: there is one.
+        ValueError: it does.
     """
-    reach = (_FAR + cycles) * length
-    for border in ground.borders if isinstance(ground, Patches) else ():
-        if abs(border) > reach:
-            near = [(unit, border) for unit, size in _LENGTHS if abs(border * size) <= 10 * length]
-            raise ValueError(
-                f"from must be where a robot {length:g} m long may come, got a patch from "
-                f"{border:g} m{_asked(near[:1])}"
-            )
-
-
-def check_ceiling(ceiling: float | None, friction: float, robot: AnyRobot) -> None:
-    """Refuse a ceiling that a flat robot does not fit below, or that is no height.
-
-    Args:
-        ceiling: its height over the ground; None if there is none [m].
-        friction: coefficient of its friction [1].
-        robot: what is to pass below it.
-
-    Raises:
-        ValueError: it is one, or there is friction of none.
-    """
-    not_negative("ceiling_friction", friction)
-    if ceiling is None:
-        if friction:
-            raise ValueError(f"ceiling_friction is for a ceiling, whose height must be given as "
-                             f"ceiling, got {friction:g} alone")  # fmt: skip
+    turn = pneunet.curvature_per_pressure(strip) * peak_pressure * strip.length * fullest
+    if turn < 2 * math.pi:
         return
-    positive("ceiling", ceiling, "m")
-    flat = max(limb.strip.flat_height for limb in limbs_of(robot))
-    if ceiling <= flat:
-        raise ValueError(f"ceiling must be above {flat:.6g} m, the height of the flat robot, got "
-                         f"{ceiling:g} m")  # fmt: skip
-    if ceiling > _FAR * robot.length:
-        near = [(unit, ceiling) for unit, size in _LENGTHS
-                if flat < ceiling * size <= robot.length]  # fmt: skip
-        raise ValueError(f"ceiling must be near a robot {robot.length:g} m long, got "
-                         f"{ceiling:g} m{_asked(near[:1])}")  # fmt: skip
+    limit, hint = 2 * math.pi / turn * peak_pressure, ""
+    if limit < 0.1 * peak_pressure:
+        hint = (f"; is its length {strip.length:g} m, its modulus {strip.modulus:g} Pa, "
+                f"its thickness {strip.thickness:g} m?")  # fmt: skip
+    raise ValueError(
+        f"peak_pressure must be below {limit:.6g} Pa, where gait {gait} would close {what} into a "
+        f"circle, got {peak_pressure:g}{hint}"
+    )
 
 
-def _wrong(strip: Robot, given: Collection[str]) -> str | None:
+def _wrong(strip: Robot, given: Collection[str], gravity: float) -> str | None:
     """Message about a magnitude that is none."""
     name = _disproportion(strip)
     if name:
@@ -105,32 +86,47 @@ def _wrong(strip: Robot, given: Collection[str]) -> str | None:
         other = "length" if subject == name else name
         value = getattr(strip, subject)
         return (f"{subject} must be that of a robot of this kind, got {value:g} m beside a {other} "
-                f"of {getattr(strip, other):g} m{_meant(strip, subject, _LENGTHS)}")  # fmt: skip
+                f"of {getattr(strip, other):g} m{_meant(strip, subject, LENGTHS)}")  # fmt: skip
     if not _STIFF[0] <= strip.modulus <= _STIFF[1]:
         name = "rigidity" if "rigidity" in given else "modulus"
         return (f"{name} must be that of a soft body, got a modulus of {strip.modulus:g} Pa"
-                f"{_meant(strip, 'modulus', _PRESSURES)}")  # fmt: skip
-    if not _DENSE[0] <= _density(strip) <= _DENSE[1]:
+                f"{_meant(strip, 'modulus', _PRESSURES) if name == 'modulus' else ''}")  # fmt: skip
+    density = _density(strip, min(gravity, GRAVITY))  # a small weight may be that of little gravity
+    if density < _DENSE[0] or _density(strip, GRAVITY) > _DENSE[1]:
         name = "weight_per_length" if "weight_per_length" in given else "mass"
         mass = strip.weight / GRAVITY
-        near = [(unit, mass) for unit, size in _MASSES
-                if _DENSE[0] <= _density(strip) * size <= _DENSE[1]]  # fmt: skip
+        near = [words for words, scale in readings(mass, _MASSES)
+                if _DENSE[0] <= _density(strip, GRAVITY) * scale <= _DENSE[1]]  # fmt: skip
         return (f"{name} must be that of a robot of this kind, got {mass:g} kg, "
-                f"{_density(strip):.2g} kg/m^3 of its layer{_asked(near[:1])}")  # fmt: skip
+                f"{_density(strip, GRAVITY):.2g} kg/m^3 of its layer{asked(near[:1])}")  # fmt: skip
+    stiffened = pneunet.rigidity_per_pressure(strip) * strip.peak_pressure
+    if stiffened > _STIFFENED * pneunet.base_rigidity(strip) and strip.rigidity_per_pressure:
+        return (f"rigidity_per_pressure must be that of a robot of this kind, got "
+                f"{strip.rigidity_per_pressure:g} N m^2/Pa, which makes it "
+                f"{stiffened / pneunet.base_rigidity(strip):.2g} times as stiff")  # fmt: skip
     return None
 
 
 def _unbent(robot: Robot, given: Collection[str]) -> str:
     """Message about a strip that its pressure does not bend."""
     turn = f"bends all of it by {math.degrees(pneunet.turn_number(robot)):.2g} degrees"
-    if _strange(robot, "modulus") > _strange(robot, "peak_pressure"):
-        name = "rigidity" if "rigidity" in given else "modulus"
-        return (f"{name} must be such that the strip bends, got a modulus of {robot.modulus:g} Pa: "
+    name = max(_BENDING, key=lambda field: _strange(robot, field))
+    if robot.curvature_per_pressure is not None:  # in place of what follows from the others
+        curved = robot.curvature_per_pressure / pneunet.curvature_per_pressure(Robot())
+        name = ("curvature_per_pressure" if abs(math.log(curved)) > _strange(robot, _BENDING[0])
+                else _BENDING[0])  # fmt: skip
+    value = getattr(robot, name)
+    if name == "modulus":
+        name = "rigidity" if "rigidity" in given else name
+        return (f"{name} must be such that the strip bends, got a modulus of {value:g} Pa: "
                 f"{robot.peak_pressure:g} Pa {turn}")  # fmt: skip
-    return (
-        f"peak_pressure must be such that the strip bends, got {robot.peak_pressure:g} Pa, "
-        f"which {turn}{_meant(robot, 'peak_pressure', _PRESSURES)}"
-    )
+    if name == "peak_pressure":
+        return (f"{name} must be such that the strip bends, got {value:g} Pa, which {turn}"
+                f"{_meant(robot, name, _PRESSURES)}")  # fmt: skip
+    units = LENGTHS if name in _OVER_LENGTH else ()
+    asked = _meant(robot, name, units) if units else ""
+    return (f"{name} must be such that the strip bends, got {value:g}{' m' if units else ''}: "
+            f"{robot.peak_pressure:g} Pa {turn}{asked}")  # fmt: skip
 
 
 def _disproportion(strip: Robot) -> str:
@@ -146,24 +142,37 @@ def _strange(strip: Robot, name: str) -> float:
     return abs(math.log(getattr(strip, name) / getattr(Robot, name)))
 
 
-def _density(strip: Robot) -> float:
-    """Mass over the volume of the strain-limiting layer [kg/m^3]."""
-    return strip.weight_per_length / (GRAVITY * strip.width * strip.thickness)
+def _density(strip: Robot, gravity: float) -> float:
+    """Mass over the volume of the strain-limiting layer, under a gravity [kg/m^3]."""
+    return strip.weight_per_length / (gravity * strip.width * strip.thickness)
 
 
-def _meant(strip: Robot, name: str, units: tuple[tuple[str, float], ...]) -> str:
-    """Question after the value in the units with which the robot would be most usual."""
-    value, fitting = getattr(strip, name), []
+def readings(value: float, units: Units) -> Iterator[tuple[str, float]]:
+    """Ways in which a value in SI may have been meant, in words, and by what factor they change it.
+
+    In a smaller or a larger unit of those given, or in the first of them by a thousand too small.
+    """
     for unit, size in units:
-        other = replace(strip, **{name: value * size})
-        bends = name != "peak_pressure" or _BENT <= pneunet.turn_number(other) < 2 * math.pi
+        yield f"{value:g} {unit}", size
+    unit, size = units[0]
+    for factor in (factor for factor in _UP if factor not in dict(units).values()):
+        yield f"{value * factor / size:g} {unit}", factor
+
+
+def _meant(strip: Robot, name: str, units: Units) -> str:
+    """Question after the value in the units with which the robot would be most usual."""
+    fitting = []
+    for words, factor in readings(getattr(strip, name), units):
+        other = replace(strip, **{name: getattr(strip, name) * factor})
+        bends = name not in _BENDS or _BENT <= pneunet.turn_number(other) < 2 * math.pi
         nearer = _strange(other, name) < _strange(strip, name)
         if bends and nearer and name != _disproportion(other):
-            fitting.append((_strange(other, name), unit))
+            fitting.append((_strange(other, name), words))
     fitting.sort()
-    return _asked([(unit, value) for far, unit in fitting if far < fitting[0][0] + _DECADE][:2])
+    near = [words for far, words in fitting if far < fitting[0][0] + _DECADE]
+    return asked(near[:2])
 
 
-def _asked(values: list[tuple[str, float]]) -> str:
-    words = " or ".join(f"{value:g} {unit}" for unit, value in values)
-    return f"; did you mean {words}?" if words else ""
+def asked(readings: list[str]) -> str:
+    """Question after what may be meant, or nothing."""
+    return f"; did you mean {' or '.join(readings)}?" if readings else ""

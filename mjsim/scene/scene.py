@@ -8,10 +8,9 @@ from typing import Literal
 
 import numpy as np
 
-from analytic.checks import is_number, not_negative, one_of, positive, slope, whole
+from analytic.checks import is_number, one_of, positive, slope, whole
 from analytic.fields import in_si
 from analytic.friction.laws import LAWS, ROUGHNESS, Friction
-from analytic.scene import pneunet
 from analytic.scene.chain import CHAMBER_LAWS
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.ground import (
@@ -33,8 +32,9 @@ from analytic.scene.quadruped_gaits import for_robot
 from analytic.scene.robot import GRAVITY, Robot
 from analytic.scene.surface import SURFACES, Ground
 from mjsim.scene import registry
-from mjsim.scene.magnitudes import check_ceiling, check_ground, check_robot
+from mjsim.scene.magnitudes import check_robot, check_turn
 from mjsim.scene.numerics import Numerics, Resolved, path_of, short_enough
+from mjsim.scene.surroundings import check_ceiling, check_ground, check_roughness, check_times
 from mjsim.scene.valves import Valves
 
 Chamber = Literal["linearized", "sealed", "constant-pressure"]
@@ -118,8 +118,8 @@ class Scene:
         whole("cycles", self.cycles, 1)
         object.__setattr__(self, "cycles", int(self.cycles))
         positive("gravity", self.gravity, "m/s^2")
-        check_robot(self.robot)
-        check_ground(self.ground, self.robot.length, self.cycles)
+        check_robot(self.robot, gravity=self.gravity)
+        check_ground(self.ground, self.robot, self.cycles)
         positive("settle_time", self.settle_time, "s")
         check_ceiling(self.ceiling, self.ceiling_friction, self.robot)
         if self.ceiling is not None and self.body != Scene.body:
@@ -129,10 +129,8 @@ class Scene:
         chambers = self.robot.chambers
         object.__setattr__(self, "gait", for_robot(self.gait, self.robot))
         self.valves.check(len(chambers))
-        not_negative("roughness", self.roughness)
-        if self.roughness != ROUGHNESS and (self.in_space or not self.between):
-            where = "limbs" if self.in_space else "contacts at the ends"
-            raise ValueError(f"roughness does nothing for {where}, got {self.roughness:g}")
+        check_times(self.gait, self.valves, self.settle_time, self.robot.peak_pressure)
+        check_roughness(self.roughness, self.robot, self.between)
         if self.cycles > 1 and not self.gait.repeats:
             raise ValueError(
                 f"cycles must be 1 for gait {self.gait.name!r}, which does not repeat, got "
@@ -273,31 +271,3 @@ def resolved(scene: Scene, numerics: Numerics | None = None) -> Resolved:
     if given.contact_path is None:
         given = replace(given, contact_path=path_of(scene.in_space, scene.fill_time))
     return given.resolved(scene.body, scene.friction, scene.in_space)
-
-
-def check_turn(
-    strip: Robot, peak_pressure: float, fullest: float, gait: str, what: str = "this strip"
-) -> None:
-    """Refuse pressures at which a strip closes into a circle.
-
-    Args:
-        strip: its length, modulus, chambers.
-        peak_pressure: of the robot that it is, or is a limb of [Pa].
-        fullest: part of the strip that is at the peak, at most, in the gait's stages [1].
-        gait: name of the gait.
-        what: closes.
-
-    Raises:
-        ValueError: it does.
-    """
-    turn = pneunet.curvature_per_pressure(strip) * peak_pressure * strip.length * fullest
-    if turn < 2 * math.pi:
-        return
-    limit, hint = 2 * math.pi / turn * peak_pressure, ""
-    if limit < 0.1 * peak_pressure:
-        hint = (f"; is its length {strip.length:g} m, its modulus {strip.modulus:g} Pa, "
-                f"its thickness {strip.thickness:g} m?")  # fmt: skip
-    raise ValueError(
-        f"peak_pressure must be below {limit:.6g} Pa, where gait {gait} would close {what} into a "
-        f"circle, got {peak_pressure:g}{hint}"
-    )

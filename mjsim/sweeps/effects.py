@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.checks import missing
 from mjsim.sweeps.export import described
 from mjsim.sweeps.rows import OUTPUTS
 
@@ -99,8 +100,12 @@ def load(path: Path, quantity: str) -> Results:
     Raises:
         ValueError: it is no file of a sweep, has no such column, or nothing in it differs.
     """
-    if not path.is_file():
-        raise ValueError(f"results must be a file of undulator sweep, got {str(path)!r}")
+    try:
+        path.open("rb").close()
+    except OSError as error:
+        raise ValueError(
+            f"results must be a file of undulator sweep, got {str(path)!r}: {missing(path, error)}"
+        ) from error
     if quantity not in _NUMBERS:
         raise ValueError(f"quantity must be one of {', '.join(_NUMBERS)}; got {quantity!r}")
     try:

@@ -42,6 +42,19 @@ def test_wet_ground_is_gelatin_to_a_slow_gait_and_felt_to_a_fast_one():
     assert fast == pytest.approx(travel(SURFACES["felt"], 2.0), abs=4e-3)
 
 
+def test_coulomb_friction_is_static_where_nothing_is_fast_and_kinetic_where_nothing_is_slow():
+    law = Friction("coulomb", tension=1.0)
+    plain = Surface("plain", friction=0.2, tip_friction=0.12)
+    slow = replace(plain, static_ratio=2.0, stribeck_speed=1e3)  # than anything that slides
+    light = replace(Robot(), peak_pressure=0.5 * Robot().peak_pressure)
+    static, kinetic, rest = (
+        predict(light, GAITS["pulse"], ground, "elastica", 6, law).locomotion.per_cycle
+        for ground in (plain.scaled(2.0), plain, slow)
+    )
+    assert rest == pytest.approx(static, abs=1e-6 * light.length)
+    assert abs(static - kinetic) > 10 * abs(rest - static)
+
+
 @pytest.mark.parametrize("ground", [SURFACES["polyethylene"], SURFACES["gelatin"]],
                          ids=lambda ground: ground.name)  # fmt: skip
 @pytest.mark.slow

@@ -1,6 +1,7 @@
 """MuJoCo against the analytic direction predictions, and the command that tabulates both."""
 
 import json
+import math
 from dataclasses import replace
 
 import pytest
@@ -70,3 +71,43 @@ def test_bad_input_gets_one_line_and_exit_2(capsys, words, valid):
     assert stop.value.code == cli.BAD_INPUT
     assert len(said.err.strip().splitlines()) == 1
     assert valid in said.err
+
+
+def rows_of(capsys, *words):
+    assert main([*words, "--json"]) == 0
+    return json.loads(capsys.readouterr().out)["rows"]
+
+
+@pytest.mark.usefixtures("resolved_to_a_thousandth")
+def test_options_of_a_scene_change_what_is_compared(capsys):
+    alone = ("--gait", "pulse", "--surface", "polyethylene", "--model", "elastica")
+    level, sloping, pressed = (
+        rows_of(capsys, *alone, *words)[0]["displacement_over_L"]
+        for words in ((), ("--slope", "2"), ("--pressure", "40kPa"))
+    )
+    polyethylene = Scene(gait="pulse", ground="polyethylene", slope=math.radians(2))
+    assert sloping == pytest.approx(compare(polyethylene, ["elastica"])[0]["displacement_over_L"])
+    assert len({level, sloping, pressed}) == 3
+
+
+@pytest.mark.usefixtures("resolved_to_a_thousandth")
+def test_a_ground_or_a_gait_that_options_describe_stands_for_all_of_them(capsys):
+    rows = rows_of(capsys, "--surface.tip-force", "0.02", "--gait.stages", "000,100,000",
+                   "--model", "modes")  # fmt: skip
+    assert [(row["surface"], row["gait"]) for row in rows] == [("custom", "custom")]
+    rows = rows_of(capsys, "--slope", "1", "--gait.ramp-time", "3", "--model", "modes")
+    assert len({(row["surface"], row["gait"]) for row in rows}) == len(SURFACES) * len(GAITS)
+    assert all("slope must be 0 for model modes" in row["status"] for row in rows)
+
+
+@pytest.mark.usefixtures("resolved_to_a_thousandth")
+def test_a_theory_that_takes_valves_for_ideal_says_so(capsys):
+    rows = rows_of(capsys, "--lag", "0.3", "--gait", "pulse", "--surface", "felt",
+                   "--model", "elastica,chain", "--links", "12")  # fmt: skip
+    assert [row["status"] for row in rows] == ["ok, ideal valves", "ok"]
+
+
+def test_a_body_is_a_model(capsys):
+    with pytest.raises(SystemExit):
+        main(["--body", "cable"])
+    assert "--body must be given as --model, got 'cable'" in capsys.readouterr().err

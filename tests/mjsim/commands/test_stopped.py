@@ -10,6 +10,7 @@ from analytic.scene.limbs import quadruped
 from analytic.solvers.limbs import stick_slip
 from mjsim import load
 from mjsim.commands import compare, optimise, report, run, sweep
+from mjsim.optimising.confirm import Confirmation
 from mjsim.optimising.search import Generation
 from mjsim.pictures import gl
 from mjsim.results import record
@@ -92,6 +93,31 @@ def test_the_best_gait_so_far_is_written(tmp_path, monkeypatch):
     words = ["--surface", "felt", "--evaluations", "16", "--model", "modes", "--out", str(tmp_path)]
     with pytest.raises(KeyboardInterrupt, match=r"the best of 16 gaits is in .*best.toml"):
         optimise.main(words)
+    assert "stages" in (tmp_path / "best.toml").read_text()
+
+
+def test_a_picture_that_cannot_be_written_leaves_the_gait_and_its_numbers(
+    tmp_path, capsys, monkeypatch
+):
+    def generations(objective, space, *more):
+        yield Generation(16, space.gait(space.middle(), "best"), 0.01, 0.0)
+
+    def full(gait, start, history, path):
+        raise OSError(28, "No space left on device", str(path))
+
+    monkeypatch.setattr("mjsim.optimising.search.search", generations)
+    monkeypatch.setattr("mjsim.optimising.picture.draw", full)
+    monkeypatch.setattr("mjsim.files.plugins.processes", lambda *words: Here())
+    row = Confirmation("felt", "ends", 0.01, 0.01, 0.01, "ok", 0.0, 0.02)
+    monkeypatch.setattr("mjsim.optimising.confirm.confirm", lambda *job: row)
+    words = ["--surface", "felt", "--evaluations", "16", "--model", "modes", "--out", str(tmp_path)]
+    with pytest.raises(SystemExit) as stop:
+        optimise.main([*words, "--json"])
+    said = capsys.readouterr()
+    assert stop.value.code == 2
+    assert said.err.count("\n") == 1
+    assert "best.png" in said.err
+    assert json.loads(said.out)["files"] == [str(tmp_path / "best.toml")]
     assert "stages" in (tmp_path / "best.toml").read_text()
 
 

@@ -8,6 +8,7 @@ from mjsim.commands.run import main
 from mjsim.files.csv_table import head_of
 from mjsim.files.quantities import check_field
 from mjsim.files.tables import build
+from mjsim.files.text_table import Column
 from mjsim.scene import resolved
 from mjsim.sweeps.export import with_unit
 from mjsim.sweeps.plan import make_plan
@@ -44,6 +45,35 @@ def message(capsys, words):
         (["--pressure", "40"], "40 kPa"),
         (["--pressure", "7"], "7 psi or 7 kPa"),
         (["--robot", "quadruped", "--robot.modulus", "1.8"], "1.8 MPa"),
+        (["--robot.mass", "14mg"], "14 g"),
+        (["--robot.thickness", "4um"], "4 mm"),
+        (["--robot.width", "40um"], "40 mm"),
+        (["--robot.length", "110um"], "110 mm"),
+        (["--robot.chamber-height", "4um"], "4 mm"),
+        (["--surface.tip-force", "34"], "34 mN"),
+        (["--surface.tip-force", "34 nN"], "0.034 N"),
+        (["--surface.shear-strength", "13000"], "13000 mPa"),
+        (["--friction", "coulomb", "--surface.friction", "60"], "60 %"),
+        (["--surface.tip-force", "0.03", "--surface.viscosity", "1e-5"], "10 Pa s/m"),
+        (["--surface.tip-force", "0.03", "--surface.adhesion", "50000"], "50000 uJ/m^2"),
+        (["--gait.ramp-time", "2000"], "2000 ms"),
+        (["--gait.ramp-time", "2e-6"], "2 s"),
+        (
+            [
+                "--gait.lag",
+                "0.2",
+                "--gait.duty",
+                "0.4",
+                "--gait.ramp",
+                "0.2",
+                "--gait.period",
+                "1e4",
+            ],
+            "2000 ms",
+        ),
+        (["--lag", "200"], "200 ms"),
+        (["--valves.dead-time", "50000"], "50000 us"),
+        (["--roughness", "0.1", "--contacts", "all"], "0.1 um"),
     ],
 )
 def test_what_may_be_meant_is_asked(capsys, words, meant):
@@ -74,6 +104,47 @@ def test_an_error_in_a_file_names_table_and_key(tmp_path, capsys):
     assert "[robot] thickness" in message(capsys, ["--scene", str(path), "--links", "12"])
     path.write_text("[robot]\nlenght = 3\n")
     assert "did you mean length" in message(capsys, ["--scene", str(path)])
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (["--robot.mass", "14mg"], "--robot.mass"),
+        (["--robot.weight-per-length", "1e-3"], "--robot.weight-per-length"),
+        (["--robot.curvature-per-pressure", "1e-9"], "--robot.curvature-per-pressure"),
+        (
+            [
+                "--gait.lag",
+                "0.2",
+                "--gait.duty",
+                "0.4",
+                "--gait.ramp",
+                "0.2",
+                "--gait.period",
+                "1e4",
+            ],
+            "--gait.period",
+        ),
+        (["--roughness", "1um"], "--roughness"),
+        (["--robot", "quadruped", "--roughness", "1um"], "--roughness"),
+    ],
+)
+def test_a_magnitude_that_is_none_is_told_by_the_option_that_gave_it(capsys, words, named):
+    assert message(capsys, words).startswith(f"undulator run: error: {named} ")
+
+
+def test_a_light_robot_under_little_gravity_is_a_robot():
+    light = Robot(weight_per_length=1e-3)
+    with pytest.raises(ValueError, match="mass must be"):
+        Scene(light)
+    assert Scene(light, gravity=0.01).robot == light
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(3e-5, "<0.0001"), (0.0, "0.0000"), (5.1e-5, "0.0001"), (None, "-")]
+)
+def test_an_error_below_the_digits_that_are_written_is_not_written_as_none(value, text):
+    assert Column("±", "it", ".4f", error=True).cell({"it": value}) == text
 
 
 def test_coefficients_alone_name_the_option_that_makes_them_act(capsys):

@@ -47,6 +47,18 @@ class Thing:
 def work():
     Thing()
 """
+IN_A_CALLBACK_OF_THE_COLLECTOR = """
+import weakref
+
+class Thing:
+    pass
+
+def work():
+    thing = Thing()
+    keep = weakref.ref(thing, lambda ref: ctrl_c())
+    del thing
+    time.sleep(50)
+"""
 IN_A_BLOCK = """
 def work():
     with uninterrupted():
@@ -83,11 +95,12 @@ def run(code, folder):
         (PLAIN, "", ""),
         (IN_AN_IMPORT, "", ""),
         (IN_A_DESTRUCTOR, "", ""),
+        (IN_A_CALLBACK_OF_THE_COLLECTOR, "", ""),
         (IN_A_BLOCK, "whole", ""),
         (WITH_WORDS, "", "; the walk is kept"),
         (TWICE, "cleaned", ""),
     ],
-    ids=["plain", "import", "destructor", "block", "words", "twice"],
+    ids=["plain", "import", "destructor", "callback", "block", "words", "twice"],
 )
 def test_one_line_and_130_wherever_it_comes(work, out, words, tmp_path):
     line = f"undulator walk: interrupted{words}"

@@ -27,6 +27,19 @@ FILE = Path(__file__).resolve().parents[3] / "examples" / "quadruped.toml"
 FAST = ["--timestep", "0.04", "--gait.ramp-time", "1", "--links", "2", "--no-video"]
 
 
+@pytest.mark.parametrize("slope", [0.0, 1.0])
+def test_on_a_slope_the_motion_aside_stands_in_the_table(slope):
+    row = {
+        "robot": "torso, front left", "predicted_by": "quasi-static", "slope_deg": slope,
+        "aside_over_L": -0.01234, "predicted_aside_over_L": -0.0222, "turn_deg": 1.0,
+        "prediction_flags": [], "prediction_notes": [], "prediction_undecided_over_L": None,
+        "displacement_by_cycle_over_L": None, "status": "ok",
+    }  # fmt: skip
+    heads, cells = record.table([row]).splitlines()
+    assert [word in heads for word in ("turn", "aside/L")] == [True, bool(slope)]
+    assert ["-0.0123" in cells, "-0.0222" in cells] == [bool(slope)] * 2
+
+
 def test_the_quadruped_written_out_limb_by_limb_is_the_named_one():
     table = tomllib.loads(FILE.read_text())["robot"]
     written, named = build_robot(table), quadruped()

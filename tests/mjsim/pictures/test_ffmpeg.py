@@ -1,5 +1,7 @@
 """A broken ffmpeg is told in one line that names it."""
 
+import os
+
 import numpy as np
 import pytest
 
@@ -29,6 +31,18 @@ def test_another_program_in_its_place_is_named(program, why, tmp_path, monkeypat
             write(tmp_path / "x.mp4")
         assert f"(IMAGEIO_FFMPEG_EXE is '{program}')" in str(caught.value)
         assert "\n" not in str(caught.value)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a script of a shell stands for ffmpeg")
+def test_a_program_that_writes_nothing_is_not_believed(tmp_path, monkeypatch):
+    program = tmp_path / "program"
+    program.write_text("#!/bin/sh\ncat > /dev/null\n")
+    program.chmod(0o755)
+    monkeypatch.setenv("IMAGEIO_FFMPEG_EXE", str(program))
+    for write in (encode, lambda path: stack([path], path, 96, 30)):
+        (tmp_path / "x.mp4").touch()
+        with pytest.raises(OSError, match="ffmpeg failed: it wrote nothing"):
+            write(tmp_path / "x.mp4")
 
 
 def test_its_own_words_are_passed_on(tmp_path):

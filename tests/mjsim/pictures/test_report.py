@@ -119,7 +119,9 @@ def test_a_failed_run_is_told_as_such(tmp_path):
     ("words", "said"),
     [
         (["no.nc"], "cannot read a trajectory from 'no.nc'"),
-        ([__file__], "cannot read a trajectory"),
+        (["no.nc"], "no such file"),
+        (["."], "Is a directory"),
+        ([__file__], "no whole file of undulator run"),
         ([], "trajectories"),
         (["no.nc", "--out", "page.pdf"], "out must end in .html, got 'page.pdf'"),
     ],

@@ -45,6 +45,25 @@ def test_a_noisy_record_of_a_gait_walks_as_the_gait(tmp_path, ground):
         assert found[name] == pytest.approx(known[name], abs=5e-4)
 
 
+def test_bars_between_cells_or_around_them_are_read_as_commas_are(tmp_path):
+    rows = [(0, "0", "0", "0"), (2, "20.5", "0", "0"), (4, "0", "20", "0"), (6, "0", "0", "0")]
+    table = [("time [s]", "p1 [kPa]", "p2 [kPa]", "p3 [kPa]"), *rows]
+    lines = {
+        "commas": [",".join(map(str, row)) for row in table],
+        "bars": ["|".join(map(str, row)) for row in table],
+        "framed": [f"| {' | '.join(map(str, row))} |" for row in table],
+    }
+    lines["framed"].insert(1, "|---|:--:|---|---:|")
+    read = {}
+    for name, text in lines.items():
+        (tmp_path / name).write_text("\n".join(text))
+        read[name] = read_series(tmp_path / name, ("left", "middle", "right"))
+    for name in ("bars", "framed"):
+        assert np.array_equal(read[name].time, [0, 2, 4, 6])
+        assert np.array_equal(read[name].pressure, read["commas"].pressure)
+    assert read["bars"].pressure[1, 0] == 20_500
+
+
 @pytest.mark.parametrize("samples", [200, 2_000, 20_000])
 def test_ramps_grow_with_what_changes_and_not_with_the_samples(samples):
     gait, _ = as_gait("it", recorded(GAITS["wave"], samples, 300.0))

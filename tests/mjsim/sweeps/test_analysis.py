@@ -74,6 +74,7 @@ def test_bad_input_is_one_line_and_exit_code_2(results, tmp_path, capsys):
     sqlite3.connect(empty).close()
     for arguments, words in (
         ([str(tmp_path / "none")], "must be a file of undulator sweep"),
+        ([str(tmp_path / "none")], "no such file"),
         ([str(results), "--quantity", "colour"], "quantity must be one of"),
         ([str(empty)], "no file of undulator sweep"),
     ):
