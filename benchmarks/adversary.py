@@ -1,16 +1,18 @@
 """Search for reward in the holes of the environment's model, and what a finer model pays for it.
 
-    python benchmarks/adversary.py [SEED]
+    python benchmarks/adversary.py [SEED [PART]]
+    python benchmarks/adversary.py again
 
 Looks for the pressures that earn most in an environment as gymnasium.make makes it, and walks the
 best of each search again with 24 links and 1 ms. Policies are cycles of pressures, one row per
 control period: the paper's wave both ways; bang-bang, chambers fully on or off; random pressures;
 and an evolution of whatever cycles earn most, which begins at the best of those and at all rows
 that are there. Writes adversary.csv beside this file, one row per cycle, after each search; goes on
-where it was stopped. Half an hour per ground and core. Rows of seeds 0 and 1 were found in models
-of other time steps, which they fooled most (0: 10 ms and softer contacts; 1, of fewer tries and
-without evolution: steps that were short only while contacts changed), and are walked again in the
-environment as it is.
+where it was stopped. Half an hour per ground and core, or PART of that many tries; `again` walks
+all rows anew. Rows of seeds 0 and 1 were found in models of other time steps, which they fooled
+most (0: 10 ms and softer contacts; 1, of fewer tries and without evolution: steps that were short
+only while contacts changed), and are walked again in the environment as it is; rows of seed 2 were
+found in it, with PART 0.15, on gelatin 0.08.
 """
 
 import csv
@@ -30,7 +32,7 @@ from mjsim.scene import Numerics
 
 ROWS = Path(__file__).with_name("adversary.csv")
 GROUNDS = ("gelatin", "felt", "polyethylene")
-FINE = Numerics(links=24, timestep=0.001)
+FINE = Numerics(links=24, timestep=0.001, contact_path="curved")
 LEVELS = "0123456789X"  # tenths of the peak pressure
 SEARCHES = {"wave": 6, "bang-bang": 300, "random": 60, "evolution": 900}  # cycles to try
 AGAIN = 3  # of the best of each search, how many are walked by the finer model
@@ -134,7 +136,7 @@ def mutated(cycle: Cycle, other: Cycle, rng: np.random.Generator) -> Cycle:
     return new
 
 
-def searched(ground: str, search: str, seed: int, before: list[Row]) -> list[Row]:
+def searched(ground: str, search: str, seed: int, tries: int, before: list[Row]) -> list[Row]:
     """Rows of the best cycles of a search."""
     judge, rng = Judge(ground), np.random.default_rng([seed, list(SEARCHES).index(search)])
     tried: dict[str, float] = {}
@@ -150,23 +152,26 @@ def searched(ground: str, search: str, seed: int, before: list[Row]) -> list[Row
     elif search == "evolution":
         for row in before:
             evaluate(read(row.cycle)[:_LONGEST])
-        while len(tried) < SEARCHES[search]:
+        while len(tried) < tries:
             parents = sorted(tried, key=tried.__getitem__, reverse=True)[:_PARENTS]
             for _ in range(_CHILDREN):
                 one, other = (read(parents[i]) for i in rng.integers(len(parents), size=2))
                 evaluate(mutated(one, other, rng))
     else:
         draw = bang_bang if search == "bang-bang" else random
-        while len(tried) < SEARCHES[search]:
+        while len(tried) < tries:
             evaluate(draw(rng))
     best = sorted(tried, key=tried.__getitem__, reverse=True)[:AGAIN]
-    fine, rows = Judge(ground, FINE), []
-    for word in best:
-        earned, status, sinking = judge(read(word))
-        finer, finer_status, _ = fine(read(word))
-        rows.append(Row(ground, seed, search, word, round(earned, 5), round(finer, 5), status,
-                        finer_status, round(sinking, 5)))  # fmt: skip
-    return rows
+    fine = Judge(ground, FINE)
+    return [row_of(judge, fine, (ground, seed, search, word)) for word in best]
+
+
+def row_of(judge: Judge, fine: Judge, found: tuple[str, int, str, str]) -> Row:
+    """Row of a cycle by both models, from its ground, seed, search and words."""
+    cycle = read(found[-1])
+    earned, status, sinking = judge(cycle)
+    finer, finer_status, _ = fine(cycle)
+    return Row(*found, round(earned, 5), round(finer, 5), status, finer_status, round(sinking, 5))
 
 
 def stored() -> list[Row]:
@@ -181,29 +186,40 @@ def stored() -> list[Row]:
         ]
 
 
-def add(rows: list[Row]) -> None:
-    """Append rows."""
-    new = not ROWS.exists()
-    with ROWS.open("a", newline="") as file:
+def add(rows: list[Row], again: bool = False) -> None:
+    """Append rows, or put them in the place of all rows that are there."""
+    new = again or not ROWS.exists()
+    with ROWS.open("w" if again else "a", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         if new:
             writer.writerow(Row._fields)
         writer.writerows(rows)
 
 
-def on_ground(ground: str, seed: int) -> None:
-    """All searches on a ground that are not there yet."""
-    for search in SEARCHES:
+def on_ground(ground: str, seed: int, part: float = 1.0) -> None:
+    """All searches on a ground that are not there yet, with a part of the tries."""
+    for search, tries in SEARCHES.items():
         before = [row for row in stored() if row.ground == ground]
         if not any((row.search, row.seed) == (search, seed) for row in before):
-            add(searched(ground, search, seed, before))
+            add(searched(ground, search, seed, round(part * tries), before))
+
+
+def walked_again(ground: str) -> list[Row]:
+    """All rows of a ground by the models as they are."""
+    judge, fine = Judge(ground), Judge(ground, FINE)
+    return [row_of(judge, fine, row[:4]) for row in stored() if row.ground == ground]
 
 
 def main() -> None:
-    """Search, and print what each earned."""
-    seed = int(sys.argv[1]) if len(sys.argv) > 1 else 2
+    """Search or walk all rows anew, and print what each earned."""
+    words = sys.argv[1:]
     with ProcessPoolExecutor() as pool:
-        list(pool.map(on_ground, GROUNDS, [seed] * len(GROUNDS)))
+        if words == ["again"]:
+            add([row for rows in pool.map(walked_again, GROUNDS) for row in rows], again=True)
+        else:
+            seed, part = int(words[0]) if words else 2, float(words[1]) if words[1:] else 1.0
+            count = len(GROUNDS)
+            list(pool.map(on_ground, GROUNDS, [seed] * count, [part] * count))
     rows = sorted(stored(), key=lambda row: (GROUNDS.index(row.ground), -row.earned))
     for row in rows:
         print(f"{row.ground:13} {row.seed} {row.search:10} {row.earned:+.4f} {row.finer:+.4f} "

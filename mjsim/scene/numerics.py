@@ -71,8 +71,9 @@ class Numerics:
     """of Coulomb friction: depth in which contacts stiffen [m]; chosen"""
     contact_path: Path | None = None
     """path along which a contact's height is foreseen in a step: straight, as MuJoCo does; or
-    curved, of a chain with discrete: ends that swing do not hop. Straight of a strip; of a robot in
-    space curved where a chamber fills faster than in 1 s"""
+    curved, of a chain with discrete: ends that swing do not hop, and of a strip those that come
+    down do not sink. Straight of a strip; of a robot in space curved where a chamber fills faster
+    than in 1 s"""
     edge_time: float | None = None
     """time constant of the rod's edges [timestep]; 0.5 with discrete, else 2"""
     tie_bound: float = 1.5

@@ -1,10 +1,15 @@
-"""Contacts of links that turn, looked ahead along their curved path to the end of a step.
+"""Contacts looked ahead along the path of what comes to the ground, to the end of a step.
 
 A pad moves by J v dt + J' v dt^2 / 2 in a step of constant rates v. MuJoCo's contacts leave the
 second part out, so that an end that swings leaves the ground for a step, or sinks in, with every
 step: hops that the friction takes for slips. With the integrator discrete a contact of depth r and
 time constant c dt asks for J v = -r / ((1 + c)^2 dt) at the end of the step; here it is given the
 depth that makes it ask for J' v dt / 2 less.
+
+MuJoCo's contacts also begin only with a pad that is in the ground. An end that comes down on its
+side sinks in by a step's way, and is told from a tip two or three steps late, in which time it is
+held as a tip. Here pads over the ground are contacts too: one at height h asks for J v = -h / dt,
+and lands at the end of the step.
 """
 
 import mujoco
@@ -17,6 +22,7 @@ from mjsim.scene import Resolved, Scene
 
 _PITCH = 2  # of the coordinates: before it x and z, after it the hinges
 _LEAST = 1e-8  # m; paths less curved than this in a step are straight; chosen
+_AHEAD = 0.004  # of L: height of pads from which on their landing is foreseen; chosen
 
 
 class CurvedPaths:
@@ -37,12 +43,17 @@ class CurvedPaths:
         self._rates, self._angles = data.qvel[_PITCH:], data.qpos[_PITCH:]
         self._softness = model.geom_solref[:, 0]
         self._least = _LEAST / (0.5 * self._dt**2 * scene.strip.length)
+        # contacts with friction stiffen with their depth; adhesion has a margin of its own
+        self._landing = scene.friction != "coulomb" and not model.geom_gap[pads].any()
+        if self._landing:
+            model.geom_margin[pads] = _AHEAD * scene.strip.length
 
     def step(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         """Do a time step."""
         rates = self._rates.cumsum()
         squares = rates * rates
-        if squares.max() < self._least or not data.ncon:
+        straight = squares.max() < self._least
+        if not self._landing and (straight or not data.ncon):
             mujoco.mj_step(model, data)
             return
         mujoco.mj_step1(model, data)
@@ -53,11 +64,17 @@ class CurvedPaths:
         if len(rows) and min(rows.min(), nodes.min()) < 0:
             acts = (rows >= 0) & (nodes >= 0)
             rows, pads, nodes = rows[acts], pads[acts], nodes[acts]
-        # J' v of a node over dt: the links turn by constant rates
-        (self._lengths * np.sin(self._angles.cumsum()) * squares).cumsum(out=self._rise[1:])
         # dt (1 + c), of the pads' time constants c dt
         reach = self._softness[pads] + self._dt
-        data.efc_pos[rows] += 0.5 * reach * reach * self._rise[nodes]
+        if self._landing:
+            data.efc_margin[rows] = 0.0
+            height = data.efc_pos[rows]
+            over = height > 0.0
+            data.efc_pos[rows] = np.where(over, height * (reach / self._dt) ** 2, height)
+        if not straight:
+            # J' v of a node over dt: the links turn by constant rates
+            (self._lengths * np.sin(self._angles.cumsum()) * squares).cumsum(out=self._rise[1:])
+            data.efc_pos[rows] += 0.5 * reach * reach * self._rise[nodes]
         mujoco.mj_step2(model, data)
 
 
