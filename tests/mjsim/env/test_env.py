@@ -362,7 +362,7 @@ def test_what_searches_for_reward_found_is_paid_by_a_finer_model_but_for_one_pol
 @pytest.mark.slow
 def test_environments_pay_what_the_rows_of_the_searches_say():
     judges = {ground: adversary.Judge(ground) for ground in adversary.GROUNDS}
-    for row in adversary.stored():
+    for row in adversary.stored()[::9]:
         earned, *_ = judges[row.ground](adversary.read(row.cycle))
         assert earned == pytest.approx(row.earned, abs=1e-3)
 
