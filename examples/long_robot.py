@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from analytic import Elastica
 from mjsim import SURFACES, Friction, Gait, Numerics, Robot, Scene, measure, predict, simulate
 
+STATES = 40  # of a ramp: contacts that come and go need many
 PARTS = {"60 % of the pressure": 0.6, "full pressure": 1.0}
 
 
@@ -22,7 +23,7 @@ def main(folder: Path | None = None, links: int = 48) -> dict[str, float]:
         walker = replace(robot, peak_pressure=pressure * robot.peak_pressure)
         for name, surface in SURFACES.items():
             for where in ("ends", "all"):
-                walked = predict(walker, gait, surface, Elastica(links),
+                walked = predict(walker, gait, surface, Elastica(links), STATES,
                                  friction=Friction(tension=1.0, contacts=where))  # fmt: skip
                 shifts[f"{part}, {name}, {where}"] = walked.locomotion.per_cycle / robot.length
             numbers = measure(simulate(Scene(walker, gait, surface), Numerics(links=links)))

@@ -44,7 +44,7 @@ def laid_down(robot, angle):
     [
         (4.0, 0.02, 8.0),
         *(pytest.param(w, 0.01, t, marks=pytest.mark.slow)
-          for w in (2.0, 4.0, 8.0) for t in (2.0, 8.0, 32.0)),
+          for w in (4.0, 8.0) for t in (2.0, 8.0, 32.0)),
     ],
 )  # fmt: skip
 def test_an_underside_between_two_tips_resists_by_nothing_and_the_strip_s_distance_results(
@@ -58,6 +58,23 @@ def test_an_underside_between_two_tips_resists_by_nothing_and_the_strip_s_distan
     walk = simulate(Scene(as_strip(strip), limbs, FELT), Numerics(timestep=timestep))
     expected = theory.locomotion.per_cycle
     assert went(walk)[0] == pytest.approx(expected, rel=0.01, abs=3e-4 * strip.length)
+
+
+@pytest.mark.slow
+def test_a_light_strip_as_a_tree_loses_what_lies_flat_within_two_elements_behind_a_tip():
+    """A strip's finder takes it for a side from the second node on; see docs/quadruped.md."""
+    strip = Robot(weight_per_length=2.0)
+    gaits = [Gait("outer-first", tuple(map(tuple, stages)), 8.0)
+             for stages in (STAGES, STAGES[:, [1, 0, 2]])]  # fmt: skip
+    theory = predict(strip, gaits[0], FELT, Elastica(80),
+                     friction=Friction(tension=1.0, contacts="all"))  # fmt: skip
+    scene = Scene(as_strip(strip), gaits[1], FELT)
+    expected = theory.locomotion.per_cycle
+    coarse, fine = (
+        went(simulate(scene, Numerics(timestep=0.01, links=links)))[0] for links in (6, 24)
+    )
+    assert coarse == pytest.approx(expected, rel=0.04)
+    assert fine == pytest.approx(expected, rel=0.02)
 
 
 @pytest.mark.parametrize("ground", ["felt", "gelatin"])
