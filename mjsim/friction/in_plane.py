@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.chain import link_lengths
+from analytic.scene.surface import Surface
 from analytic.solvers.limbs.contact_search import Contact, parts_of
 from analytic.solvers.limbs.contacts import Contacts
 from analytic.solvers.limbs.kinematics import Tree
@@ -115,8 +116,7 @@ class LimbFooting:
             if point not in self._resisting:
                 point.turn(AHEAD)
                 point.turn(point.velocity)
-            bound, drag = self._finder.resistance(contact, self._ground.at(point.place[0]))
-            point.resist(bound, drag)
+            point.resist(*self._resistance(contact, point))
             resisting.append(point)
         viscous = self._viscous(resisting)
         applied = np.zeros(model.nv)
@@ -124,6 +124,16 @@ class LimbFooting:
             applied -= viscous * np.array(point.velocity) @ point.jacobian
         data.qfrc_applied[:] = applied
         self._resisting = resisting
+
+    def _resistance(self, contact: Contact, point: PointFriction) -> tuple[float, float]:
+        """Bound [N] and viscous resistance [N s/m]; on ground that changes their sum over it."""
+        if isinstance(self._ground, Surface):
+            return self._finder.resistance(contact, self._ground)
+        ahead, left = self._data.xmat[point.body, :2].tolist()
+        along, aside = np.array(contact.at) - contact.middle, np.array(contact.aside)
+        places = point.place[0] + along * ahead + aside * left
+        bounds, drags = self._finder.resistances([contact], self._ground, places)
+        return float(bounds.sum()), float(drags.sum())
 
     def _viscous(self, points: list[PointFriction]) -> float:
         """Resistance of each contact to what the bounds leave open [N s/m]."""
