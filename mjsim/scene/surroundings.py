@@ -22,7 +22,7 @@ from mjsim.scene.valves import Valves
 _FAR = 100.0  # L; with one more for each cycle, beyond where any robot of this kind comes
 _BESIDE = (1e-5, 1e2)  # bounds of friction over the robot's weight, or the force that bends it
 _OF_SURFACES = {  # in SI
-    "friction": (1e-6, 1e3), "tip_friction": (1e-6, 1e3), "viscosity": (1e-4, 1e8),
+    "friction": (1e-6, 50.0), "tip_friction": (1e-6, 50.0), "viscosity": (1e-4, 1e8),
     "static_ratio": (1.0, 100.0), "stribeck_speed": (1e-7, 10.0), "adhesion": (1e-6, 1e4),
 }  # fmt: skip
 _ROUGH = (1e-10, 1e-2)  # m, and over the length
