@@ -59,7 +59,7 @@ class Increment:
         return middle + self.rods.lines[:, None, None, None] * edge
 
     def energy(self, q: Array) -> float:
-        """What the next state has least of [J]."""
+        """Energy and dissipation, of which the next state has the least [J]."""
         middle, edge = self.rods.pose(q, slopes=False)
         z = np.stack([middle - edge, middle + edge])[..., 2]
         slip = (self.points(middle, edge) - self.before)[..., :2]
@@ -118,10 +118,12 @@ class Increment:
 
     @property
     def _above(self) -> Array:
-        """Whether a coordinate moves all that another one does, (Q, Q)."""
+        """Mask of coordinates that move all that another one does, (Q, Q)."""
         ends = self.rods.moves.reshape(len(self.stiff), -1)
-        last = ends.shape[1] - 1 - ends[:, ::-1].argmax(axis=1)  # a node that the other one moves
-        return ends[:, last]
+        outermost = (
+            ends.shape[1] - 1 - ends[:, ::-1].argmax(axis=1)
+        )  # a node that the other one moves
+        return ends[:, outermost]
 
     def least(self, q: Array) -> Array:
         """The state by Newton's method, near a guess."""
@@ -224,7 +226,7 @@ def main() -> None:
     given = parser.parse_args()
     n, states = given.elements, given.states
     divisions = ((n, states), (n // 2, states), (n, states // 2))
-    what = ("neither", "twist alone", "area alone", "twist and area")
+    models = ("neither", "twist alone", "area alone", "twist and area")
     rows = [
         [Case(ground, given.left, twist, area, given.lateral, *division) for division in divisions]
         for ground in given.ground for area in (False, True) for twist in (False, True)
@@ -234,7 +236,7 @@ def main() -> None:
         for number, row in enumerate(rows):
             fine, half, few = (next(walks) for _ in divisions)
             bar = np.abs(fine - half) + np.abs(fine - few)
-            print(f"{row[0].ground:13s}{what[number % 4]:15s} {fine[0]:+.4f} +- {bar[0]:.4f} L  "
+            print(f"{row[0].ground:13s}{models[number % 4]:15s} {fine[0]:+.4f} +- {bar[0]:.4f} L  "
                   f"turn {fine[1]:+.2f} +- {bar[1]:.2f} degrees", flush=True)  # fmt: skip
 
 

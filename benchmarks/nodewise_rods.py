@@ -28,7 +28,7 @@ STAGES = np.array([[0, 0, 0, 0, 0], [0, 1, 1, 0, 0], [1, 1, 1, 0, 0], [1, 0, 0, 
 
 
 class Case(NamedTuple):
-    """What bends, resists and presses, and how finely it is divided."""
+    """Robot, ground, gait and division of one walk."""
 
     ground: str
     left: float
@@ -66,7 +66,7 @@ class Rods:
         self.moves = self._moves()
 
     def _moves(self) -> Array:
-        """Whether a coordinate moves a node, (Q, 5, n + 1); a coordinate is above those later."""
+        """Mask of the nodes that a coordinate moves, (Q, 5, n + 1); later ones lie below."""
         n, moves = self.n, np.zeros((self.size, 5, self.n + 1), dtype=bool)
         moves[:6] = True
         block = moves[6:].reshape(5, n, len(self.strains), 5, n + 1)

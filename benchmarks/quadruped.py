@@ -86,16 +86,16 @@ def compare(seed: int, twists: int | None = None) -> Outcome:
     """Walk a scene by both."""
     scene, usual = draw(seed), replace(NUMERICS, twists=twists)
     walk, fine = simulate(scene, usual), simulate(scene, replace(FINE, twists=twists))
-    found = reference(scene, usual)
-    bar, turn_bar = error_bars(scene, found, reference(scene, usual, finer=HALF))
+    theory = reference(scene, usual)
+    bar, turn_bar = error_bars(scene, theory, reference(scene, usual, finer=HALF))
     ground = scene.ground
     return Outcome(
         f"{seed:3d} {scene.gait.name:28s} {ground.name:12s} {scene.friction:8s}",
         _numbers(walk),
         _numbers(fine),
-        np.array([*found.displacement, np.degrees(found.turn)]),
+        np.array([*theory.displacement, np.degrees(theory.turn)]),
         np.array([bar, np.degrees(turn_bar)]),
-        " ".join([str(walk.status), *found.flags]),
+        " ".join([str(walk.status), *theory.flags]),
         scene.duration / walk.wall_time,
     )
 

@@ -93,12 +93,12 @@ def compare(seed: int) -> tuple[str, list[bool]]:
 
 def main(count: int, first: int) -> None:
     """Print the table."""
-    found = []
+    outcomes = []
     with ProcessPoolExecutor(2) as pool:
         for line, good in pool.map(compare, range(first, first + count)):
-            found.append(good)
+            outcomes.append(good)
             print(line, flush=True)
-    finer, theory, covered = np.mean(found, axis=0)
+    finer, theory, covered = np.mean(outcomes, axis=0)
     print(f"of {count}: as finer MuJoCo {finer:.0%}, as the finer reference {theory:.0%}, "
           f"error bar covers {covered:.0%}")  # fmt: skip
 

@@ -3,7 +3,7 @@
 Plain floats, since this is asked at every step of a simulation, and numpy is slow on a few numbers.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -82,7 +82,7 @@ class ContactFinder:
         pushing = [node for node, push in enumerate(force) if push > 0.0]
         if not pushing:
             return []
-        runs = self._runs(pushing, height)
+        runs = runs_without_gaps(pushing, height, lambda before, node: self._roughness)
         whole = len(runs) == 1  # the ends' contacts are its halves
         if whole:
             middle = len(force) // 2
@@ -106,16 +106,6 @@ class ContactFinder:
                 contacts.append(StripContact(run, share, self._length_between(run, push), load))
         return contacts
 
-    def _runs(self, pushing: list[int], height: Sequence[float]) -> list[list[int]]:
-        """Nodes that push with no gap between them but what roughness closes."""
-        runs = [[pushing[0]]]
-        for node in pushing[1:]:
-            before = runs[-1][-1]
-            if node > before + 1 and max(height[before + 1 : node]) > self._roughness:
-                runs.append([])
-            runs[-1].append(node)
-        return runs
-
     def _side(self, run: list[int], push: list[float], end: float) -> float:
         """Length of a flat stretch that begins at an end, from what its nodes carry [m]."""
         moment = sum(p * abs(self._place[node] - end) for node, p in zip(run, push, strict=True))
@@ -125,6 +115,25 @@ class ContactFinder:
         if run[-1] - run[0] < POINT:
             return 0.0
         return length_between(self._weight, [self._place[node] for node in run], push)
+
+
+def runs_without_gaps(
+    pushing: Sequence[int], height: Sequence[float], closed: Callable[[int, int], float]
+) -> list[list[int]]:
+    """Runs of nodes that push with no gap between them.
+
+    Args:
+        pushing: numbers of the nodes that push, ascending, at least one.
+        height: of all nodes [m].
+        closed: height up to which what lies between two of them is no gap [m].
+    """
+    runs = [[pushing[0]]]
+    for node in pushing[1:]:
+        before = runs[-1][-1]
+        if node > before + 1 and max(height[before + 1 : node]) > closed(before, node):
+            runs.append([])
+        runs[-1].append(node)
+    return runs
 
 
 def contacts_of(

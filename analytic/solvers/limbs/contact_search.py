@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from analytic.friction.contact_length import flat_length, length_between, may_lie_flat
 from analytic.friction.contact_length import ripple as strip_ripple
-from analytic.friction.contacts import POINT
+from analytic.friction.contacts import POINT, runs_without_gaps
 from analytic.friction.laws import LAWS
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb
 from analytic.scene.robot import Robot
@@ -163,15 +163,19 @@ class ContactSearch:
         """
         limb, force = self._limbs[i], state.force[i]
         load, length = sum(force[vertex] for vertex in inner), limb.strip.length
-        run = max(_runs(inner, state.height[i], limb.arclength), key=len)
+        place = limb.arclength
+        runs = runs_without_gaps(
+            inner, state.height[i], lambda before, node: _FLAT * (place[node] - place[before])
+        )
+        run = max(runs, key=len)
         if len(run) > POINT:
-            places = [limb.arclength[vertex] for vertex in run]
+            places = [place[vertex] for vertex in run]
             weight = self._normal * limb.strip.weight_per_length
             flat = min(length_between(weight, places, [force[vertex] for vertex in run]), length)
             if flat > SHORT * length:
                 begin = min(max(0.5 * (places[0] + places[-1] - flat), 0.0), length - flat)
                 return self._contact(i, "between", begin, flat, load)
-        at = sum(limb.arclength[vertex] * force[vertex] for vertex in inner) / load
+        at = sum(place[vertex] * force[vertex] for vertex in inner) / load
         if len(limb.strip.segments) > 1:
             return self._contact(i, "between", at, 0.0, load)
         return Contact(i, "between", SHORT * length, (at,), (0.0,), load)
@@ -272,18 +276,6 @@ def parts_of(limb: Limb, robot: LimbedRobot) -> tuple[str, ...]:
     if limb.on is None or limb.name not in robot.outer:
         return "begin", "end", "between"
     return "end", "between"
-
-
-def _runs(inner: list[int], height: list[float], place: list[float]) -> list[list[int]]:
-    """Vertices that push, with no air between them."""
-    runs = [inner[:1]]
-    for vertex in inner[1:]:
-        before = runs[-1][-1]
-        top = max(height[before + 1 : vertex], default=0.0)
-        if top > _FLAT * (place[vertex] - place[before]):
-            runs.append([])
-        runs[-1].append(vertex)
-    return runs
 
 
 def _free_ends(robot: LimbedRobot, limb: Limb) -> tuple[str, ...]:

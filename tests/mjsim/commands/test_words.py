@@ -24,6 +24,18 @@ def message(capsys, words):
     return error
 
 
+SLOW_PERIOD = [
+    "--gait.lag",
+    "0.2",
+    "--gait.duty",
+    "0.4",
+    "--gait.ramp",
+    "0.2",
+    "--gait.period",
+    "1e4",
+]
+
+
 @pytest.mark.parametrize(
     ("words", "meant"),
     [
@@ -59,16 +71,7 @@ def message(capsys, words):
         (["--gait.ramp-time", "2000"], "2000 ms"),
         (["--gait.ramp-time", "2e-6"], "2 s"),
         (
-            [
-                "--gait.lag",
-                "0.2",
-                "--gait.duty",
-                "0.4",
-                "--gait.ramp",
-                "0.2",
-                "--gait.period",
-                "1e4",
-            ],
+            SLOW_PERIOD,
             "2000 ms",
         ),
         (["--lag", "200"], "200 ms"),
@@ -113,16 +116,7 @@ def test_an_error_in_a_file_names_table_and_key(tmp_path, capsys):
         (["--robot.weight-per-length", "1e-3"], "--robot.weight-per-length"),
         (["--robot.curvature-per-pressure", "1e-9"], "--robot.curvature-per-pressure"),
         (
-            [
-                "--gait.lag",
-                "0.2",
-                "--gait.duty",
-                "0.4",
-                "--gait.ramp",
-                "0.2",
-                "--gait.period",
-                "1e4",
-            ],
+            SLOW_PERIOD,
             "--gait.period",
         ),
         (["--roughness", "1um"], "--roughness"),
