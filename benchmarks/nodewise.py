@@ -120,9 +120,8 @@ class Increment:
     def _above(self) -> Array:
         """Mask of coordinates that move all that another one does, (Q, Q)."""
         ends = self.rods.moves.reshape(len(self.stiff), -1)
-        outermost = (
-            ends.shape[1] - 1 - ends[:, ::-1].argmax(axis=1)
-        )  # a node that the other one moves
+        # the last node that the other one moves
+        outermost = ends.shape[1] - 1 - ends[:, ::-1].argmax(axis=1)
         return ends[:, outermost]
 
     def least(self, q: Array) -> Array:
