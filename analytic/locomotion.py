@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from analytic.friction.contact_length import end_loads
 from analytic.friction.laws import LAWS, Friction, slip_fraction
 from analytic.friction.motion import motion
-from analytic.scene.ground import over
-from analytic.scene.surface import Ground, Surface
+from analytic.scene.ground import is_round, over
+from analytic.scene.surface import Ground, Surface, Way
 from analytic.shapes import ContactShapes, Shapes
 
 Array = NDArray[np.float64]
@@ -81,14 +81,34 @@ def left_end(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array,
 
 def _on_uniform(shapes: Shapes, surface: Surface, friction: Friction) -> tuple[Array, Mask]:
     """See `left_end`."""
-    left, right = bounds(shapes, surface, friction.law)
     change, downhill = np.diff(shapes.separation), friction.downhill(shapes.robot)
-    before = slip_fraction(left[:-1], right[:-1], downhill, change > 0)
-    after = slip_fraction(left[1:], right[1:], downhill, change > 0)
+    sides = _resisting(shapes, surface, friction.law, change > 0)
+    before, after = (slip_fraction(*ends, downhill, change > 0) for ends in sides)
     slip = 0.5 * (before + after)
-    switches = np.diff(slip_fraction(left, right)) != 0
-    switches |= np.abs(slip - np.round(2 * slip) / 2) > 0
+    switches = before != after
+    if not surface.is_round:  # where the separation turns, the other end's turn may come
+        turns = (np.diff(np.sign(change)) != 0) & (np.diff(slip) != 0)
+        switches[1:] |= turns
+        switches[:-1] |= turns
     return np.concatenate([[0.0], np.cumsum(-slip * change)]), switches
+
+
+def _resisting(
+    shapes: Shapes, surface: Surface, law: str, growing: Mask
+) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+    """Bounds of both ends at the begin and at the end of each increment, against their motion.
+
+    Args:
+        shapes, surface, law: see bounds.
+        growing: whether the separation grows in the increment, (B - 1,).
+    """
+    ahead = bounds(shapes, surface.against("ahead"), law)
+    back = ahead if surface.is_round else bounds(shapes, surface.against("back"), law)
+    left, right = (
+        [np.where(way, back[end][part], ahead[end][part]) for part in (slice(-1), slice(1, None))]
+        for end, way in ((0, growing), (1, ~growing))
+    )
+    return (left[0], right[0]), (left[1], right[1])
 
 
 def _along(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, Mask]:
@@ -98,12 +118,16 @@ def _along(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, M
     downhill = friction.downhill(shapes.robot)
     left = np.zeros(len(shapes))
     changes, before = np.zeros(len(shapes) - 1, dtype=bool), 0.5
+    directed = not is_round(ground)
     for i, separation in enumerate(shapes.separation[:-1]):
         change = shapes.separation[i + 1] - separation
         slips, surfaces, x = [], [], left[i]
+        ways: tuple[Way, Way] = ("back", "ahead") if change > 0 else ("ahead", "back")
         for j in (i, i + 1):
             right = x + shapes.separation[j]
             under = over(ground, x, x + contact[0][j]), over(ground, right - contact[1][j], right)
+            if directed:
+                under = under[0].against(ways[0]), under[1].against(ways[1])
             ends = (law.bound(under[k], width, contact[k][j], load[k][j]) for k in (0, 1))
             slips.append(slip_fraction(next(ends), next(ends), downhill, change > 0))
             surfaces.append((ground.at(x), ground.at(right)))
@@ -117,13 +141,13 @@ def _along(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, M
 def state_slip(shapes: Shapes, surface: Surface, law: str = "constant") -> Array:
     """Part of a change of separation that the left end takes up at each state, (B,): 0, 1/2, 1.
 
-    On level ground.
+    On level ground that is alike in all directions.
     """
     return np.asarray(slip_fraction(*bounds(shapes, surface, law)))
 
 
 def bounds(shapes: Shapes, surface: Surface, law: str) -> tuple[Array, Array]:
-    """Greatest friction of the left and the right end at each state, (B,) each [N].
+    """Greatest friction of the left and the right end at each state, ahead, (B,) each [N].
 
     Raises:
         ValueError: the law needs contact forces and the shapes have none.
@@ -157,10 +181,12 @@ def undecided(shapes: Shapes, surface: Surface, law: str = "coulomb", alike: flo
         shapes, surface, law: the walk.
         alike: part of the larger bound by which two may differ and count as equal [1].
     """
-    left, right = bounds(shapes, surface, law)
-    near = np.abs(left - right) <= alike * np.maximum(left, right)
-    equal = near[1:] & near[:-1]
-    return float(0.5 * np.abs(np.diff(shapes.separation))[equal].sum())
+    change = np.diff(shapes.separation)
+    before, after = (
+        np.abs(left - right) <= alike * np.maximum(left, right)
+        for left, right in _resisting(shapes, surface, law, change > 0)
+    )
+    return float(0.5 * np.abs(change)[before & after].sum())
 
 
 def direction(displacement: float, length: float, error: float = 0.0) -> Direction:

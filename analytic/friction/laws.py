@@ -128,17 +128,32 @@ class Friction:
         return robot.weight * math.sin(self.slope) if self.slope else 0.0
 
 
+def bounds_both_ways(
+    law: TractionLaw, surface: Surface, width: float, contact: Number, load: Number
+) -> tuple[Number, Number]:
+    """Greatest friction against motion ahead and against motion back [N]; see TractionLaw.bound."""
+    if surface.is_round:
+        bound = law.bound(surface, width, contact, load)
+        return bound, bound
+    ahead, back = (
+        law.bound(surface.against(way), width, contact, load) for way in ("ahead", "back")
+    )
+    return ahead, back
+
+
 def slip_fraction(
     left: Number, right: Number, downhill: float = 0.0, growing: Number = True
 ) -> Number:
     """Part of a change of separation that the left end takes up: 0, 1/2 or 1 (section 2.2).
 
-    The end with the larger bound stays anchored; where both are alike, both slide alike. On a slope
-    the end that slides downhill has the weight's help: the left one where the separation grows, the
-    right one where it shrinks.
+    The end with the larger bound stays anchored; where both are alike, both slide alike. Where the
+    separation grows the left end would slide back and the right one ahead, where it shrinks the
+    other way round: the bounds are those against these motions. On a slope the end that slides
+    downhill has the weight's help: the left one where the separation grows, the right one where it
+    shrinks.
 
     Args:
-        left, right: bounds of the ends [N].
+        left, right: bounds of the ends, each against the way that it would slide [N].
         downhill: the weight's part along the slope, towards -x [N].
         growing: whether the separation grows.
     """
@@ -161,5 +176,9 @@ def friction_number(surface: Surface, robot: Robot, rigidity: float) -> float:
         surface, robot: the scene.
         rigidity: D0 [N m^2].
     """
-    side = surface.shear_strength * robot.width * robot.length / len(robot.segments)
-    return max(surface.tip_force, side) * robot.length**2 / rigidity
+    area = robot.width * robot.length / len(robot.segments)
+    strongest = max(
+        max(round_.tip_force, round_.shear_strength * area)
+        for round_ in (surface.against("ahead"), surface.against("back"))
+    )
+    return strongest * robot.length**2 / rigidity

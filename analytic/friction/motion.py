@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from analytic.friction.contacts import StripContact, contacts_of
 from analytic.friction.dissipation import least_dissipation, minimisers
-from analytic.friction.laws import LAWS, Friction
+from analytic.friction.laws import LAWS, Friction, bounds_both_ways
 from analytic.scene.ground import over
 from analytic.scene.surface import Ground
 from analytic.shapes import ContactShapes, Shapes
@@ -84,12 +84,12 @@ def _contacts(shapes: ContactShapes, roughness: float) -> tuple[Array, list[list
     ]
 
 
-def _open(bounds: Array, moves: Array, friction: Friction) -> float:
+def _open(bounds: Array, back: Array, moves: Array, friction: Friction) -> float:
     """Range of motions of the whole between which the bounds of contacts do not decide [m]."""
     if LAWS[friction.law].needs_load:
-        low, high = minimisers(bounds.tolist(), moves.tolist())
+        low, high = minimisers(bounds.tolist(), moves.tolist(), back.tolist())
         return max(min(high, -float(moves.min())) - max(low, -float(moves.max())), 0.0)
-    decided = len(bounds) <= _ENDS or bounds.max() > 0
+    decided = len(bounds) <= _ENDS or max(bounds.max(), back.max()) > 0
     return 0.0 if decided else float(moves.max() - moves.min())
 
 
@@ -102,9 +102,9 @@ def _slide(
     friction: Friction,
 ) -> tuple[float, bool, float]:
     """Motion in an increment [m], whether bounds leave it open, and where a contact sticks [m]."""
-    bounds, moves = _resistance(contacts, x, step, ground, width, friction)
-    low, high = minimisers(bounds.tolist(), moves.tolist())
-    whole = least_dissipation(bounds, moves)
+    bounds, back, moves = _resistance(contacts, x, step, ground, width, friction)
+    low, high = minimisers(bounds.tolist(), moves.tolist(), back.tolist())
+    whole = least_dissipation(bounds, moves, back)
     stuck = contacts[int(np.argmin(np.abs(whole + moves)))]
     place = float(stuck.share @ x[stuck.nodes])
     return whole, high > low and moves.max() > moves.min(), place
@@ -117,12 +117,14 @@ def _resistance(
     ground: Ground,
     width: float,
     friction: Friction,
-) -> tuple[Array, Array]:
-    """Bounds of contacts [N] and their moves by the shape alone [m], (C,) each."""
+) -> tuple[Array, Array, Array]:
+    """Bounds of contacts ahead and back [N], and their moves by the shape alone [m], (C,) each."""
     law = LAWS[friction.law]
     bounds = np.array([
-        law.bound(over(ground, *contact.extent(x)), width, contact.length, contact.load)
+        bounds_both_ways(
+            law, over(ground, *contact.extent(x)), width, contact.length, contact.load
+        )
         for contact in contacts
     ])  # fmt: skip
     moves = np.array([contact.share @ step[contact.nodes] for contact in contacts])
-    return bounds, moves
+    return bounds[:, 0], bounds[:, 1], moves

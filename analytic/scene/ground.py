@@ -4,7 +4,7 @@ import math
 from bisect import bisect_right
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -90,6 +90,26 @@ def depends_on_speed(ground: Ground) -> bool:
     return any(surface.depends_on_speed for surface in surfaces_of(ground))
 
 
+def is_round(ground: Ground) -> bool:
+    """Tell whether a ground resists everywhere alike in all directions."""
+    return all(surface.is_round for surface in surfaces_of(ground))
+
+
+def check_round(ground: Ground, what: str) -> None:
+    """Raise ValueError for ground that resists otherwise back or across than ahead.
+
+    Args:
+        ground: what is asked.
+        what: needs it to be alike in all directions.
+    """
+    for surface in surfaces_of(ground):
+        if not surface.is_round:
+            raise ValueError(
+                f"{what} is for friction that is alike in all directions, surface "
+                f"{surface.name!r} resists otherwise back or across than ahead"
+            )
+
+
 def durations(times: ArrayLike) -> NDArray[np.float64]:
     """Durations of the increments between times (B,) [s], (B - 1,) [s]; at least an instant.
 
@@ -157,9 +177,11 @@ def over(ground: Ground, begin: float, end: float) -> Surface:
     if len(edges) == 2:
         return ground.at(begin)
     pieces = [(ground.at(0.5 * (a + b)), (b - a) / (end - begin)) for a, b in pairwise(edges)]
-    means = {}
+    means: dict[str, Any] = {}
     for name in RESISTANCES:
-        values = [getattr(surface, name) for surface, _ in pieces]
+        if all(getattr(surface, name) is None for surface, _ in pieces):
+            continue
+        values = [surface.resistance(name) for surface, _ in pieces]
         parts = zip(values, (part for _, part in pieces), strict=True)
         means[name] = values[0] if len(set(values)) == 1 else sum(v * part for v, part in parts)
     return replace(ground.at(0.5 * (begin + end)), **means)

@@ -4,6 +4,8 @@ The next state minimises
 
     E(q) + sum over contacts of V_c |x_c(q) - x_c|    over    y_k(q) >= 0,
 
+(b V_c where a contact slides back),
+
 with the strip as n equal rigid links of length h, q = (y of the left end, directions, x of the left
 end), and E the bending of n - 1 springs and the weight on the n + 1 nodes. Nodes that the ground
 pushes with no gap above the roughness between them are one contact: a tip of bound V_t if they are
@@ -201,7 +203,7 @@ class Chain:
                 return None
             free, response = solution[:, 0], solution[:, 1:]
             gap = share @ x - at + shift @ free[place]
-            found = friction(gap, shift @ response[place], bound, slips)
+            found = friction(gap, shift @ response[place], bound, slips, self.strip.back)
             if found is None:
                 return None
             pull, whole, slips = found

@@ -1,9 +1,11 @@
 """Theory against an independent minimiser on random gaits through low pressures.
 
-    python benchmarks/minimiser/gaits.py [--theory] [COUNT]
+    python benchmarks/minimiser/gaits.py [--theory] [--nap] [COUNT]
 
 Gaits of three segments that start inflated or pass through pressures of a few per cent: of even
-seeds on uniform ground at Phi of 1.5 to 4, of odd ones on two to four patches at Phi of 0.1 to 1.5.
+seeds on uniform ground at Phi of 1.5 to 4, of odd ones on two to four patches at Phi of 0.1 to 1.5;
+with --nap, seeds from 1000 on, through half the pressure, on uniform ground that resists otherwise
+back than ahead, by half the links.
 The minimiser (chain.py beside this file) is numpy and scipy alone, of 99 links, and of 198 where
 it differs. Adds what is missing of the first COUNT (40) seeds to gaits.csv, a row as it is done,
 and prints how many agree within 3 % or 0.0005 L. A row of a seed is made anew by deleting it; with
@@ -25,7 +27,8 @@ from mjsim.files.tables import build
 from mjsim.results.prediction import HALF, displacement, error_bars, prediction, reference
 
 ROWS = Path(__file__).with_name("gaits.csv")
-COUNT, LINKS, FINER, STATES = 40, 99, 198, 60
+NAP = 1000  # seeds from here on are of ground with a nap
+COUNT, COARSE, LINKS, FINER, STATES = 40, 48, 99, 198, 60
 RELATIVE, ABSOLUTE = 0.03, 5e-4  # of the distance; over L
 LOW = (0.02, 0.05, 0.1)  # of the peak pressure
 
@@ -54,11 +57,15 @@ def tables(seed: int) -> dict[str, Any]:
     rng = np.random.default_rng([32, seed])
     stages = rng.choice([0.0, 1.0, *LOW], (int(rng.integers(3, 5)), 3),
                         p=[0.35, 0.35, 0.1, 0.1, 0.1])  # fmt: skip
-    if not (stages[0].any() or np.isin(stages, LOW).any()):
+    if seed >= NAP:
+        stages[np.isin(stages, LOW)] = 0.5
+        stages[0] = 0.0
+    elif not (stages[0].any() or np.isin(stages, LOW).any()):
         stages[0, int(rng.integers(3))] = 1.0
     peak = round(float(rng.uniform(25e3, 48e3)))
-    uniform = seed % 2 == 0
-    phi = rng.uniform(1.5, 4.0) if uniform else rng.uniform(0.1, 1.5)
+    uniform = seed % 2 == 0 or seed >= NAP
+    strong = uniform and seed < NAP
+    phi = rng.uniform(1.5, 4.0) if strong else rng.uniform(0.1, 1.5)
     unit = float(phi) * Strip().bending(np.zeros(1))[0][0] / Strip().length ** 2
     count = 1 if uniform else int(rng.integers(2, 5))
     area = Strip().width * Strip().length / 3
@@ -72,6 +79,11 @@ def tables(seed: int) -> dict[str, Any]:
         if number:
             patch["from"] = float(round(places[number - 1], 4))
         patches.append(patch)
+    if seed >= NAP:
+        backward = float(np.exp(rng.uniform(-1, 1) * np.log(5.0)))
+        for key in ("tip_force", "shear_strength"):
+            value = patches[0][key] / max(backward, 1.0)
+            patches[0][key] = {"ahead": value, "back": backward * value}
     closed = [*stages.tolist(), stages[0].tolist()]
     return {
         "robot": {"peak_pressure": float(peak),
@@ -84,7 +96,14 @@ def tables(seed: int) -> dict[str, Any]:
 def by_minimiser(scene: dict[str, Any], links: int = LINKS, states: int = STATES) -> Walk:
     """Walk of the minimiser, of one cycle, as the product measures."""
     patches = scene["ground"].get("patches", [scene["ground"]])
+    backward = 1.0
+    if isinstance(patches[0]["tip_force"], dict):
+        pairs = [patches[0][key] for key in ("tip_force", "shear_strength")]
+        backward = max(pair["back"] for pair in pairs) / max(pair["ahead"] for pair in pairs)
+        ahead = {k: patches[0][k]["ahead"] for k in ("tip_force", "shear_strength")}
+        patches = [ahead]
     strip = Strip(
+        back=backward,
         weight_per_length=scene["robot"]["weight_per_length"],
         borders=tuple(patch["from"] for patch in patches[1:]),
         tips=tuple(patch["tip_force"] for patch in patches),
@@ -107,8 +126,10 @@ def row(seed: int) -> Row:
     ahead, bar, flags = theory(scene)
     found = [math.nan, math.nan]
     try:
-        for i, links in enumerate((LINKS, FINER)):
-            found[i] = by_minimiser(scene, links).by_cycle[-1]
+        for i, links in enumerate((COARSE, LINKS) if seed >= NAP else (LINKS, FINER)):
+            found[i] = by_minimiser(
+                scene, links, 2 * links // 3 if seed >= NAP else STATES
+            ).by_cycle[-1]
             if alike(ahead, found[i]):
                 break
     except NoMinimumError:
@@ -136,8 +157,9 @@ def write(found: Row) -> None:
 
 
 def main(words: list[str]) -> None:
-    counts = [int(word) for word in words if word != "--theory"]
-    count, rows = counts[0] if counts else COUNT, read()
+    counts = [int(word) for word in words if not word.startswith("-")]
+    first = NAP if "--nap" in words else 0
+    seeds, rows = range(first, first + (counts[0] if counts else COUNT)), read()
     if "--theory" in words:
         for seed, old in rows.items():
             ahead, bar, flags = theory(tables(seed))
@@ -145,17 +167,18 @@ def main(words: list[str]) -> None:
         ROWS.unlink()
         for found in rows.values():
             write(found)
-    for seed in range(count):
+    for seed in seeds:
         if seed in rows:
             continue
         begin = time.time()
         rows[seed] = row(seed)
         write(rows[seed])
         print(f"{rows[seed]} {time.time() - begin:.0f} s", flush=True)
-    chosen = [rows[seed] for seed in range(count)]
+    chosen = [rows[seed] for seed in seeds]
     at_once = [found for found in chosen if alike(found.theory, found.minimiser)]
     off = [found for found in chosen if not found.agrees]
-    print(f"{len(at_once)} of {count} agree with {LINKS} links, {count - len(off)} in all")
+    agree = len(seeds) - len(off)
+    print(f"{len(at_once)} of {len(seeds)} agree with {LINKS} links, {agree} in all")
     for found in off:
         print(
             f"  seed {found.seed}: {found.theory:+.5f} ± {found.bar:.5f}, minimiser "

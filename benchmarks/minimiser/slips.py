@@ -13,11 +13,12 @@ _SMALL = 1e-10
 
 
 def friction(
-    gap: Array, compliance: Array, bound: Array, before: tuple[int, ...]
+    gap: Array, compliance: Array, bound: Array, before: tuple[int, ...], backward: float = 1.0
 ) -> tuple[Array, float, tuple[int, ...]] | None:
     """Friction t of each contact, motion U of the whole and slips, by trying all patterns of slips.
 
-    s = g + U - K t, sum t = 0, |t| <= V where s = 0, else t = V sign(s) + c s, with c next to none.
+    s = g + U - K t, sum t = 0, -b V <= t <= V where s = 0, else t = V + c s ahead and -b V + c s
+    back, with c next to none and b = backward.
     """
     count = len(bound)
     if not count:
@@ -32,6 +33,7 @@ def friction(
             continue
         stick = patterns == 0
         dry = np.where(np.abs(patterns) == 1, patterns, 0) * bound
+        dry = np.where(dry < 0, backward * dry, dry)
         # rows: s = -give t where it sticks, t - c s = dry where it slides, sum t = 0
         factor = np.where(stick, 1.0, -drag)
         system = np.zeros((len(patterns), count + 1, count + 1))
@@ -45,7 +47,8 @@ def friction(
         solution = np.linalg.solve(system, right)[..., 0]
         t, whole = solution[:, :count], solution[:, count]
         slip = gap + whole[:, None] - t @ compliance.T
-        over = np.where(stick, np.abs(t) / np.where(bound > 0, bound, 1.0) - 1.0, 0.0)
+        most = np.where(t < 0, backward, 1.0) * np.where(bound > 0, bound, 1.0)
+        over = np.where(stick, np.abs(t) / most - 1.0, 0.0)
         back = np.where(np.abs(patterns) == 1, -patterns * slip, 0.0)
         wrong = np.maximum(over - 1e-10, 1e3 * (back - 1e-14)).max(axis=1)
         best = int(np.argmin(wrong))

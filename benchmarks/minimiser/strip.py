@@ -24,6 +24,7 @@ class Strip:
     borders: tuple[float, ...] = ()  # between surfaces
     tips: tuple[float, ...] = (0.0,)  # V_t of each surface
     shears: tuple[float, ...] = (0.0,)  # tau
+    back: float = 1.0  # bounds against motion back over those ahead
 
     def bending(self, pressure: Array) -> tuple[Array, Array]:
         """D and natural curvature, equations (9) and (3)."""

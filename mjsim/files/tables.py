@@ -27,7 +27,7 @@ from analytic.scene.ground import Patches
 from analytic.scene.limbs import ORDER, AnyRobot, LimbedRobot
 from analytic.scene.quadruped_gaits import QUADRUPED_GAITS, undulation
 from analytic.scene.robot import Robot
-from analytic.scene.surface import SURFACES, Ground, Surface
+from analytic.scene.surface import SURFACES, Ground, Surface, spread
 from analytic.scene.trapezoid import trapezoid
 from mjsim.files.gait_files import is_log, shortest_ramp
 from mjsim.files.keys import (
@@ -179,7 +179,7 @@ def build_ground(table: Table, where: str = "") -> Ground:
 
 def build_surface(table: Table, where: str = "") -> Surface:
     """A named surface, or one of given properties, which may start from a named one."""
-    given = {key: value for key, value in table.items() if key in SURFACE_FIELDS}
+    given = spread({k: v for k, v in table.items() if k in SURFACE_FIELDS}, where)
     name = table.get("surface")
     if name is None:
         return make(Surface, given, where) if given else SURFACES["felt"]

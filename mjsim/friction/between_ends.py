@@ -32,12 +32,14 @@ class AnchoredContacts:
     Attributes:
         anchored: tendons of the nodes that are anchored in the coming step.
         contacts, bounds: tendons and bounds of all contacts in the coming step.
+        back: bounds against motion back, if `bounds` are of motion ahead only.
     """
 
     def __init__(self, data: mujoco.MjData) -> None:
         self.anchored: list[int] = []
         self.contacts: list[int] = []
         self.bounds: list[float] = []
+        self.back: list[float] | None = None
         self._anchored_before: list[int] = []
         self._rate, self._places = data.ten_velocity, data.ten_length
         self._before: list[float] = self._places.tolist()
@@ -59,7 +61,7 @@ class AnchoredContacts:
         if not self.contacts:
             return 0.0
         rates = [self._rate.item(tendon) for tendon in self.contacts]
-        low, high = minimisers(self.bounds, rates)
+        low, high = minimisers(self.bounds, rates, self.back)
         mean = sum(rates) / len(rates)
         return min(max(mean, -high), -low)
 
@@ -86,6 +88,8 @@ class ContactFrictionEverywhere(ContactFriction):
         anchors.bounds = [
             force[node] * self._friction.item(self._geoms[node], 0) for node in pushed
         ]
+        if self._lean:
+            anchors.bounds, anchors.back = self._lean.both_ways(anchors.contacts, anchors.bounds)
         rates = [abs(self._rate.item(tendon)) for tendon in anchors.contacts]
         anchors.anchored = [anchors.contacts[rates.index(min(rates))]] if pushed else []
 
@@ -123,6 +127,8 @@ class BoundedContacts(BoundedFriction):
         for tendon in self._resisting:
             self._bounds[tendon] = 0.0
             self._drag[tendon] = 0.0
+            if self._lean:
+                self._lean.set(tendon, 0.0)
         self.left_slip, self._anchors.anchored = float("nan"), []
         if not contacts:
             self.contact_left = self.contact_right = 0.0
@@ -138,9 +144,10 @@ class BoundedContacts(BoundedFriction):
         for tendon, bound in zip(tendons, bounds, strict=True):
             self._bounds[tendon] = bound
         self._resisting = [*tendons, self._both]
-        self._anchors.contacts, self._anchors.bounds = tendons, bounds
+        ahead, back = self._lean.both_ways(tendons, bounds) if self._lean else (bounds, None)
+        self._anchors.contacts, self._anchors.bounds, self._anchors.back = tendons, ahead, back
         rates = [self._rate.item(tendon) for tendon in tendons]
-        low, high = minimisers(bounds, rates)
+        low, high = minimisers(ahead, rates, back)
         viscous = self._by_speed and any(self._drag[tendon] for tendon in tendons)
         if high > low and self._level and not viscous:
             self._anchor_undecided(nodes, rates, low, high)

@@ -6,7 +6,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.scene.ground import depends_on_speed
+from analytic.scene.ground import depends_on_speed, is_round
+from mjsim.friction.lean import Lean
 from mjsim.model.pads import node_of_geom, pads_by_node
 from mjsim.model.parts import PREFIX, TENDONS, tendon_names
 from mjsim.results.forces import GroundForces
@@ -33,13 +34,14 @@ class ContactRecorder:
         self._node_of_geom = node_of_geom(model, pads, other=-1)
         self._node_of_tendon = np.full(model.ntendon, -1)
         for node, name in enumerate(tendon_names(len(pads))):
-            if scene.between or name in TENDONS:
+            if PREFIX + name in {model.tendon(i).name for i in range(model.ntendon)}:
                 self._node_of_tendon[model.tendon(PREFIX + name).id] = node
         self._both = both = model.tendon(PREFIX + TENDONS[2]).id
         begin = model.tendon_adr[both]
         self._divisors = model.wrap_prm[begin : begin + model.tendon_num[both] : 3]
         self._coulomb = scene.friction == "coulomb"
         self._viscous = depends_on_speed(scene.ground)
+        self._lean = None if is_round(scene.ground) else Lean(model)
         self._six = np.zeros(6)
         self._rows: list[tuple[NDArray[Any], ...]] = []
         self._pushes: list[tuple[Array, Array]] = []
@@ -51,8 +53,10 @@ class ContactRecorder:
             return
         data = self._data
         drag = np.empty(0)
-        if self._viscous:
+        if self._viscous or self._lean:
             drag = -self._model.tendon_damping * data.ten_velocity
+        if self._lean:
+            drag += self._lean.forces()
         self._rows.append((
             data.efc_type.copy(), data.efc_id.copy(), data.efc_force.copy(),
             data.contact.geom2.copy(), self._divisors.copy(), drag,
@@ -88,7 +92,7 @@ class ContactRecorder:
         share = np.zeros_like(friction)  # of each node in the mean position
         share[:, [0, -1] if len(divisors[0]) == 2 else slice(None)] = 1.0 / np.array(divisors)
         friction += np.bincount(step[both], force[both], len(rows))[:, None] * share
-        if self._viscous:
+        if self._viscous or self._lean:
             tendons = np.flatnonzero(self._node_of_tendon >= 0)
             friction[:, self._node_of_tendon[tendons]] += np.array(drags)[:, tendons]
         return GroundForces(normal, friction)
@@ -104,4 +108,7 @@ class ContactRecorder:
             mujoco.mj_contactForce(self._model, self._data, i, self._six)
             normal[node] += self._six[0]
             friction[node] += self._six[1] * frame[3] + self._six[2] * frame[6]
+        if self._lean:
+            forces, tendons = self._lean.forces(), np.flatnonzero(self._node_of_tendon >= 0)
+            friction[self._node_of_tendon[tendons]] += forces[tendons]
         return normal, friction

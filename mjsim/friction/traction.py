@@ -8,20 +8,23 @@ position of the ends. `mjsim.friction.between_ends` does so at every contact. `C
 Coulomb friction at every pad, by MuJoCo's own contacts.
 """
 
+import math
 from abc import ABC, abstractmethod
 
 import mujoco
 
-from analytic.friction.laws import LAWS, slip_fraction
-from analytic.scene.ground import depends_on_speed, over
+from analytic.friction.laws import LAWS, bounds_both_ways, slip_fraction
+from analytic.scene.ground import depends_on_speed, is_round, over
 from analytic.scene.surface import Surface
 from mjsim.friction.contact_length import ContactForces
+from mjsim.friction.lean import Lean
 from mjsim.model.pads import pads_by_node
-from mjsim.model.parts import PREFIX, TENDONS, contact_softness, tie_force
+from mjsim.model.parts import PREFIX, TENDONS, contact_softness, tendon_names, tie_force
 from mjsim.scene import Resolved, Scene
 
 _TIPS = (0.0, 0.0)  # side contact of two tips
 _UNLOADED = (0.0, 0.0)  # what a law gets that needs no load
+_ROUNDING = 1e-12  # of bounds that are alike
 
 
 class StripFriction(ABC):
@@ -98,6 +101,7 @@ class BoundedFriction(StripFriction):
         self._level, self._tie = scene.slope == 0, tie_force(scene, numerics)
         self._softness, self._bounds = model.geom_solref, model.tendon_frictionloss
         self._drag, self._by_speed = model.tendon_damping, depends_on_speed(scene.ground)
+        self._lean = None if is_round(scene.ground) else Lean(model)
         self._stiff = contact_softness(scene, numerics)[0][0]
         self._soft = numerics.steep_contact_time * numerics.timestep
         self._steep_angle, self._steep = numerics.steep_angle, (False, False)
@@ -111,7 +115,7 @@ class BoundedFriction(StripFriction):
                 self._softness[pads, 0] = self._soft if is_steep else self._stiff
 
     def _bound(self, tendon: int, contact: float, load: float, inward: float) -> float:
-        """Bound of a contact; sets its viscous resistance too.
+        """Bound of a contact, its mean ahead and back; sets by how much they differ and viscosity.
 
         Args:
             tendon: that ends there.
@@ -123,10 +127,18 @@ class BoundedFriction(StripFriction):
         if surface is None:
             begin = self._place.item(tendon) + self._far - (1.0 - inward) * contact
             surface = over(self._ground, begin, begin + contact)
-        bound = self._law.bound(surface, self._width, contact, load)
+        lean = 0.0
+        if self._lean:
+            ahead, back = bounds_both_ways(self._law, surface, self._width, contact, load)
+            bound, lean = 0.5 * (ahead + back), 0.5 * (back - ahead)
+        else:
+            bound = self._law.bound(surface, self._width, contact, load)
         if self._by_speed:
-            bound *= surface.at_speed(self._rate.item(tendon))
+            factor = surface.at_speed(self._rate.item(tendon))
+            bound, lean = bound * factor, lean * factor
             self._drag[tendon] = surface.drag(self._width, contact)
+        if self._lean:
+            self._lean.set(tendon, lean)
         return float(bound)
 
 
@@ -140,8 +152,10 @@ class BoundedEnds(BoundedFriction):
         self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         super().__init__(scene, numerics, model, data)
-        self._always = self._law.needs_load or self._surface is None or self._by_speed
-        self._contacts = (-1.0, -1.0)
+        self._always = bool(
+            self._law.needs_load or self._surface is None or self._by_speed or self._lean
+        )
+        self._contacts, self._tied = (-1.0, -1.0), False
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
         """See StripFriction.before_step."""
@@ -150,25 +164,34 @@ class BoundedEnds(BoundedFriction):
         if contacts != self._contacts or self._always:
             self._contacts = self.contact_left, self.contact_right = contacts
             self._set_bounds(contacts)
-        if not self._level or self._by_speed:
+        if not self._level or self._by_speed or (self._lean and not self._tied):
             self._see_which_end_moves()
 
     def _set_bounds(self, contacts: tuple[float, float]) -> None:
         load_left, load_right = self._forces.loads() if self._law.needs_load else _UNLOADED
         left = self._bound(self._left, contacts[0], load_left, 1.0)
         right = self._bound(self._right, contacts[1], load_right, 0.0)
-        self.left_slip = slip_fraction(left, right)
-        equal = left == right and self._level
+        equal = self._tied = self._alike(left, right) and self._level
+        self.left_slip = 0.5 if equal else slip_fraction(left, right)
         if self._by_speed:
             equal = equal and not (self._drag[self._left] or self._drag[self._right])
         self._bounds[self._left : self._both + 1] = left, right, self._tie if equal else 0.0
+
+    def _alike(self, left: float, right: float) -> bool:
+        """Tell whether both ends resist alike the way that the separation changes."""
+        if not self._lean:
+            return left == right
+        lean = self._lean.of(self._left) + self._lean.of(self._right)
+        grows = self._rate.item(self._right) > self._rate.item(self._left)
+        return math.isclose(left + lean if grows else left - lean, right, rel_tol=_ROUNDING)
 
 
 class ContactFriction(StripFriction):
     """Coulomb friction of the pads.
 
     The outermost ones have the coefficient of a tip, or of a side while the end lies on it; the
-    others that of a side. On ground that changes along x each has that of its place.
+    others that of a side. On ground that changes along x each has that of its place; on ground that
+    resists otherwise back than ahead the mean of both, and a force by its load besides.
     """
 
     def __init__(
@@ -179,7 +202,13 @@ class ContactFriction(StripFriction):
         self._uniform = isinstance(scene.ground, Surface)
         self._x = data.geom_xpos[:, 0]
         self._inner = pads_by_node(model)[1:-1].ravel()
-        self._sides = (False, False)
+        self._sides: tuple[bool, bool] | None = (False, False)
+        self._lean = None
+        if not is_round(scene.ground):
+            self._lean, self._sides = Lean(model), None
+            names = tendon_names(numerics.links + 2)
+            self._node_tendons = [model.tendon(PREFIX + name).id for name in names]
+            self._node_pads = pads_by_node(model)[:, 0].tolist()
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
         """See StripFriction.before_step."""
@@ -187,12 +216,41 @@ class ContactFriction(StripFriction):
         if sides != self._sides or not self._uniform:
             self._sides = sides
             self._set_friction(sides)
+        if self._lean:
+            self._lean_by_load(sides)
         self._see_which_end_moves()
 
     def _set_friction(self, sides: tuple[bool, bool]) -> None:
         for pads, on_side in zip(self._pads, sides, strict=True):
             surface = self._ground.at(self._x.item(pads[0]))
-            self._friction[pads, 0] = surface.friction if on_side else surface.tip_friction
-        if not self._uniform:
+            self._friction[pads, 0] = _coefficient(surface, on_side)
+        if not self._uniform or self._lean:
             for pad in self._inner.tolist():
-                self._friction[pad, 0] = self._ground.at(self._x.item(pad)).friction
+                self._friction[pad, 0] = _coefficient(self._ground.at(self._x.item(pad)), True)
+
+    def _lean_by_load(self, sides: tuple[bool, bool]) -> None:
+        """Set how much more each node resists back than ahead, by its load in the step before."""
+        assert self._lean
+        force, _ = self._forces.by_node()
+        last = len(force) - 1
+        on_side = {0: sides[0], last: sides[1]}
+        for node, (push, tendon) in enumerate(zip(force, self._node_tendons, strict=True)):
+            half = 0.0
+            if push > 0.0:
+                surface = self._ground.at(self._x.item(self._node_pads[node]))
+                half = 0.5 * push * _difference(surface, on_side.get(node, True))
+            self._lean.set(tendon, half)
+
+
+def _coefficient(surface: Surface, on_side: bool) -> float:
+    """Coefficient of friction of a side or a tip, the mean of ahead and back."""
+    if surface.is_round:
+        return float(surface.friction if on_side else surface.tip_friction or 0.0)
+    name = "friction" if on_side else "tip_friction"
+    return 0.5 * (surface.resistance(name) + surface.resistance(f"{name}_back"))
+
+
+def _difference(surface: Surface, on_side: bool) -> float:
+    """Coefficient of friction back less that ahead."""
+    name = "friction" if on_side else "tip_friction"
+    return surface.resistance(f"{name}_back") - surface.resistance(name)

@@ -3,7 +3,9 @@
 Under bounds of their own, the friction of the two ends is carried by spatial tendons to a far fixed
 site: `left` and `right` along each end, and `both` along their mean; see mjsim.friction. Where it
 acts between the ends too there is one for each node, and `both` is the mean of those in contact.
-Under Coulomb friction it is MuJoCo's own contact friction, and the tendons only measure.
+Under Coulomb friction it is MuJoCo's own contact friction, and the tendons only measure. Where the
+ground resists otherwise back than ahead each has a spring besides, so long that it pulls alike
+wherever the robot is: see mjsim.friction.lean.
 """
 
 from collections.abc import Sequence
@@ -14,6 +16,7 @@ import numpy as np
 
 from analytic.scene import pneunet
 from analytic.scene.chain import link_lengths
+from analytic.scene.ground import is_round
 from mjsim.scene import Resolved, Scene
 
 PALE, DARK = (0.86, 0.82, 0.72), (0.16, 0.17, 0.20)  # passive and inflated, as in Figure 4
@@ -127,8 +130,9 @@ def add_ends(spec: mujoco.MjSpec, scene: Scene, nodes: Sequence[Node]) -> None:
         nodes: of the strip, left first.
     """
     names = ["end_left", *(f"node_{node}" for node in range(1, len(nodes) - 1)), "end_right"]
-    tendons, everywhere = tendon_names(len(nodes)), scene.between
     constant = scene.friction != "coulomb"
+    tendons = tendon_names(len(nodes))
+    everywhere = scene.between or (not constant and not is_round(scene.ground))
     bound = NO_BOUND if constant else 0.0
     for name, (body, place) in zip(names, nodes, strict=True):
         if everywhere or name.startswith("end"):

@@ -54,6 +54,8 @@ def refusal(scene: Scene) -> str | None:
         return "shoes are for strips of body chain"
     if not isinstance(ground, Surface) or depends_on_speed(ground) or ground.adhesion:
         return "shoes are for uniform ground that neither sticks nor resists by speed"
+    if not ground.is_round:
+        return "shoes resist alike ahead and back"
     if scene.between or scene.slope:
         return "shoes are for friction at the two ends on level ground"
     if scene.friction != "constant":

@@ -16,7 +16,7 @@ import numpy as np
 
 from analytic.scene import pneunet
 from analytic.scene.chain import link_lengths, segment_overlap
-from analytic.scene.ground import uniform
+from analytic.scene.ground import check_round, uniform
 from analytic.scene.limbs import limbs_of
 from analytic.scene.surface import Surface
 from mjsim.files.assets import MODELS
@@ -39,6 +39,7 @@ def walking_scene(scene: Scene) -> Scene:
     for a robot of limbs each leg carries as much, and the limbs of an end share a tip force.
     """
     ground = uniform(scene.ground)
+    check_round(ground, "a file that walks by itself")
     if not ground.friction and not ground.tip_friction:
         legs = [limb.strip for limb in limbs_of(scene.robot)[1:]]
         feet = len(legs) or 2 - scene.in_space

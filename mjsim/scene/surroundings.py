@@ -15,7 +15,7 @@ from analytic.scene import pneunet
 from analytic.scene.gait import Gait
 from analytic.scene.ground import Patches, surfaces_of
 from analytic.scene.limbs import AnyRobot, LimbedRobot, limbs_of
-from analytic.scene.surface import Ground, Surface
+from analytic.scene.surface import RESISTANCES, Ground, Surface
 from mjsim.scene.magnitudes import LENGTHS, asked, readings
 from mjsim.scene.valves import Valves
 
@@ -63,11 +63,12 @@ def _check_surface(surface: Surface, robot: AnyRobot) -> None:
     weight = sum(strip.weight for strip in limbs)
     force = max(weight, *(pneunet.base_rigidity(strip) / strip.length**2 for strip in limbs))
     own = f"that of a ground for a robot of {weight:.2g} N"
-    for name, over in (("tip_force", force), ("shear_strength", force / area)):
-        _check(name, (getattr(surface, name),), [over * part for part in _BESIDE], own,
-               units(Surface)[name])  # fmt: skip
-    for name, bounds in _OF_SURFACES.items():
-        _check(name, (getattr(surface, name),), bounds, "that of a ground", units(Surface)[name])
+    known = {**_OF_SURFACES, "tip_force": (force * _BESIDE[0], force * _BESIDE[1]),
+             "shear_strength": (force / area * _BESIDE[0], force / area * _BESIDE[1])}  # fmt: skip
+    for name in (*RESISTANCES, "static_ratio", "stribeck_speed", "adhesion"):
+        base = name.removesuffix("_back").removesuffix("_across")
+        what = own if base in ("tip_force", "shear_strength") else "that of a ground"
+        _check(name, (getattr(surface, name) or 0.0,), known[base], what, units(Surface)[name])
     if surface.adhesion:
         bounds = _REACH[0], _REACH[1] * robot.length
         _check("adhesion_reach", (surface.adhesion_reach,), bounds, "that of a ground", "m")

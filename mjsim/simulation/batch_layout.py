@@ -43,6 +43,8 @@ def refusal(scene: Scene) -> str | None:
         return "chambers must not be sealed"
     if not isinstance(ground, Surface) or depends_on_speed(ground) or ground.adhesion:
         return "ground must be uniform, without viscosity and adhesion"
+    if not ground.is_round:
+        return "ground must resist alike in all directions"
     return None
 
 

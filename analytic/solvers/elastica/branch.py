@@ -26,8 +26,9 @@ from analytic.solvers.elastica.points import (
     slides_alike,
     turned,
 )
+from analytic.solvers.elastica.signature import UNSETTLED
 from analytic.solvers.elastica.state import ChainState
-from analytic.solvers.elastica.stick_slip import UNSETTLED, StickSlip
+from analytic.solvers.elastica.stick_slip import StickSlip
 
 Array = NDArray[np.float64]
 

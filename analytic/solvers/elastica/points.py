@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.shapes import Flag
+from analytic.solvers.elastica.signature import Signature
 from analytic.solvers.elastica.state import ChainState, Mask
-from analytic.solvers.elastica.stick_slip import Signature
 
 Array = NDArray[np.float64]
 

@@ -7,19 +7,19 @@ nothing any more and only decide which contact slides: section 2.2 of [Majidi13]
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.contact_length import end_contact, end_loads, ripple
 from analytic.friction.contacts import ContactFinder, StripContact
-from analytic.friction.laws import LAWS, Friction
+from analytic.friction.laws import LAWS, Friction, bounds_both_ways
 from analytic.scene.chain import node_positions
-from analytic.scene.ground import depends_on_speed, over
+from analytic.scene.ground import depends_on_speed, is_round, over
 from analytic.scene.surface import Ground, Surface
 from analytic.solvers.elastica.fixed_point import FixedPoint
 from analytic.solvers.elastica.newton import Chain
+from analytic.solvers.elastica.signature import Signature
 from analytic.solvers.elastica.state import ChainState
 from analytic.solvers.elastica.tractions import tractions
 
@@ -29,34 +29,6 @@ _UPDATES = 50  # most for one equilibrium; chosen
 _MOST_CHANGES = 8  # of which contacts there are, in one increment
 _BORDER = 1e-6  # over L; so near to a border a tip is at it, as changes are located; chosen
 _ALIKE = 1e-7  # part of the greatest bound by which bounds may change and count as the same
-
-
-class Signature(NamedTuple):
-    """Contacts of a state, from left to right.
-
-    Attributes:
-        kinds: "tip", "side", or "between" where the bound would jump, see FixedPoint.
-        weakest: whether none has a smaller bound.
-        slips: -1, 0 or 1 as it slides towards -x, sticks or slides towards +x.
-    """
-
-    kinds: tuple[str, ...]
-    weakest: tuple[bool, ...]
-    slips: tuple[int, ...]
-
-    def differs(self, before: "Signature") -> bool:
-        """Whether other contacts slide than before, or might have on the way."""
-        slid = any(self.slips) and any(before.slips) and (
-            [slip != 0 for slip in self.slips] != [slip != 0 for slip in before.slips]
-        )  # fmt: skip
-        return slid or (self.kinds, self.weakest) != (before.kinds, before.weakest)
-
-    def turned(self, before: "Signature") -> bool:
-        """Whether a contact that slid before has come to a stop, from where it may slide back."""
-        return any(was and now != was for now, was in zip(self.slips, before.slips, strict=False))
-
-
-UNSETTLED = Signature((), (), ())  # of a state that was not found
 
 
 class StickSlip:
@@ -70,7 +42,8 @@ class StickSlip:
     Attributes:
         slips: of each contact in the last increment, see analytic.solvers.elastica.tractions.
         contacts: in that increment.
-        bounds: of the contacts [D0 / L^2].
+        bounds: of the contacts [D0 / L^2], (C,); on ground that resists otherwise back than ahead,
+            those ahead and then those back, (2 C,).
         updates: see GroundTraction.
         settled: whether the bounds are those of the contacts that they led to.
     """
@@ -82,13 +55,14 @@ class StickSlip:
         self._air = ripple(chain.robot, self._nodes)
         self._finder = ContactFinder(chain.robot, self._nodes, friction.roughness, self._press)
         self._law = LAWS[friction.law]
-        self._by_speed = depends_on_speed(ground)
+        self._by_speed, self._directed = depends_on_speed(ground), not is_round(ground)
         self._pull = friction.downhill(chain.robot) / chain.force_unit
         self._unit = friction.tension / chain.force_unit
         self.contacts: list[StripContact] = []
         self.slips = np.zeros(0, dtype=int)
         self._before = self._nodes / chain.robot.length
         self._speed, self._slid = 0.0, np.zeros(0)
+        self._held_back = np.zeros(0, dtype=bool)  # contacts that the ground pulls towards +x
         self._take([], np.zeros(0), np.zeros(0))
         self._search: FixedPoint | None = None
         self._changes, self.settled = 0, True
@@ -120,20 +94,22 @@ class StickSlip:
         along = self._chain.length * np.cos(state.theta)
         along += across * (free.theta - state.theta)
         # a contact is moved by its part of each link beyond the left end
-        compliance = np.zeros((len(self.bounds), len(self.bounds)))
+        count = len(self.contacts)
+        compliance = np.zeros((count, count))
         compliance[:, self._felt] = self._reach.T @ (across[:, None] * response.theta)
         increment = tractions(
             along @ self._reach - self._share @ self._before,
             compliance,
-            self.bounds,
+            self.bounds[:count],
             self._drag,
             self._pull,
             self.slips,
+            self.bounds[-count:] if self._directed else None,
         )
         if increment is None:
             return None
         traction, place, self.slips, slid = increment
-        self._slid = np.abs(slid)
+        self._slid, self._held_back = np.abs(slid), traction > 0
         felt = traction[self._felt]
         return ChainState(
             y=free.y + response.y @ felt,
@@ -162,14 +138,14 @@ class StickSlip:
                 return True  # contacts that come and go by a rounding: those of before will do
         else:
             self._search = self._search or FixedPoint(len(bounds))
-            margins = self._margins(contacts, state)
+            margins = np.resize(self._margins(contacts, state), len(bounds))
             alike, bounds = self._search.next(self.bounds, bounds, margins, near)
         self._take(contacts, bounds, drag)
         self.settled = alike
         return alike or (self._trial and self._search is not None and self._search.at_a_jump)
 
     def _resistance(self, contacts: list[StripContact], state: ChainState) -> tuple[Array, Array]:
-        """Dry bounds of contacts and their viscous resistance to a slip of 1, (C,) each."""
+        """Dry bounds of contacts, see `bounds`, and their viscous resistance to a slip of 1."""
         ground, robot = self._ground, self._chain.robot
         if isinstance(ground, Surface):
             under = [ground] * len(contacts)
@@ -182,15 +158,19 @@ class StickSlip:
                 for i, contact in enumerate(contacts)
             ]
         pairs = list(zip(under, contacts, strict=True))
-        bounds = self._unit * np.array([
-            self._law.bound(surface, robot.width, contact.length, contact.load)
+        both_ways = [
+            bounds_both_ways(self._law, surface, robot.width, contact.length, contact.load)
             for surface, contact in pairs
+        ]  # fmt: skip
+        bounds = self._unit * np.array([
+            both[way] for way in range(1 + self._directed) for both in both_ways
         ])  # fmt: skip
         if not self._by_speed:
             return bounds, np.zeros(len(contacts))
         speed = self._slid if len(contacts) == len(self._slid) else np.zeros(len(contacts))
-        bounds *= [surface.at_speed(v * self._speed)
+        factors = [surface.at_speed(v * self._speed)
                    for surface, v in zip(under, speed, strict=True)]  # fmt: skip
+        bounds *= np.resize(factors, len(bounds))
         drag = [surface.drag(robot.width, contact.length) for surface, contact in pairs]
         return bounds, self._unit * self._speed * np.array(drag)
 
@@ -206,7 +186,11 @@ class StickSlip:
         near = _BORDER * self._chain.robot.length
         sides = self._ground.at(begin - near), self._ground.at(begin + near)
         width = self._chain.robot.width
-        return max(sides, key=lambda side: self._law.bound(side, width, 0.0, contact.load))
+        return max(
+            sides, key=lambda side: sum(
+                bounds_both_ways(self._law, side, width, 0.0, contact.load)
+            ),
+        )  # fmt: skip
 
     def _margins(self, contacts: list[StripContact], state: ChainState) -> Array:
         """Length of a side over L, less the height of the node beside a tip at an end, (C,)."""
@@ -219,9 +203,22 @@ class StickSlip:
 
     def measures(self, state: ChainState) -> Array:
         """Margins, and bounds less the least other one: 0 where contacts change, (2 C,)."""
-        least, second = [*np.sort(self.bounds)[:2], np.nan, np.nan][:2]
-        others = np.where(self.bounds > least, least, second)
-        return np.concatenate([self._margins(self.contacts, state), self.bounds - others])
+        bounds = self._opposing()
+        least, second = [*np.sort(bounds)[:2], np.nan, np.nan][:2]
+        others = np.where(bounds > least, least, second)
+        return np.concatenate([self._margins(self.contacts, state), bounds - others])
+
+    def _opposing(self) -> Array:
+        """Bounds of contacts against the ways that they are pushed, (C,) [D0 / L^2]."""
+        ahead, back = self._both_ways()
+        if not self._directed or len(self._held_back) != len(ahead):
+            return ahead
+        return np.where(self._held_back, back, ahead)
+
+    def _both_ways(self) -> tuple[Array, Array]:
+        """Bounds of contacts against motion ahead and back, (C,) each [D0 / L^2]."""
+        count = len(self.contacts)
+        return self.bounds[:count], self.bounds[len(self.bounds) - count :]
 
     def _touch_alike(self, contacts: list[StripContact]) -> bool:
         """Tell whether contacts are where those before were."""
@@ -236,20 +233,23 @@ class StickSlip:
     def constraints(self, state: ChainState) -> Array:
         """See GroundTraction.constraints."""
         rows = -self._chain.length * np.sin(state.theta) * self._reach.T
-        rows = rows[(self.slips == 0) & (self.bounds > 0)]
+        held = np.maximum(*self._both_ways()) > 0
+        rows = rows[(self.slips == 0) & held]
         return rows[1:] - rows[:1]
 
     def signature(self) -> Signature:
         """Contacts of the state that was found last."""
         count = len(self.contacts)
-        held = self._search.between if self._search else [False] * count
+        between = self._search.between if self._search else [False] * count
+        held = [any(between[i::count]) for i in range(count)]
         kinds = ["side" if contact.length > 0 else "tip" for contact in self.contacts]
-        least = (1 + _ALIKE) * float(self.bounds.min(initial=np.inf))
+        bounds = self._opposing()
+        least = (1 + _ALIKE) * float(bounds.min(initial=np.inf))
         return Signature(
             kinds=tuple(
                 "between" if held[i] or not self.settled else kinds[i] for i in range(count)
             ),
-            weakest=tuple(bound <= least for bound in self.bounds.tolist()),
+            weakest=tuple(bound <= least for bound in bounds.tolist()),
             slips=tuple(self.slips.tolist()),
         )
 

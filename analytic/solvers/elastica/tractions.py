@@ -7,8 +7,9 @@ whole moves by U:
 
     t_j = -V_j sign(s_j) - c_j s_j,
 
-with s the slips, g what they would be without traction, F the force that pulls the body
-towards -x, V_j dry and c_j viscous resistance: the next minimum of energy + dissipation, to second
+with V_j the dry resistance against motion ahead where t_j < 0, against motion back where t_j > 0,
+s the slips, g what they would be without traction, F the force that pulls the body
+towards -x, and c_j viscous resistance: the next minimum of energy + dissipation, to second
 order in the slips (incremental minimisation; Mielke and Roubicek, Rate-Independent Systems, 2015).
 On a stiff body (K = 0) it is the least dissipation of analytic.friction.dissipation. Vanishing
 viscosity decides, as there, what equal bounds leave open.
@@ -50,6 +51,7 @@ def tractions(
     viscosity: Array,
     pull: float = 0.0,
     guess: NDArray[np.int_] | None = None,
+    back: Array | None = None,
 ) -> Tractions | None:
     """Solve for t and U by changing which contacts stick and slide until all conditions are met.
 
@@ -60,13 +62,16 @@ def tractions(
         viscosity: c, (C,), at least 0.
         pull: F.
         guess: as Tractions.slips.
+        back: V against motion back if `bounds` are of motion ahead only, (C,).
 
     Returns:
         None if no contact can balance the pull, or no state meets the conditions.
     """
     count = len(bounds)
-    scale = float(bounds.max(initial=0.0)) or 1.0
-    give, limit, gap, row = _GIVE / scale, bounds.tolist(), gaps.tolist(), compliance.tolist()
+    strongest = bounds if back is None else np.maximum(bounds, back)
+    scale = float(strongest.max(initial=0.0)) or 1.0
+    give, limit, gap, row = _GIVE / scale, strongest.tolist(), gaps.tolist(), compliance.tolist()
+    ahead, behind = bounds.tolist(), (bounds if back is None else back).tolist()
     drag = [c + _VANISHING * scale for c in viscosity.tolist()]
     slips = [0] * count if guess is None else guess.tolist()
     for attempt in range(_ATTEMPTS):
@@ -76,7 +81,7 @@ def tractions(
             factor = 1.0 if stick[j] else drag[j]
             equation = [factor * k for k in row[j]]
             equation[j] += give if stick[j] else 1.0
-            dry = 0.0 if stick[j] else -slips[j] * limit[j]
+            dry = (0.0, -ahead[j], behind[j])[slips[j]]
             system.append([*equation, factor, dry - factor * gap[j]])
         system.append([1.0] * count + [0.0, pull])
         solution = _solved(system)
@@ -89,7 +94,8 @@ def tractions(
         ]
         wrong = [
             j for j in range(count)
-            if limit[j] > 0 and (abs(traction[j]) > limit[j] * (1 + 1e-12) if stick[j]
+            if limit[j] > 0 and (max(-traction[j] - ahead[j], traction[j] - behind[j])
+                                 > 1e-12 * limit[j] if stick[j]
                                  else -slips[j] * slid[j] > _ROUNDING)
         ]  # fmt: skip
         if not wrong:

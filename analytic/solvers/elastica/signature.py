@@ -1,0 +1,31 @@
+"""Signature of a state with friction: kinds of its contacts, and which of them slide."""
+
+from typing import NamedTuple
+
+
+class Signature(NamedTuple):
+    """Contacts of a state, from left to right.
+
+    Attributes:
+        kinds: "tip", "side", or "between" where the bound would jump, see FixedPoint.
+        weakest: whether none has a smaller bound.
+        slips: -1, 0 or 1 as it slides towards -x, sticks or slides towards +x.
+    """
+
+    kinds: tuple[str, ...]
+    weakest: tuple[bool, ...]
+    slips: tuple[int, ...]
+
+    def differs(self, before: "Signature") -> bool:
+        """Whether other contacts slide than before, or might have on the way."""
+        slid = any(self.slips) and any(before.slips) and (
+            [slip != 0 for slip in self.slips] != [slip != 0 for slip in before.slips]
+        )  # fmt: skip
+        return slid or (self.kinds, self.weakest) != (before.kinds, before.weakest)
+
+    def turned(self, before: "Signature") -> bool:
+        """Whether a contact that slid before has come to a stop, from where it may slide back."""
+        return any(was and now != was for now, was in zip(self.slips, before.slips, strict=False))
+
+
+UNSETTLED = Signature((), (), ())  # of a state that was not found
