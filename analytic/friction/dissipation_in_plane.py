@@ -9,6 +9,14 @@ whatever the direction, and the motion dissipates least,
 e normal to the ground, k_j the viscous resistance over the time that the increment takes. It is
 convex. Where several motions dissipate alike the limit of vanishing equal viscosity
 decides: of them the least squares of the slips.
+
+A contact that resists otherwise back or across than ahead (see Nap) takes
+
+    V_j |S_j u_j| - p_j u_j
+
+in place of V_j |u_j|, the norm of an ellipse and a constant force: the gradient of a convex
+function, as friction of least dissipation must be. By coefficients along and across times the
+direction of the slip (Hu et al. 2009) it would be none.
 """
 
 from typing import NamedTuple
@@ -23,6 +31,48 @@ _CLOSER = 0.2  # ratio of one to the next
 _VISCOSITY = 1e-7  # force at the largest move, of the largest bound: vanishes
 _MOST_STEPS, _ENOUGH = 60, 1e-13
 _SHORTEST = 1e-12  # of a step that a line search tries
+_NONE = 1e-100  # N
+
+
+class Nap(NamedTuple):
+    """Directions of contacts that resist otherwise back or across than ahead.
+
+    Attributes:
+        scale: S_j, (C, 2, 2).
+        lean: p_j, constant forces on the contacts, (C, 2) [N].
+    """
+
+    scale: Array
+    lean: Array
+
+    def scaled(self, slips: Array) -> Array:
+        """S_j u_j of slips u_j, (C, 2) [m]."""
+        return np.asarray(np.einsum("cij,cj->ci", self.scale, slips))
+
+    def traction(self, scaled: Array) -> Array:
+        """Traction against slips from that against scaled slips, (C, 2) [N]."""
+        return np.asarray(np.einsum("cji,cj->ci", self.scale, scaled)) - self.lean
+
+    def stiffness(self, scaled: Array) -> Array:
+        """Slopes of the traction by the slips from those of the scaled ones, (C, 2, 2) [N/m]."""
+        return np.asarray(self.scale.transpose(0, 2, 1) @ scaled @ self.scale)
+
+
+def nap_of(ahead: Array, back: Array, across: Array, axes: Array) -> tuple[Array, Nap]:
+    """Bounds V_j and directions of contacts, by their bounds three ways.
+
+    Args:
+        ahead, back, across: bounds, (C,) [N].
+        axes: directions of ahead in plan, (C, 2), of length 1.
+    """
+    along = 0.5 * (ahead + back)
+    bounds = np.maximum(along, across)
+    least = np.maximum(bounds, _NONE)
+    scale = np.empty((len(bounds), 2, 2))
+    scale[:, 0] = (along / least)[:, None] * axes
+    scale[:, 1, 0] = -across / least * axes[:, 1]
+    scale[:, 1, 1] = across / least * axes[:, 0]
+    return bounds, Nap(scale, 0.5 * (back - ahead)[:, None] * axes)
 
 
 class SmoothFriction(NamedTuple):
@@ -31,18 +81,31 @@ class SmoothFriction(NamedTuple):
     Attributes:
         bounds: V_j, (C,) [N].
         viscous: k_j, (C,) [N/m].
+        nap: directions, None where all resist alike in all of them.
     """
 
     bounds: Array
     viscous: Array
+    nap: Nap | None = None
 
     def cost(self, slips: Array, sharpness: float) -> float:
         """Dissipation of slips, (C, 2) [m] -> [J]."""
         square = (slips**2).sum(axis=1)
-        return float(self.bounds @ np.sqrt(square + sharpness**2) + 0.5 * self.viscous @ square)
+        if self.nap is None:
+            return float(self.bounds @ np.sqrt(square + sharpness**2) + 0.5 * self.viscous @ square)
+        scaled = (self.nap.scaled(slips) ** 2).sum(axis=1)
+        even = self.bounds @ np.sqrt(scaled + sharpness**2) + 0.5 * self.viscous @ square
+        return float(even - (self.nap.lean * slips).sum())
 
     def slopes(self, slips: Array, sharpness: float) -> tuple[Array, Array]:
         """Slopes of the cost by the slips, (C, 2) [N], and their slopes, (C, 2, 2) [N/m]."""
+        if self.nap is not None:
+            even = SmoothFriction(self.bounds, np.zeros_like(self.viscous))
+            pull, curvature = even.slopes(self.nap.scaled(slips), sharpness)
+            film = self.viscous[:, None] * slips
+            return self.nap.traction(pull) + film, (
+                self.nap.stiffness(curvature) + self.viscous[:, None, None] * np.eye(2)
+            )
         length = np.sqrt((slips**2).sum(axis=1) + sharpness**2)
         stiff = self.bounds / length
         across = np.einsum("ci,cj->cij", slips, slips) / (length**2)[:, None, None]
@@ -71,6 +134,7 @@ def least_dissipation_in_plane(
     moves: Array,
     viscous: Array | None = None,
     shares: Array | None = None,
+    nap: Nap | None = None,
 ) -> PlanarMotion:
     """The motion of the whole that dissipates least.
 
@@ -80,6 +144,7 @@ def least_dissipation_in_plane(
         moves: m_j by which the shape moves them, shape (C, 2) [m].
         viscous: k_j, at least 0, shape (C,) [N/m]; none if None.
         shares: of each in the equal viscosity that vanishes, shape (C,); 1 if None.
+        nap: directions of the contacts, None where all resist alike in all of them.
 
     Raises:
         ValueError: the arrays are not of one number of contacts, or there is no contact.
@@ -100,7 +165,9 @@ def least_dissipation_in_plane(
     thick = np.zeros(count) if viscous is None else np.asarray(viscous, dtype=float) * size
     strongest = float(max(bounds.max(), thick.max())) or 1.0
     least = _VISCOSITY * (np.ones(count) if shares is None else shares)
-    friction = SmoothFriction(bounds / strongest, thick / strongest + least)
+    if nap is not None:
+        nap = nap._replace(lean=nap.lean / strongest)
+    friction = SmoothFriction(bounds / strongest, thick / strongest + least, nap)
     # how the slips, over the largest move, follow from the shift and the turn of the centre
     lever = np.zeros((count, 2, 3))
     lever[:, 0, 0] = lever[:, 1, 1] = 1.0
@@ -137,7 +204,7 @@ def _newton(
         hessian = np.einsum("cik,cij,cjl->kl", lever, stiff, lever)
         step = -np.linalg.lstsq(hessian, gradient, rcond=1e-15)[0]
         fall, part = float(gradient @ step), 1.0
-        if -fall <= _ENOUGH * max(cost, sharpness):
+        if -fall <= _ENOUGH * max(abs(cost), sharpness):
             break
         while (new := friction.cost(moves + lever @ (motion + part * step), sharpness)) > (
             cost + 1e-4 * part * fall

@@ -111,7 +111,7 @@ class Branch:
         states, solved = [*points], after
         event = Event(points[-2:] if slides_alike(points) else points[-1:], after)
         error = self._moved(points[-1].state, after.state)
-        least = _LOCATED / (error if math.isfinite(error) else _FAR) * event.width
+        least = _LOCATED / (error if 0 < error < math.inf else _FAR) * event.width
         while (
             event.width > least
             and not self._moved(event.before.state, event.after.state) < _LOCATED

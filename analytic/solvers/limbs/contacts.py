@@ -10,8 +10,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.scene.ground import check_for_limbs, durations, surfaces_of
-from analytic.scene.surface import Ground, Surface
+from analytic.friction.dissipation_in_plane import Nap, nap_of
+from analytic.scene.ground import check_for_limbs, durations, is_round, surfaces_of
+from analytic.scene.surface import Ground, Surface, Way
 from analytic.solvers.limbs.contact_search import SHORT, Contact, ContactSearch
 
 Array = NDArray[np.float64]
@@ -26,15 +27,44 @@ class Contacts(ContactSearch):
         at = [at for contact in contacts for at in contact.at]
         return self._tree.points(limbs, at, [y for contact in contacts for y in contact.aside])
 
-    def resistances(self, contacts: list[Contact], ground: Ground, x: Array) -> tuple[Array, Array]:
-        """Bounds [N] and viscous resistances [N s/m] of all these points, at places x (C,) [m]."""
+    def resistances(
+        self, contacts: list[Contact], ground: Ground, x: Array, way: Way | None = None
+    ) -> tuple[Array, Array]:
+        """Bounds [N] and viscous resistances [N s/m] of all these points, at places x (C,) [m].
+
+        Against motion one way where the ground has a nap.
+        """
         points = [contact for contact in contacts for _ in contact.at]
         pairs = [
-            self.resistance(contact, ground.at(place))
+            self.resistance(contact, ground.at(place).against(way) if way else ground.at(place))
             for contact, place in zip(points, x.tolist(), strict=True)
         ]
         bounds, viscous = np.array(pairs).reshape(-1, 2).T * shares(contacts)
         return bounds, viscous
+
+    def friction(
+        self, contacts: list[Contact], ground: Ground, x: Array, robot: float, along: float
+    ) -> tuple[Array, Array, Nap | None]:
+        """Bounds, viscous resistances and directions of all these points, see resistances.
+
+        Args:
+            contacts, ground, x: see resistances.
+            robot, along: directions of the robot and of the ground's +x, in the frame of the slips
+                [rad].
+
+        Returns:
+            No directions where the ground resists alike in all of them.
+        """
+        if is_round(ground):
+            return *self.resistances(contacts, ground, x), None
+        ahead, back, across = (
+            self.resistances(contacts, ground, x, way) for way in ("ahead", "back", "across")
+        )
+        of_robot = [ground.at(place).nap == "robot" for place in x.tolist()]
+        angle = np.where(np.array(of_robot, dtype=bool), robot, along)
+        axes = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        bounds, nap = nap_of(ahead[0], back[0], across[0], axes)
+        return bounds, ahead[1], nap
 
     def strength(self, ground: Ground) -> float:
         """Greatest bound of all limbs together, each on its side or on its tip [N]."""
@@ -48,7 +78,7 @@ class Contacts(ContactSearch):
                 )
                 for i, (limb, load) in enumerate(zip(robot.limbs, loads, strict=True))
             )
-            for surface in surfaces_of(ground)
+            for surface in _all_ways(ground)
         )
 
     def resistance(self, contact: Contact, surface: Surface) -> tuple[float, float]:
@@ -73,6 +103,14 @@ class Contacts(ContactSearch):
         far = math.hypot(a, b)  # over a rectangle
         halves = a * a / b * math.log((b + far) / a) + b * b / a * math.log((a + far) / b)
         return (far + 0.5 * halves) / 3
+
+
+def _all_ways(ground: Ground) -> list[Surface]:
+    """Surfaces of a ground, one for each way that it resists."""
+    return [
+        surface.against(way) for surface in surfaces_of(ground)
+        for way in ("ahead", "back", "across")
+    ]  # fmt: skip
 
 
 def shares(contacts: list[Contact]) -> Array:

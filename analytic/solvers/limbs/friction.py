@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.dissipation_in_plane import SmoothFriction
+from analytic.friction.dissipation_in_plane import Nap, SmoothFriction
 from analytic.solvers.limbs.kinematics import Pose, Tree
 
 Array = NDArray[np.float64]
@@ -28,8 +28,9 @@ class ContactFriction(NamedTuple):
         bounds: of the tractions, (C,) [N].
         viscous: resistance to slips, (C,) [N/m].
         spring: stiffness of what holds, (C,) [N/m].
-        held: tractions so far, (C, 2) [N].
+        held: tractions so far, against slips as the nap scales them, (C, 2) [N].
         holds: which contacts hold, (C,).
+        nap: directions of the contacts, None where all resist alike in all of them.
     """
 
     weights: Array
@@ -39,6 +40,7 @@ class ContactFriction(NamedTuple):
     spring: Array
     held: Array
     holds: Flags
+    nap: Nap | None = None
 
     def slips(self, nodes: Array) -> Array:
         """Slips with nodes at places (P, 3) [m], (C, 2) [m]."""
@@ -62,17 +64,22 @@ class ContactFriction(NamedTuple):
             their slopes as far as the forces change, (Q, Q); and the forces on the nodes, (P, 3).
         """
         slips = self.slips(pose.nodes)
-        pull = self._pull(slips)
+        pull = self._pull(self._scaled(slips))
         size = _sizes(pull)
         part = np.where(self.holds, 1.0, self.bounds / size)
         stiff = self.spring * part
         across = np.where(self.holds, 0.0, stiff / size**2)
         stiffness = -across[:, None, None] * pull[:, :, None] * pull[:, None]
-        stiffness[:, 0, 0] += stiff + self.viscous
-        stiffness[:, 1, 1] += stiff + self.viscous
+        stiffness[:, 0, 0] += stiff
+        stiffness[:, 1, 1] += stiff
         pull = part[:, None] * pull
         # springs are stiff: what they pull while they settle turns nothing
         turning = np.where(self.holds[:, None], self.held, pull)
+        if self.nap is not None:
+            pull, turning = self.nap.traction(pull), self.nap.traction(turning)
+            stiffness = self.nap.stiffness(stiffness)
+        stiffness[:, 0, 0] += self.viscous
+        stiffness[:, 1, 1] += self.viscous
         pull = pull + self.viscous[:, None] * slips
         return (*self._by_coordinates(tree, pose, pull, stiffness), self._on_nodes(turning))
 
@@ -83,6 +90,7 @@ class ContactFriction(NamedTuple):
             slips: (C, 2) [m].
             slack: of the bounds, by which a contact that holds may exceed its own.
         """
+        slips = self._scaled(slips)
         pull = self._pull(slips)
         size = _sizes(pull)
         excess = np.where(self.holds, size / np.maximum(self.bounds, _TINY), 0.0)
@@ -95,14 +103,17 @@ class ContactFriction(NamedTuple):
 
     def least(self, nodes: Array, sharpness: float) -> "ContactFriction":
         """Friction where the smooth cost is least, nodes at places (P, 3) [m]."""
-        slips = self.slips(nodes)
+        slips = self._scaled(self.slips(nodes))
         size = np.sqrt((slips**2).sum(axis=1) + sharpness**2)
         held = (self.bounds / size)[:, None] * slips
         return self._replace(held=held, holds=(size < _FAR * sharpness) & (self.bounds > 0))
 
     @property
     def _smooth(self) -> SmoothFriction:
-        return SmoothFriction(self.bounds, self.viscous)
+        return SmoothFriction(self.bounds, self.viscous, self.nap)
+
+    def _scaled(self, slips: Array) -> Array:
+        return slips if self.nap is None else self.nap.scaled(slips)
 
     def _pull(self, slips: Array) -> Array:
         """Traction that would hold each contact; of one that slid far only its direction counts."""

@@ -37,6 +37,7 @@ _SLIDES = 0.05  # move over the length in an increment on a slope, beyond which 
 _SHORTEST = 1e-7  # change of pressure over the peak's, and part of an increment
 _ON = 3.0  # increments over the one before, that a guess goes on by
 _TINY = 1e-100
+_YAW = 3  # of the coordinates of a tree
 
 
 def stick_slip_path(
@@ -123,8 +124,9 @@ class _Increment:
         # a side that grows or shrinks slips at points that are those of neither state
         alike = _kinds(self.contacts) == _kinds(before.contacts)
         weights = 0.5 * (self.weights + before.weights) if alike else self.weights
-        bounds, viscous = self._finder.resistances(
-            self.contacts, self._ground, self.weights @ rest.nodes[:, 0]
+        heading = 0.5 * float(before.rest.q[_YAW] + rest.q[_YAW])
+        bounds, viscous, nap = self._finder.friction(
+            self.contacts, self._ground, self.weights @ rest.nodes[:, 0], heading, 0.0
         )
         self.viscous, film = viscous, viscous / self._span
         least = min(self._viscosity, _WEAK * float(film.sum())) if film.any() else self._viscosity
@@ -133,6 +135,7 @@ class _Increment:
         return ContactFriction(
             weights, weights @ before.rest.nodes[:, :2], bounds,
             film + least * shares(self.contacts), bounds / self._slip, part[:, None] * held, holds,
+            nap,
         )  # fmt: skip
 
 
@@ -152,8 +155,8 @@ class _StickSlip:
             first = self._statics.equilibrium(part * pressures[0], first)
         contacts = self._finder.find(first, pressures[0])
         weights = self._finder.weights(contacts)
-        bounds, viscous = self._finder.resistances(
-            contacts, self._ground, weights @ first.nodes[:, 0]
+        bounds, viscous, _ = self._finder.friction(
+            contacts, self._ground, weights @ first.nodes[:, 0], 0.0, 0.0
         )
         self._states.append(
             _State(pressures[0], times[0], first, contacts, weights, bounds,

@@ -86,9 +86,10 @@ def follow(
                 continue
             weights = finder.weights(state)
             before, after = weights @ begin.nodes[:, :2], weights @ end.nodes[:, :2]
-            bounds, viscous = finder.resistances(state, ground, place[i, 0] + before @ turned[0])
+            x = place[i, 0] + before @ turned[0]
+            bounds, viscous, nap = finder.friction(state, ground, x, 0.0, -heading[i])
             motion = least_dissipation_in_plane(
-                bounds, before, after - before, viscous / spans[i], shares(state)
+                bounds, before, after - before, viscous / spans[i], shares(state), nap
             )
             shift += 0.5 * motion.shift
             turn += 0.5 * motion.turn

@@ -7,7 +7,11 @@ from hypothesis import strategies as st
 from scipy.optimize import minimize
 
 from analytic.friction.dissipation import least_dissipation
-from analytic.friction.dissipation_in_plane import least_dissipation_in_plane
+from analytic.friction.dissipation_in_plane import (
+    SmoothFriction,
+    least_dissipation_in_plane,
+    nap_of,
+)
 
 SEEDS = st.integers(0, 2**32 - 1)
 
@@ -175,3 +179,91 @@ def test_a_film_beside_dry_friction_balances_its_forces(seed):
     moment = places[:, 0] * force[:, 1] - places[:, 1] * force[:, 0]
     assert force.sum(axis=0) == pytest.approx([0, 0], abs=1e-5)
     assert moment.sum() == pytest.approx(0, abs=1e-6)
+
+
+def draw_naps(seed, count):
+    """Bounds three ways and directions of ahead, (count,) each, of a random scene."""
+    rng = np.random.default_rng([seed, 1])
+    ahead, back, across = rng.uniform(0.05, 1.0, (3, count))
+    angle = rng.uniform(-np.pi, np.pi, count)
+    return ahead, back, across, np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+def dissipated_on_naps(slips, ahead, back, across, axes):
+    """Half an ellipse and a constant force, written out by components along and across."""
+    along = (slips * axes).sum(axis=1)
+    aside = axes[:, 0] * slips[:, 1] - axes[:, 1] * slips[:, 0]
+    even = np.hypot(0.5 * (ahead + back) * along, across * aside)
+    return float((even + 0.5 * (ahead - back) * along).sum())
+
+
+@settings(max_examples=40, deadline=None)
+@given(SEEDS)
+def test_no_other_motion_dissipates_less_on_naps(seed):
+    bounds, places, moves = draw(seed)
+    naps = draw_naps(seed, len(bounds))
+    strongest, nap = nap_of(*naps)
+    found = least_dissipation_in_plane(strongest, places, moves, nap=nap)
+
+    def dissipated(at):
+        turned = np.column_stack([-places[:, 1], places[:, 0]])
+        slips = moves * 1e3 + at[:2] + at[2] * 10 * turned
+        return dissipated_on_naps(slips, *naps)
+
+    start = np.append(found.shift * 1e3, found.turn * 1e2)
+    rng = np.random.default_rng(seed)
+    for _ in range(3):
+        other = minimize(dissipated, start + rng.standard_normal(3), method="Nelder-Mead",
+                         options={"xatol": 1e-7, "fatol": 1e-11, "maxiter": 2000})  # fmt: skip
+        assert dissipated(start) <= other.fun * (1 + 1e-7) + 1e-9
+
+
+@given(SEEDS)
+def test_a_nap_resists_by_its_bounds_ahead_back_and_across(seed):
+    ahead, back, across, axes = draw_naps(seed, 3)
+    strongest, nap = nap_of(ahead, back, across, axes)
+    friction = SmoothFriction(strongest, np.zeros(3), nap)
+    left = np.stack([-axes[:, 1], axes[:, 0]], axis=1)
+    costs = [friction.cost(way * axes, 0.0) for way in (1, -1)] + [friction.cost(left, 0.0)]
+    # what leans along does not work across
+    assert costs == pytest.approx([ahead.sum(), back.sum(), across.sum()])
+
+
+@given(SEEDS)
+def test_a_bar_that_turns_about_its_foot_spends_half_its_length_squared_by_the_bound_across(seed):
+    """Or, across the nap, by that of the way that it turns: bristles along y, a bar along x."""
+    ahead, back, across = (float(part[0]) for part in draw_naps(seed, 1)[:3])
+    r = (np.arange(1000) + 0.5) / 1000
+    for axis, (left, right) in (((1.0, 0.0), (across, across)), ((0.0, 1.0), (ahead, back))):
+        axes = np.tile(axis, (1000, 1))
+        bounds = np.full((3, 1000), 1e-3) * np.array([[ahead], [back], [across]])
+        strongest, nap = nap_of(*bounds, axes)
+        friction = SmoothFriction(strongest, np.zeros(1000), nap)
+        for turn, strength in ((0.1, left), (-0.1, right)):
+            slips = np.stack([0 * r, turn * r], axis=1)
+            assert friction.cost(slips, 0.0) == pytest.approx(0.05 * strength, rel=1e-6)
+
+
+@given(SEEDS)
+def test_the_slopes_of_friction_on_naps_are_its_differences(seed):
+    rng = np.random.default_rng(seed)
+    strongest, nap = nap_of(*draw_naps(seed, 3))
+    friction = SmoothFriction(strongest, rng.random(3), nap)
+    slips, by = rng.standard_normal((3, 2)), 1e-6 * rng.standard_normal((3, 2))
+    pull, stiff = friction.slopes(slips, 0.1)
+    sides = [friction.cost(slips + sign * by, 0.1) for sign in (1, -1)]
+    assert sides[0] - sides[1] == pytest.approx(2 * (pull * by).sum(), rel=1e-5, abs=1e-14)
+    pulls = [friction.slopes(slips + sign * by, 0.1)[0] for sign in (1, -1)]
+    assert pulls[0] - pulls[1] == pytest.approx(2 * np.einsum("cij,cj->ci", stiff, by),
+                                                rel=1e-4, abs=1e-12)  # fmt: skip
+
+
+@settings(max_examples=20, deadline=None)
+@given(SEEDS)
+def test_a_nap_that_is_alike_in_all_directions_is_none(seed):
+    bounds, places, moves = draw(seed)
+    axes = draw_naps(seed, len(bounds))[3]
+    strongest, nap = nap_of(bounds, bounds, bounds, axes)
+    one = least_dissipation_in_plane(bounds, places, moves)
+    two = least_dissipation_in_plane(strongest, places, moves, nap=nap)
+    assert two.slip == pytest.approx(one.slip, rel=1e-6, abs=1e-9)

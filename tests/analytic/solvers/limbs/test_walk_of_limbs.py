@@ -12,12 +12,14 @@ from analytic.scene.gait import GAITS, Gait
 from analytic.scene.limbs import LENGTH, Limb, LimbedRobot, as_strip, quadruped
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.robot import Robot
-from analytic.scene.surface import SURFACES
+from analytic.scene.surface import SURFACES, Surface
 from analytic.solvers.elastica import solve_elastica
 from analytic.solvers.limbs.walk import follow, shapes, walk
 from analytic.solvers.models import Elastica
 
 QUADRUPED = quadruped()
+GELATIN = SURFACES["gelatin"].tip_force
+NAPPED = Surface("napped", tip_force={"ahead": GELATIN, "back": 1.5 * GELATIN, "across": GELATIN})
 
 
 def by_limb(gait):
@@ -30,7 +32,7 @@ def test_the_strip_as_a_tree_goes_as_far_as_the_strip(name):
     robot, gait = Robot(), GAITS[name]
     pressures = robot.peak_pressure * by_limb(gait)
     tree, rests = shapes(as_strip(robot), pressures, 6)
-    for surface in SURFACES.values():
+    for surface in (*SURFACES.values(), NAPPED):
         path = follow(tree, rests, pressures, surface)
         flat = solve_elastica(robot, robot.peak_pressure * gait.path(16)[0], 18)
         exact = displacements(flat, surface).per_cycle  # by the same states
@@ -41,11 +43,13 @@ def test_the_strip_as_a_tree_goes_as_far_as_the_strip(name):
 
 
 @pytest.mark.parametrize(
-    ("name", "states", "elements", "within"),
-    [("felt", 16, 4, 0.01), pytest.param("gelatin", 20, 6, 0.005, marks=pytest.mark.slow)],
-)
-def test_the_strip_as_a_tree_is_bent_by_friction_as_the_strip_is(name, states, elements, within):
-    robot, gait, surface = Robot(), GAITS["wave"], SURFACES[name]
+    ("surface", "states", "elements", "within"),
+    [(SURFACES["felt"], 16, 4, 0.01),
+     pytest.param(SURFACES["gelatin"], 20, 6, 0.005, marks=pytest.mark.slow),
+     pytest.param(NAPPED, 20, 6, 0.01, marks=pytest.mark.slow)],
+)  # fmt: skip
+def test_the_strip_as_a_tree_is_bent_by_friction_as_the_strip_is(surface, states, elements, within):
+    robot, gait = Robot(), GAITS["wave"]
     stages = tuple(map(tuple, np.array(gait.stages)[:, [1, 0, 2]].tolist()))
     path = walk(as_strip(robot), Gait("wave", stages), surface, states, elements)
     exact = predict(robot, gait, surface, Elastica(18), 160, friction=Friction(tension=1.0))
