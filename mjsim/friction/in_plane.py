@@ -1,7 +1,7 @@
 """Friction of a robot of limbs: each contact resists by a bound in the plane, over its area.
 
 Contacts and their bounds are those of analytic.solvers.limbs.contacts, found from the forces of the
-step before. Each has three rows, see mjsim.friction.point_friction: dry friction of the whole bound
+step before. Each has three rows, see mjsim.friction.friction_rows: dry friction of the whole bound
 V along its slip s, turning included, or along the traction where it does not slide, and across that
 V v / |s|, where s is the slip of the step before: together the tangent of V s / |s|, as in Newton's
 method, so that friction opposes the slip whatever its direction. What the bounds leave open is left
@@ -21,17 +21,15 @@ from analytic.scene.surface import Surface
 from analytic.solvers.limbs.contact_search import Contact, parts_of
 from analytic.solvers.limbs.contacts import Contacts
 from analytic.solvers.limbs.kinematics import Tree
-from analytic.solvers.limbs.rest import Rest
 from mjsim.friction.ceiling import CeilingPush
-from mjsim.friction.point_friction import AHEAD, STANDS, PointFriction
-from mjsim.model.limbs import ROWS, contact_name, joints_to, limbed, link_prefix
+from mjsim.friction.friction_rows import STANDS, FrictionRows
+from mjsim.model.limbs import contact_name, joints_to, limbed, link_prefix
 from mjsim.model.pads import edges, node_of_geom, pads_of
 from mjsim.results.status import THROWN
 from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
 
-_WHOLE = 0.999  # of the bound: the point slides
 _WEAK = 0.005  # of all bounds and drags, that viscosity adds at most; chosen
 _TIPPED = 1.0  # rad of pitch or roll of the trunk as a whole: it fell over; chosen
 _STEEP, _LEANS = math.tan(_TIPPED), math.sin(_TIPPED)
@@ -61,20 +59,15 @@ class LimbFooting:
         self._tree = Tree(robot, numerics.links, incline=scene.incline)
         self._finder = Contacts(self._tree, scene.friction)
         self.contacts: list[Contact] = []
-        self._resisting: list[PointFriction] = []
-        self._rows = [
-            {
-                part: PointFriction(model, contact_name(limb.name, part),
-                                    len(joints_to(robot, numerics.links, i, numerics.twists)))
-                for part in parts_of(limb, robot)
-            }
-            for i, limb in enumerate(robot.limbs)
-        ]  # fmt: skip
-        self._by_tendon = {
-            tendon: (rows, number)
-            for limb in self._rows for rows in limb.values() for number, tendon in
-            enumerate(rows.ids)
-        }  # fmt: skip
+        self._touching = 0.0  # limbs
+        parts = [(i, part) for i, limb in enumerate(robot.limbs) for part in parts_of(limb, robot)]
+        self._rows = FrictionRows(
+            model, data, [contact_name(robot.names[i], part) for i, part in parts],
+            [len(joints_to(robot, numerics.links, i, numerics.twists)) for i, _ in parts],
+        )  # fmt: skip
+        self._numbers: list[dict[str, int]] = [{} for _ in robot.limbs]
+        for number, (limb, part) in enumerate(parts):
+            self._numbers[limb][part] = number
         self._links = [
             [model.body(f"{link_prefix(name)}{i}").id for i in range(numerics.links + 1)]
             for name in robot.names
@@ -83,77 +76,98 @@ class LimbFooting:
         self._trunk = self._links[0][0], self._links[0][-1], length
         self._starts = [starts.tolist() for starts in self._tree.starts]
         self._pads = edges(pads_of(model, scene))
-        self._node_of_geom = node_of_geom(model, self._pads, other=-1)
+        vertices = len(self._pads) // 2  # of which each has a pad at either edge
+        node = node_of_geom(model, self._pads, other=-1)
+        self._vertex_of_geom = np.where(node < 0, node, node % vertices)
+        self._heights_of_geoms, self._lower = data.geom_xpos[:, 2], np.zeros(vertices)
         mass = robot.weight / scene.gravity
         self._viscosity = mass / numerics.tie_time  # of all points together [N s/m]
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
+        self._look()
 
-    def prepare(self, pressures: Array) -> list[Array]:
-        """Pressures of each step, as the contacts are found by them."""
-        return list(pressures)
+    def prepare(self, pressures: Array) -> list[list[list[bool]]]:
+        """Whether the ends of each limb may lie flat at each step, by its pressures."""
+        flat: list[list[list[bool]]] = self._finder.may_lie(pressures).tolist()
+        return flat
 
-    def before_step(self, pressures: Array) -> None:
+    def before_step(self, may_lie: list[list[bool]]) -> None:
         """Read the contacts, and set what resists in the next step.
 
         Places of the state now, forces of the step before.
 
         Args:
-            pressures: of the chambers, (S,) [Pa].
+            may_lie: whether the two ends of each limb may lie flat.
         """
-        model, data = self._model, self._data
-        self.contacts = self._finder.find(self._rest(), pressures)
-        self._turn()
-        for point in self._resisting:
-            point.release()
-        resisting = []
+        rows = self._rows
+        self.contacts = self._finder.search(self._pushes(), self._heights, may_lie)
+        rows.turn()
+        numbers, bodies, offsets, radii = [], [], [], []
         for contact in self.contacts:
-            point, at = self._rows[contact.limb][contact.part], contact.middle
-            starts = self._starts[contact.limb]
-            link = min(bisect_right(starts, at), len(starts)) - 1
-            body = self._links[contact.limb][link]
-            point.move_to(model, data, body, at - starts[link], self._finder.radius(contact))
-            if point not in self._resisting:
-                point.turn(AHEAD)
-                point.turn(point.velocity)
-            point.resist(*self._resistance(contact, point))
-            resisting.append(point)
-        viscous = self._viscous(resisting)
-        applied = np.zeros(model.nv)
-        for point in resisting:
-            applied -= viscous * np.array(point.velocity) @ point.jacobian
-        data.qfrc_applied[:] = applied
-        self._resisting = resisting
+            limb, at = contact.limb, contact.middle
+            starts = self._starts[limb]
+            link = bisect_right(starts, at) - 1
+            numbers.append(self._numbers[limb][contact.part])
+            bodies.append(self._links[limb][link])
+            offsets.append(at - starts[link])
+            radii.append(self._finder.radius(contact))
+        if numbers != rows.numbers:
+            self._touching = float(len({contact.limb for contact in self.contacts}))
+        rows.move_to(numbers, bodies, offsets, radii)
+        bounds, drags = self._resistances(bodies)
+        rows.resist(bounds, drags, self._viscosity_of_each(sum(bounds), sum(drags)))
 
-    def _resistance(self, contact: Contact, point: PointFriction) -> tuple[float, float]:
-        """Bound [N] and viscous resistance [N s/m]; on ground that changes their sum over it."""
-        if isinstance(self._ground, Surface):
-            return self._finder.resistance(contact, self._ground)
-        ahead, left = self._data.xmat[point.body, :2].tolist()
-        along, aside = np.array(contact.at) - contact.middle, np.array(contact.aside)
-        places = point.place[0] + along * ahead + aside * left
-        bounds, drags = self._finder.resistances([contact], self._ground, places)
-        return float(bounds.sum()), float(drags.sum())
+    def _resistances(self, bodies: list[int]) -> tuple[list[float], list[float]]:
+        """Bounds [N] and viscous resistances [N s/m] of the contacts, each on one of the links."""
+        ground, finder, bounds, drags = self._ground, self._finder, [], []
+        if isinstance(ground, Surface):
+            for contact in self.contacts:
+                bound, drag = finder.resistance(contact, ground)
+                bounds.append(bound)
+                drags.append(drag)
+            return bounds, drags
+        for contact, place, body in zip(self.contacts, self._rows.places, bodies, strict=True):
+            ahead, left = self._data.xmat[body, :2].tolist()
+            along, aside = np.array(contact.at) - contact.middle, np.array(contact.aside)
+            places = place.real + along * ahead + aside * left
+            of_points = finder.resistances([contact], ground, places)
+            bounds.append(float(of_points[0].sum()))
+            drags.append(float(of_points[1].sum()))
+        return bounds, drags
 
-    def _viscous(self, points: list[PointFriction]) -> float:
-        """Resistance of each contact to what the bounds leave open [N s/m]."""
-        bound, drag = sum(point.bound for point in points), sum(point.drag for point in points)
-        speed = max((math.hypot(*point.velocity) for point in points), default=0.0)
-        whole = self._viscosity
+    def _viscosity_of_each(self, bound: float, drag: float) -> float:
+        """Resistance of each contact to what the bounds leave open [N s/m].
+
+        Args:
+            bound, drag: of all contacts together [N, N s/m].
+        """
+        speeds, whole = self._rows.speeds, self._viscosity
         if bound > 0.0 or drag > 0.0:
-            whole = min(whole, _WEAK * (bound / max(speed, STANDS) + drag))
-        return whole / max(len(points), 1)
+            whole = min(whole, _WEAK * (bound / max(*speeds, STANDS) + drag))
+        return whole / max(len(speeds), 1)
 
-    def _rest(self) -> Rest:
-        data = self._data
-        contact = data.contact
-        row = contact.efc_address
-        node = self._node_of_geom[contact.geom2]
-        acts = (row >= 0) & (node >= 0)
-        force = np.bincount(node[acts], data.efc_force[row[acts]], len(self._pads))
-        nodes = data.geom_xpos[self._pads]
-        nodes[:, 2] -= self._numerics.pad_radius
-        return Rest(data.qpos, nodes, np.asarray(force, dtype=float), True)
+    def _look(self) -> None:
+        """Place the links as the coordinates say; note the heights of the limbs' vertices."""
+        mujoco.mj_kinematics(self._model, self._data)
+        mujoco.mj_comPos(self._model, self._data)
+        heights = self._heights_of_geoms[self._pads]
+        vertices, lowest = len(self._lower), self._lower
+        # a limb that leans lies on one of its edges
+        np.minimum(heights[:vertices], heights[vertices:], out=lowest)
+        np.subtract(lowest, self._numerics.pad_radius, out=lowest)
+        self._heights: list[float] = lowest.tolist()
+
+    def _pushes(self) -> list[float]:
+        """Force of the ground on each vertex, both edges together [N]."""
+        data, contact = self._data, self._data.contact
+        vertex, first = self._vertex_of_geom.take(contact.geom2), data.nefc - data.ncon
+        if first == data.nf and not self._ceiling.columns:
+            forces = data.efc_force[first:]  # a row each, after those of dry friction
+        else:  # or MuJoCo had no memory for the rows
+            row = contact.efc_address
+            acts = (row >= 0) & (vertex >= 0)
+            vertex, forces = vertex[acts], data.efc_force[row[acts]]
+        force = np.bincount(vertex, forces, len(self._heights))
+        pushes: list[float] = force.tolist()
+        return pushes
 
     def stands(self) -> bool:
         """Tell whether the trunk is as it can be on a walk: on the ground, and not tipped over.
@@ -170,8 +184,7 @@ class LimbFooting:
         rise, aside = w - z + length * along[6], along[7]
         if abs(rise) > _STEEP * math.hypot(*ahead) or abs(aside) > _LEANS:
             return False
-        lowest = float(data.geom_xpos[self._pads, 2].min()) - self._numerics.pad_radius
-        return lowest <= THROWN * self._length
+        return min(self._heights) <= THROWN * self._length
 
     def places(self) -> Array:
         """Places of all pads, whose speed tells whether the robot is at rest, (P, 3) [m]."""
@@ -179,30 +192,10 @@ class LimbFooting:
 
     def side_contacts(self) -> Array:
         """Length over which each limb lies on its side in the coming step, (L,) [m]."""
-        lengths = np.zeros(len(self._rows))
+        lengths = np.zeros(len(self._links))
         for contact in self.contacts:
             lengths[contact.limb] += contact.length
         return lengths
-
-    def _turn(self) -> None:
-        """Lay the first row of each point along its slip, or along its friction if it sticks."""
-        data, count = self._data, self._data.nf
-        forces: dict[PointFriction, list[float]] = {}
-        columns = (data.efc_id, data.efc_force, data.efc_D)
-        lists = (column[:count].tolist() for column in columns)
-        for tendon, force, stiffness in zip(*lists, strict=True):
-            point, row = self._by_tendon[tendon]
-            forces.setdefault(point, [0.0] * ROWS)[row] = force
-            if row:
-                point.update_inverse_mass(row, stiffness)
-        for point, rows in forces.items():
-            u, v, w = (point.jacobian @ data.qvel).tolist()
-            if abs(rows[0]) > _WHOLE * point.bound and math.hypot(u, v, w) > 0:
-                point.turn((u, v, w))
-            else:
-                x, y, z = (sum(f * axis[i] for f, axis in zip(rows, point.axes, strict=True))
-                           for i in range(ROWS))  # fmt: skip
-                point.turn((x, y, z))
 
     def after_step(self) -> tuple[float, ...]:
         """Take off how far the step moved anchored points, by the order of the integrator alone.
@@ -214,21 +207,21 @@ class LimbFooting:
         Returns:
             Number of limbs that touched the ground in the step, and the ceiling's push.
         """
-        model, data, dt = self._model, self._data, self._numerics.timestep
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
-        touching = (float(len({c.limb for c in self.contacts})), *self._ceiling.numbers())
-        if not self._resisting:
+        self._look()
+        touching = (self._touching, *self._ceiling.numbers())
+        if not self.contacts:
             return touching
-        moved = [(point.bound + STANDS, *point.after_step(data, dt)) for point in self._resisting]
-        slow = 3 * min(speed for *_, speed in moved) + STANDS
+        moved = self._rows.after_step()
+        slow = 3 * min([speed for *_, speed in moved]) + STANDS
+        qpos = self._data.qpos
         shift, turn = rigid_motion(
-            [(weight, place, excess) for weight, place, excess, speed in moved if speed <= slow],
-            complex(data.qpos.item(0), data.qpos.item(1)),
-        )
-        data.qpos[0] -= shift.real
-        data.qpos[1] -= shift.imag
-        data.qpos[3] -= turn
+            [(bound + STANDS, place, move) for bound, place, move, speed in moved
+             if speed <= slow],
+            complex(qpos.item(0), qpos.item(1)),
+        )  # fmt: skip
+        qpos[0] -= shift.real
+        qpos[1] -= shift.imag
+        qpos[3] -= turn
         return touching
 
 

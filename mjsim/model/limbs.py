@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from analytic.scene import pneunet
 from analytic.scene.chain import joint_springs, link_lengths
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb, limbs_of, rotation
-from analytic.solvers.limbs.contact_search import parts_of, ripple
+from analytic.solvers.limbs.contact_search import parts_of
+from analytic.solvers.limbs.resting_limb import ripple
 from mjsim.model import parts
 from mjsim.model.ceiling import add_ceiling, add_upper_edge
 from mjsim.model.links import UP, add_links
@@ -29,7 +30,7 @@ from mjsim.scene import Resolved, Scene
 Array = NDArray[np.float64]
 
 ROOT = ("x", "y", "z", "yaw", "pitch", "roll")
-ROWS = 3  # of friction at each contact, see mjsim.friction.point_friction
+ROWS = 3  # of friction at each contact, see mjsim.friction.friction_rows
 _THIN = 1e-9  # MuJoCo wants A + B >= C of inertias, of which a plate has A + B = C
 _TOWARDS = 3.0  # times the centripetal acceleration that contacts yield to; measured
 _SOFTEST = 0.1  # beyond, limbs sink in as they walk; chosen
@@ -162,7 +163,7 @@ def contact_name(limb: str, part: str) -> str:
 
 
 def _add_friction(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
-    """Add a tendon for each contact and row of mjsim.friction.point_friction."""
+    """Add a tendon for each contact and row of mjsim.friction.friction_rows."""
     robot = limbed(scene)
     for number, limb in enumerate(robot.limbs):
         joints = joints_to(robot, numerics.links, number, numerics.twists)

@@ -83,19 +83,19 @@ class Contacts(ContactSearch):
 
     def resistance(self, contact: Contact, surface: Surface) -> tuple[float, float]:
         """Bound of friction [N] and viscous resistance [N s/m] of a contact."""
-        strip = self._tree.robot.limbs[contact.limb].strip
-        width = strip.width
-        if 0 < contact.length <= SHORT * strip.length and not self._law.needs_load:
+        limb = self._limbs[contact.limb]
+        width = limb.width
+        if 0 < contact.length <= SHORT * limb.length and not self._law.needs_load:
             # no area: what rounding leaves would be the only bound there is
             return 0.0, 0.0
         bound = self._law.bound(surface, width, contact.length, contact.load)
         if not contact.length and not self._law.needs_load:
-            bound *= self._limbs[contact.limb].share
+            bound *= limb.share
         return float(bound), float(surface.drag(width, contact.length))
 
     def radius(self, contact: Contact) -> float:
         """Mean distance from its middle of what resists, 0 of a point [m]."""
-        a, b = 0.5 * contact.length, 0.5 * self._limbs[contact.limb].strip.width
+        a, b = 0.5 * contact.length, 0.5 * self._limbs[contact.limb].width
         if not a:
             return 0.5 * b  # a tip: a line across
         if len(contact.at) == 1:

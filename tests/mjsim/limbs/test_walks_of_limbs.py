@@ -10,12 +10,13 @@ from analytic.scene.ground import Patches
 from analytic.scene.limbs import LENGTH, quadruped
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import SHEAR_STRENGTH, SURFACES, TIP_FORCE, Surface
-from analytic.solvers.limbs.contact_search import ripple
 from analytic.solvers.limbs.kinematics import Tree
+from analytic.solvers.limbs.resting_limb import ripple
 from analytic.solvers.limbs.statics import Statics
 from analytic.solvers.limbs.walk import walk as quasi_static
 from mjsim.friction.in_plane import LimbFooting
 from mjsim.model.limbs import longest_step
+from mjsim.model.parts import PREFIX
 from mjsim.results.status import Status
 from mjsim.scene import Numerics, Scene, resolved
 from mjsim.simulation.simulation import Simulation, simulate
@@ -88,17 +89,23 @@ def test_half_the_step_and_half_the_links_change_it_little(walks):
 
 def test_every_place_resists_by_its_bound_at_most(monkeypatch):
     excess = []
-    before = LimbFooting.before_step
+    after = LimbFooting.after_step
 
-    def watch(self, pressures):
-        data = self._data
+    def watch(self):
+        data, finder = self._data, self._finder
+        limb = {f"{PREFIX}{name}": i for i, name in enumerate(quadruped().names)}
+        resists = {
+            (contact.limb, contact.part): finder.resistance(contact, SURFACES["polyethylene"])[0]
+            for contact in self.contacts
+        }
         for tendon, force in zip(data.efc_id[: data.nf], data.efc_force[: data.nf], strict=True):
-            point, _ = self._by_tendon[int(tendon)]
-            excess.append(abs(force) - point.bound)
-        before(self, pressures)
+            name, part = self._model.tendon(tendon).name[:-2].split("_friction_")
+            excess.append(abs(force) - resists[limb[name], part])
+        return after(self)
 
-    monkeypatch.setattr(LimbFooting, "before_step", watch)
+    monkeypatch.setattr(LimbFooting, "after_step", watch)
     simulate(scene("polyethylene", 2.0), Numerics(timestep=0.02, links=4))
+    assert excess
     assert max(excess) < 1e-9
 
 
