@@ -160,6 +160,11 @@ def check_for_limbs(ground: Ground) -> None:
                 f"{key} of surface {surface.name!r} is for strips, not for robots of limbs; got "
                 f"{getattr(surface, key)!r}"
             )
+        if surface.viscosity and not surface.is_round:
+            raise ValueError(
+                f"viscosity of surface {surface.name!r}, which resists otherwise back or across "
+                f"than ahead, is for strips, not for robots of limbs; got {surface.viscosity!r}"
+            )
 
 
 def over(ground: Ground, begin: float, end: float) -> Surface:

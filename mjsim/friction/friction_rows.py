@@ -10,8 +10,10 @@ exact where it only slips and where it only turns. So its traction lies along s:
 first is laid along s, or along the traction where it does not slide, and the others across.
 
 A row is a tendon over all joints that move the contact; its coefficients, set at each step, are the
-Jacobian of s along the row. Contacts that do not resist have tendons of no joint, which cost MuJoCo
-nothing. Plain floats and few calls of numpy, which cost more than the few numbers of a step.
+Jacobian of s along the row. On ground with a nap s is the slip as that scales it, and a constant
+force leans on the contact besides (see analytic.friction.dissipation_in_plane.Nap). Contacts that
+do not resist have tendons of no joint, which cost MuJoCo nothing. Plain floats and few calls of
+numpy, which cost more than the few numbers of a step.
 """
 
 import math
@@ -27,6 +29,7 @@ from mjsim.model.limbs import ROWS
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int_]
 Vector = tuple[float, float, float]
+Directions = tuple[float, float, float, float, float, float]  # S by rows, and p [N]
 
 # over the tangent: the direction follows within steps and does not swing; measured
 _STIFFER = 128.0
@@ -79,12 +82,15 @@ class FrictionRows:
         self._point_of_each = list(self._points)
         self._jacobian = self._jacobians[:0].reshape(0, model.nv)
         self.numbers: list[int] = []
+        self._before: list[int] = []
         self._bodies: list[int] = []
         self._indices: tuple[Numbers, ...] = ()  # of the links
         self._links: list[tuple[list[float], list[float]]] = []  # their origins and directions
         self._offsets: list[float] = []
         self._radii: list[float] = []
-        self._slips: list[Vector] = []
+        self._rates: list[Vector] = []  # (u_x, u_y, r w)
+        self._slips: list[Vector] = []  # s
+        self._naps: list[Directions] | None = None
         self.places: list[complex] = []
         self.speeds: list[float] = []
         self.bounds: list[float] = []
@@ -117,20 +123,17 @@ class FrictionRows:
             if size > 0:
                 self._axes[number] = _axes(x / size, y / size, z / size)
 
-    def move_to(
-        self, numbers: list[int], bodies: list[int], offsets: list[float], radii: list[float]
-    ) -> None:
-        """Take the contacts that touch in the coming step, with their places and slips now.
+    def move_to(self, numbers: list[int], bodies: list[int], offsets: list[float]) -> None:
+        """Take the contacts that touch in the coming step, with their places now.
 
         Args:
             numbers: places of the contacts among all.
             bodies, offsets: link that the middle of each is of, and where it is along that [m].
-            radii: r of each, 0 of one that cannot turn [m].
         """
         model, data, count = self._model, self._data, len(numbers)
-        before, self.numbers = self.numbers, numbers
+        self._before, self.numbers = self.numbers, numbers
         self._jacobian = self._jacobians[:count].reshape(6 * count, model.nv)
-        self._offsets, self._radii = offsets, radii
+        self._offsets = offsets
         if bodies != self._bodies:
             self._bodies, links = bodies, np.array(bodies, dtype=int)[:, None]
             # of their origins, and of the first columns of their rotations
@@ -144,11 +147,19 @@ class FrictionRows:
         for (rotation, move), point, body in zip(self._spaces, self._point_of_each, bodies,
                                                  strict=False):  # fmt: skip
             mujoco.mj_jac(model, data, move, rotation, point, body)
-        self._slips, self.speeds = [], []
-        for number, radius, (u, v, w) in zip(numbers, radii, self._rates(), strict=True):
-            speed = math.hypot(u, v, w)
-            self._slips.append((u, v, w))
-            self.speeds.append(speed)
+
+    def slip(self, radii: list[float], naps: list[Directions] | None = None) -> None:
+        """Take the slips now, by which the rows of contacts lie that did not touch before.
+
+        Args:
+            radii: r of each, 0 of one that cannot turn [m].
+            naps: of each, None where all resist alike in all directions.
+        """
+        self._radii, self._naps, before = radii, naps, self._before
+        self._note_rates()
+        for number, radius, (u, v, w), speed in zip(
+            self.numbers, radii, self._slips, self.speeds, strict=True
+        ):
             # it was in the air; or it had an area to turn, which is gone
             if number not in before or (not radius and self._axes[number][2]):
                 self._axes[number] = (
@@ -174,7 +185,7 @@ class FrictionRows:
         # mass and b = 2 / (d time): with b much above 1 / dt it is viscous, f = -D b v
         stiffness = _STIFFER * self._dt / _VISCOUS
         for number, bound, drag, radius, (u, v, w), speed in zip(
-            self.numbers, bounds, drags, self._radii, self._slips, self.speeds, strict=True
+            self.numbers, bounds, drags, self._radii, self._rates, self.speeds, strict=True
         ):
             kinds.append((number, bound > 0, drag > 0, radius > 0))
             x, y, z, a, b, c, i, j, k = self._axes[number]
@@ -192,6 +203,8 @@ class FrictionRows:
                 elif impedance > _STIFFEST:
                     impedance = _STIFFEST
                 impedances.append(impedance)
+        if self._naps is not None:
+            self._turn_naps(along, viscous)
         layout = self._layout
         if kinds != layout.kinds:
             self._release(layout.rows)
@@ -212,15 +225,13 @@ class FrictionRows:
         """Bound, place x + i y, motion beyond dt times its slip, and speed of each [N, m, m/s]."""
         dt, moved = self._dt, []
         self._look()
-        self._slips, self.speeds = [], []
-        for bound, before, offset, ((x, y, _), (a, b, _)), (u, v, w) in zip(
-            self.bounds, self.places, self._offsets, self._links, self._rates(), strict=True
+        self._note_rates()
+        for bound, before, offset, ((x, y, _), (a, b, _)), (u, v, _) in zip(
+            self.bounds, self.places, self._offsets, self._links, self._rates, strict=True
         ):
             place = complex(x + offset * a, y + offset * b)
             beyond = place - before - dt * complex(u, v)
             moved.append((bound, place, beyond, math.hypot(u, v)))
-            self._slips.append((u, v, w))
-            self.speeds.append(math.hypot(u, v, w))
         return moved
 
     def _look(self) -> None:
@@ -229,13 +240,29 @@ class FrictionRows:
         directions = self._frames[self._indices[1]].tolist()
         self._links = list(zip(origins, directions, strict=True))
 
-    def _rates(self) -> list[Vector]:
-        """Slips at the rates now, by the Jacobians of the step's beginning [m/s]."""
+    def _note_rates(self) -> None:
+        """Note slips at the rates now, by the Jacobians of the step's beginning [m/s]."""
         rates = iter(self._jacobian.dot(self._qvel).tolist())
-        return [
+        self._rates = self._slips = [
             (u, v, radius * turning)
             for radius, _, _, turning, u, v, _ in zip(self._radii, *[rates] * 6, strict=True)
         ]
+        if self._naps is not None:
+            self._slips = [
+                (a * u + b * v, c * u + d * v, w)
+                for (u, v, w), (a, b, c, d, _, _) in zip(self._rates, self._naps, strict=True)
+            ]
+        self.speeds = [math.hypot(*slip) for slip in self._slips]
+
+    def _turn_naps(self, along: list[float], viscous: list[float]) -> None:
+        """Take rows along s to those along the slip, and add what leans to what is viscous."""
+        assert self._naps is not None
+        for slot, (a, b, c, d, p, q) in enumerate(self._naps):
+            for row in range(9 * slot, 9 * slot + 9, 3):
+                x, y = along[row + 1 : row + 3]
+                along[row + 1 : row + 3] = a * x + c * y, b * x + d * y
+            viscous[3 * slot + 1] += p
+            viscous[3 * slot + 2] += q
 
     def _release(self, rows: Numbers) -> None:
         """Let rows resist by nothing, and be of no joint."""

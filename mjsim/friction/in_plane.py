@@ -16,13 +16,15 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.friction.dissipation_in_plane import nap_of
 from analytic.scene.chain import link_lengths
-from analytic.scene.surface import Surface
+from analytic.scene.ground import is_round
+from analytic.scene.surface import Surface, Way
 from analytic.solvers.limbs.contact_search import Contact, parts_of
 from analytic.solvers.limbs.contacts import Contacts
 from analytic.solvers.limbs.kinematics import Tree
 from mjsim.friction.ceiling import CeilingPush
-from mjsim.friction.friction_rows import STANDS, FrictionRows
+from mjsim.friction.friction_rows import STANDS, Directions, FrictionRows
 from mjsim.model.limbs import contact_name, joints_to, limbed, link_prefix
 from mjsim.model.pads import edges, node_of_geom, pads_of
 from mjsim.results.status import THROWN
@@ -33,6 +35,7 @@ Array = NDArray[np.float64]
 _WEAK = 0.005  # of all bounds and drags, that viscosity adds at most; chosen
 _TIPPED = 1.0  # rad of pitch or roll of the trunk as a whole: it fell over; chosen
 _STEEP, _LEANS = math.tan(_TIPPED), math.sin(_TIPPED)
+_YAW = 3  # of the coordinates
 _POINT = 1e-8  # m^2; points that are closer do not tell a turn
 
 
@@ -54,6 +57,7 @@ class LimbFooting:
         robot = limbed(scene)
         self._model, self._data, self._numerics = model, data, numerics
         self._ground, self._length = scene.ground, robot.length
+        self._round = is_round(scene.ground)
         self._ceiling = CeilingPush(model, data)
         self.columns = ("contacts", *self._ceiling.columns)
         self._tree = Tree(robot, numerics.links, incline=scene.incline)
@@ -111,14 +115,55 @@ class LimbFooting:
             radii.append(self._finder.radius(contact))
         if numbers != rows.numbers:
             self._touching = float(len({contact.limb for contact in self.contacts}))
-        rows.move_to(numbers, bodies, offsets, radii)
-        bounds, drags = self._resistances(bodies)
+        rows.move_to(numbers, bodies, offsets)
+        if self._round:
+            rows.slip(radii)
+            bounds, drags = self._resistances(bodies)
+        else:
+            bounds, drags, naps = self._naps(bodies)
+            radii = [
+                radius * self._part_of_turning(contact, body, nap)
+                for radius, contact, body, nap in zip(radii, self.contacts, bodies, naps,
+                                                      strict=True)
+            ]  # fmt: skip
+            rows.slip(radii, naps)
         rows.resist(bounds, drags, self._viscosity_of_each(sum(bounds), sum(drags)))
 
-    def _resistances(self, bodies: list[int]) -> tuple[list[float], list[float]]:
-        """Bounds [N] and viscous resistances [N s/m] of the contacts, each on one of the links."""
+    def _naps(self, bodies: list[int]) -> tuple[list[float], list[float], list[Directions]]:
+        """Bounds, viscous resistances and directions of the contacts, each on one of the links."""
+        ahead, back, across = (
+            self._resistances(bodies, way) for way in ("ahead", "back", "across")
+        )
+        heading = self._data.qpos.item(_YAW)
+        grounds = (self._ground.at(place.real) for place in self._rows.places)
+        angles = np.array([heading if at.nap == "robot" else 0.0 for at in grounds])
+        axes = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        bounds, nap = nap_of(np.array(ahead[0]), np.array(back[0]), np.array(across[0]), axes)
+        columns = np.concatenate([nap.scale.reshape(-1, 4), nap.lean], axis=1)
+        return bounds.tolist(), ahead[1], list(map(tuple, columns.tolist()))
+
+    def _part_of_turning(self, contact: Contact, body: int, nap: Directions) -> float:
+        """Resistance of a contact to turning over that by its bound in all directions [1]."""
+        ahead, left = self._data.xmat[body, :2].tolist()
+        a, b, c, d, _, _ = nap
+        scaled = whole = 0.0
+        for along, aside in zip(contact.at, contact.aside, strict=True):
+            u = -(along - contact.middle) * left - aside * ahead
+            v = (along - contact.middle) * ahead - aside * left
+            whole += math.hypot(u, v)
+            scaled += math.hypot(a * u + b * v, c * u + d * v)
+        return scaled / whole if whole else 1.0
+
+    def _resistances(
+        self, bodies: list[int], way: Way | None = None
+    ) -> tuple[list[float], list[float]]:
+        """Bounds [N] and viscous resistances [N s/m] of the contacts, each on one of the links.
+
+        Against motion one way where the ground has a nap.
+        """
         ground, finder, bounds, drags = self._ground, self._finder, [], []
         if isinstance(ground, Surface):
+            ground = ground.against(way) if way else ground
             for contact in self.contacts:
                 bound, drag = finder.resistance(contact, ground)
                 bounds.append(bound)
@@ -128,7 +173,7 @@ class LimbFooting:
             ahead, left = self._data.xmat[body, :2].tolist()
             along, aside = np.array(contact.at) - contact.middle, np.array(contact.aside)
             places = place.real + along * ahead + aside * left
-            of_points = finder.resistances([contact], ground, places)
+            of_points = finder.resistances([contact], ground, places, way)
             bounds.append(float(of_points[0].sum()))
             drags.append(float(of_points[1].sum()))
         return bounds, drags
