@@ -83,4 +83,7 @@ def compiled(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> mujoco.Mj
     # friction that sticks creeps by its force times this estimate of the inverse mass, times 1 - d
     # of its impedance d, of which MuJoCo takes 0.9999 at most
     model.tendon_invweight0[:] *= _CREEP
+    if scene.in_space:
+        # what hangs together is one island, which MuJoCo need not look for
+        model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_ISLAND)
     return model
