@@ -1,15 +1,22 @@
 """Random trees of limbs: MuJoCo by default against finer MuJoCo and against a finer reference.
 
-    python benchmarks/trees.py [TREES] [FIRST]
+    python benchmarks/trees.py [count] [processes]
 
 Trees of 2 to 8 limbs, with angles, lengths, widths, weights, gaits, both friction laws and four
-grounds at random: by default numerics, by a quarter of the step and twice the links, and by the
-reference with twice the links and states. Prints a line a tree and how many agree within 5 % or
-0.003 L and within 5 % or 0.3 degrees; a walk or a reference that fails is a miss.
+grounds at random, each a function of its seed alone: by default numerics; by half and a quarter of
+the step and twice the links; by the reference of the walk, of its error bar, and with twice the
+links and states. Rows are added to trees.csv beside this file as they come, and those there are
+kept. Prints how many agree within 5 % or 0.003 L and within 5 % or 0.3 degrees, a walk or a
+reference that fails being a miss, and how many error bars cover.
 """
 
+import csv
 import sys
-from concurrent.futures import ProcessPoolExecutor
+import time
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,15 +24,41 @@ from analytic.scene.gait import Gait
 from analytic.scene.limbs import Limb, LimbedRobot
 from analytic.scene.robot import Robot
 from analytic.scene.surface import FRICTION, SHEAR_STRENGTH, SURFACES, TIP_FORCE, Surface
+from mjsim.files.files import whole
 from mjsim.results.measures import measure
-from mjsim.results.prediction import HALF, error_bars, reference
+from mjsim.results.prediction import HALF, Reference, error_bars, reference
 from mjsim.scene import Numerics, Scene, resolved
 from mjsim.simulation.simulation import simulate
 
+ROWS = Path(__file__).with_name("trees.csv")
+COUNT = 60
 MIXED = Surface("mixed", 0.7 * TIP_FORCE, 0.5 * SHEAR_STRENGTH, 0.5 * FRICTION, 0.7 * FRICTION)
 GROUNDS = (*SURFACES.values(), MIXED)
 WITHIN, WITHIN_LENGTH, WITHIN_TURN = 0.05, 0.003, 0.3  # relative, L, degrees
 RAMP = 4.0  # s
+
+Array = np.ndarray
+MOVES = ("walk", "half", "quarter", "theory", "coarse", "fine")
+PARTS = ("ahead", "aside", "turn")
+
+
+class Row(NamedTuple):
+    """A tree; moves are ahead and aside over L and a turn in degrees, (3,), NaN of what failed."""
+
+    seed: int
+    limbs: int
+    ground: str
+    friction: str
+    walk: Array
+    half: Array
+    quarter: Array
+    theory: Array
+    coarse: Array
+    fine: Array
+    bar: float
+    turn_bar: float
+    flags: str
+    seconds: float
 
 
 def draw(seed: int) -> Scene:
@@ -55,53 +88,102 @@ def draw(seed: int) -> Scene:
     return Scene(LimbedRobot(tuple(limbs)), Gait("random", stages, RAMP), ground, friction=law)
 
 
-def walked(scene: Scene, numerics: Numerics) -> np.ndarray:
-    """Displacement over L, (2,), and turn in degrees; NaN if it failed."""
+def walked(scene: Scene, numerics: Numerics) -> Array:
+    """Move of a walk in MuJoCo, (3,); NaN if it failed."""
     numbers = measure(simulate(scene, numerics))
     if numbers is None:
         return np.full(3, np.nan)
     return np.array([numbers.displacement, numbers.aside, np.degrees(numbers.turn)])
 
 
-def agrees(one: np.ndarray, other: np.ndarray) -> bool:
-    """Tell whether both displacement and turn do."""
-    off, far = np.hypot(*(one - other)[:2]), np.hypot(*other[:2])
-    near = off <= max(WITHIN * far, WITHIN_LENGTH)
-    return bool(near and abs(one[2] - other[2]) <= max(WITHIN * abs(other[2]), WITHIN_TURN))
+def predicted(theory: Reference) -> Array:
+    """Move by a reference, (3,)."""
+    return np.array([*theory.displacement, np.degrees(theory.turn)])
 
 
-def compare(seed: int) -> tuple[str, list[bool]]:
-    """A line on a tree; whether finer MuJoCo and theory agree, and whether the bar covers."""
-    scene = draw(seed)
+def row_of(seed: int) -> Row:
+    scene, begin = draw(seed), time.process_time()
     usual = resolved(scene)
-    fine = Numerics(links=2 * usual.links, timestep=usual.timestep / 4)
-    walk, finer = walked(scene, Numerics()), walked(scene, fine)
-    theory, coarse = reference(scene), reference(scene, finer=HALF)
-    best = reference(scene, Numerics(links=2 * usual.links), finer=2)
+    walks = [walked(scene, Numerics())] + [
+        walked(scene, Numerics(links=2 * usual.links, timestep=usual.timestep / part))
+        for part in (2, 4)
+    ]
+    theory, coarse, fine = (reference(scene, finer=finer) for finer in (1, HALF, 2))
     bar, turn_bar = error_bars(scene, theory, coarse)
-    rows = [np.array([*each.displacement, np.degrees(each.turn)]) for each in (theory, best)]
-    error = np.abs(rows[0] - rows[1])
-    covers = (float(np.hypot(*error[:2])) <= (bar or 0.0) + 1e-4
-              and error[2] <= np.degrees(turn_bar) + 0.02)  # fmt: skip
-    good = [agrees(walk, finer), agrees(walk, rows[1]), bool(covers)]
-    name = f"{seed:3d} {len(scene.robot.limbs)} limbs {scene.ground.name:12s} {scene.friction:8s}"
-    numbers = (np.array2string(row, precision=4, suppress_small=True, sign="+")
-               for row in (walk, finer, *rows))  # fmt: skip
-    marks = "".join("." if ok else "X" for ok in good)
-    return f"{name} {' '.join(numbers)} ±{bar or np.nan:.4f} {' '.join(best.flags)} {marks}", good
+    flags = [f"{flag} {name}" for name, each in (("theory", theory), ("fine", fine))
+             for flag in each.flags]  # fmt: skip
+    return Row(seed, len(scene.robot.limbs), scene.ground.name, scene.friction, *walks,
+               *map(predicted, (theory, coarse, fine)), np.nan if bar is None else bar,
+               float(np.degrees(turn_bar)), "; ".join(flags), time.process_time() - begin)  # fmt: skip
 
 
-def main(count: int, first: int) -> None:
-    """Print the table."""
-    outcomes = []
-    with ProcessPoolExecutor(2) as pool:
-        for line, good in pool.map(compare, range(first, first + count)):
-            outcomes.append(good)
-            print(line, flush=True)
-    finer, theory, covered = np.mean(outcomes, axis=0)
-    print(f"of {count}: as finer MuJoCo {finer:.0%}, as the finer reference {theory:.0%}, "
-          f"error bar covers {covered:.0%}")  # fmt: skip
+def off(one: Array, other: Array) -> tuple[float, float]:
+    """How far apart two moves are, over L and in degrees."""
+    return float(np.hypot(*(one - other)[:2])), float(abs(one[2] - other[2]))
+
+
+def agrees(one: Array, other: Array) -> bool:
+    """Tell whether both displacement and turn do, by the size of the other."""
+    apart, turned = off(one, other)
+    far = float(np.hypot(*other[:2]))
+    near = apart <= max(WITHIN * far, WITHIN_LENGTH)
+    return near and turned <= max(WITHIN * float(abs(other[2])), WITHIN_TURN)
+
+
+def covers(row: Row) -> bool:
+    apart, turned = off(row.theory, row.fine)
+    return apart <= row.bar and turned <= row.turn_bar
+
+
+CLAIMS: dict[str, Callable[[Row], bool]] = {
+    "MuJoCo as by twice the links and a quarter of the step": lambda r: agrees(r.walk, r.quarter),
+    "MuJoCo as the reference by twice the links and states": lambda r: agrees(r.walk, r.fine),
+    "reference as by twice the links and states": lambda r: agrees(r.theory, r.fine),
+    "finest MuJoCo as the finest reference": lambda r: agrees(r.quarter, r.fine),
+    "error bar of the reference covers": covers,
+}
+
+
+def read() -> list[Row]:
+    if not ROWS.is_file():
+        return []
+    with ROWS.open(newline="", encoding="utf-8") as file:
+        return [
+            Row(int(row["seed"]), int(row["limbs"]), row["ground"], row["friction"],
+                *(np.array([float(row[f"{name}_{part}"]) for part in PARTS]) for name in MOVES),
+                float(row["bar"]), float(row["turn_bar"]), row["flags"], float(row["seconds"]))
+            for row in csv.DictReader(file)
+        ]  # fmt: skip
+
+
+def write(rows: list[Row]) -> None:
+    names = [name for field in Row._fields
+             for name in ([f"{field}_{part}" for part in PARTS] if field in MOVES else [field])]  # fmt: skip
+    with whole(ROWS) as part, part.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(names)
+        for row in sorted(rows, key=lambda row: row.seed):
+            flat = [value for cell in row for value in (cell if isinstance(cell, Array) else [cell])]
+            table.writerow([f"{cell:.6g}" if isinstance(cell, float) else cell for cell in flat])
+
+
+def main() -> None:
+    count = int(sys.argv[1]) if sys.argv[1:] else COUNT
+    rows = read()
+    todo = set(range(count)) - {row.seed for row in rows}
+    with ProcessPoolExecutor(int(sys.argv[2]) if sys.argv[2:] else 2) as pool:
+        for work in as_completed([pool.submit(row_of, seed) for seed in sorted(todo)]):
+            rows.append(work.result())
+            write(rows)
+    for row in sorted(rows, key=lambda row: row.seed):
+        marks = "".join("." if claim(row) else "X" for claim in CLAIMS.values())
+        numbers = (np.array2string(getattr(row, name), precision=4, suppress_small=True, sign="+")
+                   for name in MOVES)  # fmt: skip
+        print(f"{row.seed:3d} {row.limbs} {row.ground:12s} {row.friction:8s}", *numbers,
+              f"±{row.bar:.4f} ±{row.turn_bar:.2f} {row.flags} {row.seconds:.0f}s {marks}")  # fmt: skip
+    for name, claim in CLAIMS.items():
+        print(f"{sum(map(claim, rows))} of {len(rows)}: {name}")
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 60, int(sys.argv[2]) if sys.argv[2:] else 0)
+    main()

@@ -58,7 +58,7 @@ class LimbFooting:
         self._ground, self._length = scene.ground, robot.length
         self._ceiling = CeilingPush(model, data)
         self.columns = ("contacts", *self._ceiling.columns)
-        self._tree = Tree(robot, numerics.links, incline=scene.incline)
+        self._tree = Tree(robot, numerics.links, numerics.twists, scene.incline)
         self._finder = Contacts(self._tree, scene.friction)
         self.contacts: list[Contact] = []
         self._resisting: list[PointFriction] = []

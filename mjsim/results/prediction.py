@@ -68,7 +68,8 @@ def reference(
     Args:
         scene: robot, gait, ground, friction and chambers; not what MuJoCo alone needs.
         numerics: of the walk beside it, whose links per limb a reference in space takes.
-        finer: multiplies links and states; an error bar compares with HALF of them.
+        finer: multiplies links and states; an error bar compares with HALF of them, where limbs
+            have two links fewer.
         bent: whether friction bends the robot, else it is WEAK.
         path, times: pressures in the chambers to follow in place of the gait's, (B, S) [Pa], and
             when, (B,) [s].
@@ -112,13 +113,14 @@ def _of_limbs(
     scene: Scene, robot: LimbedRobot, numerics: Resolved, finer: float, bent: bool,
     path: Array | None, times: Array | None,
 ) -> Reference:  # fmt: skip
-    links = numerics.links if finer == 1 else max(2, numerics.links - 2)
+    links = round(numerics.links * finer) if finer >= 1 else max(2, numerics.links - 2)
+    twists = min(round(numerics.twists * max(finer, 1)), links // 2)
     cycles = scene.cycles
     if cycles == 1 and path is None and scene.rise_time and scene.gait.repeats:
         cycles = 2  # of which the first begins without any friction
     walk = walk_of_limbs(
         robot, scene.gait, scene.ground, round(LIMB_STATES * finer), links, cycles, scene.friction,
-        bent, scene.chamber, path, times, scene.incline, min(numerics.twists, links // 2),
+        bent, scene.chamber, path, times, scene.incline, twists,
         all_on_tips=finer < 1,  # the other way to share a load: error bars show what it is worth
     )  # fmt: skip
     moves, turns = walk.by_cycle(cycles)

@@ -30,6 +30,8 @@ _NEAR, _WHOLE = 2, 1e-9  # elements from an end that count as there; of a length
 SHORT = 1e-9  # of a length
 _FLAT = 1e-3  # rad; a gap between vertices that push is air if steeper, as of a strip; chosen
 _TOUCHES = 1e-6  # of the weight: a node that pushes less hovers
+# of the step that a twist makes in the edges' difference of height: how high the lower one may be
+_BY_TWIST = 0.25  # where a limb lies on it; a sixth, as every other link twists, and room; chosen
 
 
 class Contact(NamedTuple):
@@ -94,7 +96,7 @@ class ContactSearch:
         half = len(rest.force) // 2
         # both edges together; a limb that leans lies on one of its edges
         forces = (rest.force[:half] + rest.force[half:]).tolist()
-        heights = np.minimum(rest.nodes[:half, 2], rest.nodes[half:, 2]).tolist()
+        heights = self._heights(rest.nodes[:half, 2], rest.nodes[half:, 2]).tolist()
         flat = may_lie_flat(pressures, self._tree.robot.peak_pressure).tolist()
         parts = chambers_by_limb(self._tree.robot)
         may_lie = [{"begin": flat[part.start], "end": flat[part.stop - 1]} for part in parts]
@@ -107,6 +109,20 @@ class ContactSearch:
         )
         inwards = range(len(may_lie) - 1, -1, -1)  # limbs that are carried come first
         return [contact for i in inwards for contact in self._of_limb(state, i)]
+
+    def _heights(self, right: Array, left: Array) -> Array:
+        """Heights of vertices, (P,), by those of their edges, less what their links lift [m].
+
+        A twisted limb lies on a straight edge; of plane links every other corner is in the air.
+        """
+        heights = np.minimum(right, left)
+        if not self._tree.twists:
+            return heights
+        across = (left - right).reshape(len(self._limbs), -1)
+        steps = np.zeros((len(across), across.shape[1] + 1))
+        steps[:, 1:-1] = np.abs(np.diff(across))
+        lifted: Array = _BY_TWIST * np.maximum(steps[:, 1:], steps[:, :-1])
+        return heights - lifted.ravel()
 
     def _of_limb(self, state: "_State", i: int) -> list[Contact]:
         """Contacts of one limb; notes the force that it leaves to its carrier."""
