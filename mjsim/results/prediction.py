@@ -136,15 +136,25 @@ def _of_limbs(
 def error_bars(scene: Scene, fine: Reference, coarse: Reference) -> tuple[float | None, float]:
     """Changes by half the links and states: of the displacement over L, and of the turn [rad].
 
+    Of limbs, whose cycle is a small difference of large moves back and forth, what changes in each
+    ramp is summed: changes that cancel in the whole cycle by chance do not make it surer.
+
     Args:
         scene: what is predicted.
         fine: its reference.
         coarse: the reference by HALF of everything.
     """
     change = float(np.hypot(*(fine.displacement - coarse.displacement)))
-    resolves = 0.0 if scene.in_space else _RESOLVED
-    bar = change + resolves if math.isfinite(change) else None
-    return bar, abs(fine.turn - coarse.turn)
+    if not math.isfinite(change):
+        return None, abs(fine.turn - coarse.turn)
+    if not (isinstance(fine.walk, Path) and isinstance(coarse.walk, Path)):
+        return change + _RESOLVED, abs(fine.turn - coarse.turn)
+    cycles, parts = len(fine.by_cycle), scene.gait.ramps
+    paths = fine.walk.by_part(cycles, parts), coarse.walk.by_part(cycles, parts)
+    counted = slice(-1 if isinstance(scene.ground, Surface) else 0, None)
+    moves, turns = (np.subtract(*pair)[counted] for pair in zip(*paths, strict=True))
+    sizes = np.sqrt((moves**2).sum(axis=2)) / scene.robot.length
+    return float(sizes.sum() / len(sizes)), float(np.abs(turns[-1]).sum())
 
 
 def links(scene: Scene) -> int:
