@@ -21,6 +21,7 @@ STATES = 12  # of the reference in a ramp from no pressure to the peak
 WEAK = "weak friction"  # which bends nothing and only decides which end slides
 _RESOLVED = 3e-5  # error over L that no halving shows; with it bars cover 56 of 56 scenes, measured
 _LINKS, _LINKS_A_SEGMENT = 60, 24  # of the reference: contacts between the ends need finer links
+PARTS = 2  # of a ramp, whose errors error bars of limbs add up; chosen
 HALF = 0.5  # of links and states, with which the error bar compares
 QUASI_STATIC = "quasi-static"  # the reference of robots of limbs
 CEILING = "touches_ceiling"  # flag of a reference whose robot would touch it
@@ -136,8 +137,8 @@ def _of_limbs(
 def error_bars(scene: Scene, fine: Reference, coarse: Reference) -> tuple[float | None, float]:
     """Changes by half the links and states: of the displacement over L, and of the turn [rad].
 
-    Of limbs, whose cycle is a small difference of large moves back and forth, what changes in each
-    ramp is summed: changes that cancel in the whole cycle by chance do not make it surer.
+    Of limbs, whose cycle is a small difference of large moves back and forth, the changes in halves
+    of ramps are summed: that they cancel in the whole cycle by chance does not make it surer.
 
     Args:
         scene: what is predicted.
@@ -149,7 +150,7 @@ def error_bars(scene: Scene, fine: Reference, coarse: Reference) -> tuple[float 
         return None, abs(fine.turn - coarse.turn)
     if not (isinstance(fine.walk, Path) and isinstance(coarse.walk, Path)):
         return change + _RESOLVED, abs(fine.turn - coarse.turn)
-    cycles, parts = len(fine.by_cycle), scene.gait.ramps
+    cycles, parts = len(fine.by_cycle), PARTS * scene.gait.ramps
     paths = fine.walk.by_part(cycles, parts), coarse.walk.by_part(cycles, parts)
     counted = slice(-1 if isinstance(scene.ground, Surface) else 0, None)
     moves, turns = (np.subtract(*pair)[counted] for pair in zip(*paths, strict=True))

@@ -20,6 +20,7 @@ from analytic.scene.ground import depends_on_speed
 from analytic.scene.limbs import limbs_of, rotation
 from analytic.scene.surface import Surface
 from mjsim.results.measures import measure
+from mjsim.results.prediction import PARTS
 from mjsim.results.status import Status
 from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Resolved, Scene, resolved
@@ -87,7 +88,7 @@ def doubts(walk: Trajectory, row: dict[str, Any]) -> list[str]:
     if not second or not isinstance(fine, Moved):
         return [f"{fine} at {_words(finer)}"] if fine else []
     if scene.in_space:
-        bar, turn_bar = _changes(walk, second)
+        bar, turn_bar = changes(walk, second)
         row |= {"numerics_uncertainty_over_L": bar, "numerics_uncertainty_deg": turn_bar}
     notes, numerics, before = [], walk.numerics, moved
     allowed = max(_PART_OF_STEPS * fine.size, _OF_STEPS[scene.in_space])
@@ -183,30 +184,30 @@ def _outcome(walk: Trajectory) -> Moved | Status:
     return _moved(walk) or walk.status
 
 
-def _changes(walk: Trajectory, finer: Trajectory) -> tuple[float, float]:
-    """Changes of the displacement over L and of the turn [degrees], summed over ramps.
+def changes(walk: Trajectory, finer: Trajectory) -> tuple[float, float]:
+    """Changes of the displacement over L and of the turn [degrees] by a finer walk.
 
-    In the last cycle, or of all the mean, as a walk is measured; see
-    mjsim.results.prediction.error_bars.
+    Those in halves of ramps are summed, see mjsim.results.prediction.error_bars; in the last cycle,
+    or of all the mean, as a walk is measured.
     """
     counted = 1 if isinstance(walk.scene.ground, Surface) else walk.scene.cycles
-    moves, turns = (one - two for one, two in zip(by_ramp(walk), by_ramp(finer), strict=True))
+    moves, turns = (one - two for one, two in zip(by_part(walk), by_part(finer), strict=True))
     bar = np.sqrt((moves[-counted:] ** 2).sum(axis=2)).sum() / (counted * walk.scene.robot.length)
     return float(bar), math.degrees(np.abs(turns[-1]).sum())
 
 
-def by_ramp(walk: Trajectory) -> tuple[Array, Array]:
-    """Displacement and turn in each of R equal parts of each of C cycles, a part a ramp.
+def by_part(walk: Trajectory) -> tuple[Array, Array]:
+    """Displacement and turn in each of P equal parts of each of C cycles, two a ramp.
 
     Returns:
-        (C, R, 2), ahead and to the left of the trunk's direction when the cycle begins [m]; and
-        (C, R), to the left [rad].
+        (C, P, 2), ahead and to the left of the trunk's direction when the cycle begins [m]; and
+        (C, P), to the left [rad].
     """
-    ramps, ends = walk.scene.gait.ramps, walk.ends_of_cycles()
+    parts, ends = PARTS * walk.scene.gait.ramps, walk.ends_of_cycles()
     direction = limbs_of(walk.scene.robot)[0].angle
     moves, turns = [], []
     for begin, end in pairwise(ends.tolist()):
-        rows = np.rint(np.linspace(begin, end, ramps + 1)).astype(int)
+        rows = np.rint(np.linspace(begin, end, parts + 1)).astype(int)
         turned = rotation(direction + float(walk.heading[begin]))
         moves.append(np.diff(walk.line[rows, 0, :2], axis=0) @ turned)
         turns.append(np.diff(walk.heading[rows]))

@@ -100,13 +100,9 @@ class ContactSearch:
         flat = may_lie_flat(pressures, self._tree.robot.peak_pressure).tolist()
         parts = chambers_by_limb(self._tree.robot)
         may_lie = [{"begin": flat[part.start], "end": flat[part.stop - 1]} for part in parts]
-        state = _State(
-            [forces[vertices] for vertices in self._tree.vertices],
-            [heights[vertices] for vertices in self._tree.vertices],
-            may_lie,
-            {},
-            set(),
-        )
+        places = self._tree.vertices
+        state = _State([forces[at] for at in places], [heights[at] for at in places], may_lie,
+                       {}, set())  # fmt: skip
         inwards = range(len(may_lie) - 1, -1, -1)  # limbs that are carried come first
         return [contact for i in inwards for contact in self._of_limb(state, i)]
 
@@ -140,8 +136,7 @@ class ContactSearch:
             contacts.append(contact)
             at_tip |= end in limb.free
             if end == "begin":
-                rest = rest[carried:]
-                low = contact.length + near
+                rest, low = rest[carried:], contact.length + near
                 continue
             rest = rest[: max(len(rest) - carried, 0)]
             high = length - contact.length - near
