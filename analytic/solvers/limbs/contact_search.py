@@ -28,6 +28,8 @@ _WHOLE = 1e-9  # of a length: all of it
 SHORT = 1e-9  # of a length
 _FLAT = 1e-3  # rad; a gap between vertices that push is air if steeper, as of a strip; chosen
 _TOUCHES = 1e-6  # of the weight: a node that pushes less hovers
+# of the step that a twist makes in the edges' difference of height: how high the lower one may be
+_BY_TWIST = 0.25  # where a limb lies on it; a sixth, as every other link twists, and room; chosen
 
 
 class Contact(NamedTuple):
@@ -77,7 +79,7 @@ class ContactSearch:
         half = len(rest.force) // 2
         # both edges together; a limb that leans lies on one of its edges
         forces = (rest.force[:half] + rest.force[half:]).tolist()
-        heights = np.minimum(rest.nodes[:half, 2], rest.nodes[half:, 2]).tolist()
+        heights = self.heights(rest.nodes[:half, 2], rest.nodes[half:, 2]).tolist()
         return self.search(forces, heights, self.may_lie(pressures).tolist())
 
     def may_lie(self, pressures: Array) -> NDArray[np.bool_]:
@@ -110,6 +112,20 @@ class ContactSearch:
             if state.passed or max(state.force[i]) > 0.0:
                 contacts += self._of_limb(state, i)
         return contacts
+
+    def heights(self, right: Array, left: Array) -> Array:
+        """Heights of vertices, (P,), by those of their edges, less what their links lift [m].
+
+        A twisted limb lies on a straight edge; of plane links every other corner is in the air.
+        """
+        heights = np.minimum(right, left)
+        if not self._tree.twists:
+            return heights
+        across = (left - right).reshape(len(self._limbs), -1)
+        steps = np.zeros((len(across), across.shape[1] + 1))
+        steps[:, 1:-1] = np.abs(np.diff(across))
+        lifted: Array = _BY_TWIST * np.maximum(steps[:, 1:], steps[:, :-1])
+        return heights - lifted.ravel()
 
     def _of_limb(self, state: "_State", i: int) -> list[Contact]:
         """Contacts of one limb; notes the force that it leaves to its carrier."""
