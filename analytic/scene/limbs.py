@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.checks import file_word, is_number, one_of, positive
+from analytic.scene.actuator import Memory
 from analytic.scene.ground import LEVEL, Incline
 from analytic.scene.robot import GRAVITY, Robot
 
@@ -137,6 +138,19 @@ def chambers_by_limb(robot: AnyRobot) -> list[slice]:
     counts = [len(limb.strip.segments) for limb in limbs_of(robot)]
     ends = list(accumulate(counts))
     return [slice(end - count, end) for count, end in zip(counts, ends, strict=True)]
+
+
+def memory(robot: AnyRobot) -> Memory:
+    """Hysteresis of a robot's chambers, which are without pressure."""
+    return Memory([actuator for limb in limbs_of(robot) for actuator in limb.strip.actuators])
+
+
+def acting_pressures(robot: AnyRobot, path: Array) -> Array:
+    """Pressures that act along a path of the chambers', (B, S) [Pa]; it rises from none at first.
+
+    They are the path's own but where a robot's actuators have hysteresis.
+    """
+    return memory(robot).follow(path)
 
 
 def depth_first(robot: LimbedRobot, name: str | None = None) -> list[str]:

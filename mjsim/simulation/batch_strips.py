@@ -6,7 +6,7 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import may_lie_flat
+from analytic.friction.contact_length import bending_peaks, may_lie_flat
 from analytic.scene.chain import joint_springs
 from mjsim.friction.footing import feet_may_be, thrown
 from mjsim.model.chambers import ChamberPressures
@@ -139,8 +139,8 @@ class StripBatch:
         if not valves.shape[1]:
             return block
         springs = self._springs(rows, pressure)
-        peak = np.array([self.scenes[row].strip.peak_pressure for row in rows])
-        flat = may_lie_flat(pressure[:, :, [0, -1]], peak[:, None, None])
+        peaks = np.array([bending_peaks(self.scenes[row].strip)[[0, -1]] for row in rows])
+        flat = may_lie_flat(pressure[:, :, [0, -1]], peaks[:, None])
         dt, ends, hinges = self.numerics.timestep, self._ends, slice(_FIRST_HINGE, None)
         active = np.flatnonzero(~self.stopped[rows])
         block.steps[self.stopped[rows]] = 0

@@ -13,7 +13,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_length, length_between, may_lie_flat
+from analytic.friction.contact_length import (
+    bending_peaks,
+    flat_length,
+    length_between,
+    may_lie_flat,
+)
 from analytic.friction.contact_length import ripple as strip_ripple
 from analytic.friction.contacts import POINT, runs_without_gaps
 from analytic.friction.laws import LAWS
@@ -95,7 +100,7 @@ class ContactSearch:
         # both edges together; a limb that leans lies on one of its edges
         forces = (rest.force[:half] + rest.force[half:]).tolist()
         heights = np.minimum(rest.nodes[:half, 2], rest.nodes[half:, 2]).tolist()
-        flat = may_lie_flat(pressures, self._tree.robot.peak_pressure).tolist()
+        flat = may_lie_flat(pressures, bending_peaks(self._tree.robot)).tolist()
         parts = chambers_by_limb(self._tree.robot)
         may_lie = [{"begin": flat[part.start], "end": flat[part.stop - 1]} for part in parts]
         state = _State(
