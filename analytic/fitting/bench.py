@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_CLOSE, _APART, _GROWS, _NOISES = 0.01, 0.15, 0.05, 6.0  # see check_function; chosen
+_CLOSE, _APART, _GROWS = 0.01, 0.15, 0.05  # see check_function; chosen
+_NOISES = 4.0  # times the median second difference: 6.6 standard deviations of independent noise
 _FEW = 8  # samples whose differences do not tell of noise
 
 
@@ -31,41 +32,31 @@ class Bench(NamedTuple):
 def check_function(bench: Bench) -> None:
     """Refuse data in which the bend is no function of the pressure on a branch.
 
-    It is none where the bend changes by 15 % of its range while the pressure stays within 1 % of
-    its own, or grows by 5 %, and beyond its noise, after the highest pressure: an actuator that
-    balloons, or one that slips in its clamp.
+    It is none where, by more than its noise, the bend changes by 15 % of its range while the
+    pressure stays within 1 % of its own, or grows by 5 % after the highest pressure: an actuator
+    that balloons, or one that slips in its clamp.
 
     Raises:
         ValueError: it is none; the message names the pressure.
     """
     p, bend = bench.pressure, np.abs(bench.bend)
-    span, reach = float(np.ptp(p)), float(np.ptp(bend))
+    span, reach, top = float(np.ptp(p)), float(np.ptp(bend)), int(np.argmax(p))
     if not (span and reach):
         raise ValueError(f"{bench.name}: pressure and bend must change, got {p[0]:g} Pa alone")
-    top = int(np.argmax(p))
-    for rows in (np.arange(top, len(p)), np.arange(top + 1)[::-1]):
-        # from the highest pressure on: along time, and back from it
-        q, b = p[rows], bend[rows]
-        _check_beyond(bench, q, b, span, reach, later=rows[-1] > rows[0])
-
-
-def _check_beyond(bench: Bench, q: Array, b: Array, span: float, reach: float, later: bool) -> None:
-    """Refuse a branch from its highest pressure on, see check_function."""
-    if later and len(b) > 1:
-        worst = int(np.argmax(b))
-        noise = float(np.median(np.abs(np.diff(b)))) if len(b) > _FEW else 0.0
-        if b[worst] - b[0] > max(_GROWS * reach, _NOISES * noise) and q[worst] < q[0]:
-            raise ValueError(_no_function(bench, q[0], q[worst], b[0], b[worst]))
-    order = np.argsort(q, kind="stable")
-    q, b = q[order], b[order]
-    ends = np.searchsorted(q, q + _CLOSE * span, side="right")
-    for i, end in enumerate(ends.tolist()):
-        if end - i < 2:
-            continue
-        part = b[i:end]
-        low, high = int(part.argmin()) + i, int(part.argmax()) + i
-        if b[high] - b[low] > _APART * reach:
-            raise ValueError(_no_function(bench, q[low], q[high], b[low], b[high]))
+    noise = float(np.median(np.abs(np.diff(bend, 2)))) if len(bend) > _FEW else 0.0
+    later = top + int(np.argmax(bend[top:]))
+    if bend[later] - bend[top] > max(_GROWS * reach, _NOISES * noise) and p[later] < p[top]:
+        raise ValueError(_no_function(bench, p[top], p[later], bend[top], bend[later]))
+    for rows in (slice(top + 1), slice(top, None)):
+        order = np.argsort(p[rows], kind="stable")
+        q, b = p[rows][order], bend[rows][order]
+        ends = np.searchsorted(q, q + _CLOSE * span, side="right")
+        for first, end in enumerate(ends.tolist()):
+            low, high = (
+                first + int(part) for part in (b[first:end].argmin(), b[first:end].argmax())
+            )
+            if b[high] - b[low] > max(_APART * reach, _NOISES * noise):
+                raise ValueError(_no_function(bench, q[low], q[high], b[low], b[high]))
 
 
 def _no_function(bench: Bench, p: float, q: float, bend: float, other: float) -> str:

@@ -177,8 +177,10 @@ def _check(name: str) -> None:
         raise ValueError(
             f"key {key!r} of {name!r} is unknown; known are {', '.join(SURFACE_FIELDS)}"
         )
-    if key == "segments":
-        raise ValueError("robot.segments cannot be fitted")
+    if name == "robot.actuator":
+        raise ValueError("robot.actuator must be fitted alone, from a bench's files")
+    if key in ("segments", "material"):
+        raise ValueError(f"robot.{key} cannot be fitted")
 
 
 def unit_of(name: str) -> str:

@@ -41,8 +41,6 @@ def refusal(scene: Scene) -> str | None:
         return "friction must act at the ends alone"
     if scene.chamber == "sealed":
         return "chambers must not be sealed"
-    if any(actuator and actuator.play for actuator in scene.strip.actuators):
-        return "actuators must have no hysteresis"
     if not isinstance(ground, Surface) or depends_on_speed(ground) or ground.adhesion:
         return "ground must be uniform, without viscosity and adhesion"
     return None
