@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from analytic.fitting.bench import Bench
 from analytic.scene.actuator import Actuator
 from analytic.scene.robot import Robot
-from mjsim.files.csv_table import name_of, read_csv
+from mjsim.files.csv_table import head_of, read_csv
 from mjsim.files.typed import Table, make
 
 Array = NDArray[np.float64]
@@ -30,6 +30,7 @@ _COLUMNS = {
     "rigidity": ("N m^2", "N m^2"), "length": ("m", "mm"),
 }  # fmt: skip
 _SHORT = {"p": "pressure", "theta": "angle", "kappa": "curvature", "l": "length"}
+_FEWEST = 2  # rows of a file
 _POINTS = 60  # at most in a curve that is taken as it is; chosen
 
 
@@ -70,13 +71,16 @@ class BenchFile(NamedTuple):
 
 
 def read_bench(path: Path) -> BenchFile:
-    """Read pressure and bend of an actuator.
+    """Read pressure and bend of an actuator; rows without either are left out.
+
+    Absolute pressures are taken over the least of them, as a bench has one at rest.
 
     Raises:
         ValueError: the file cannot be read, has not these columns, or has cells that are none.
     """
     table = read_csv(path, "data")
-    names = [_SHORT.get(name_of(h).lower(), name_of(h).lower()) for h in table.heads]
+    heads = [head_of(head) for head in table.heads]
+    names = [_SHORT.get(head.name.lower(), head.name.lower()) for head in heads]
     for name in names:
         if name in _COLUMNS and names.count(name) > 1:
             raise ValueError(f"{table.where}: column {name!r} stands twice")
@@ -87,16 +91,19 @@ def read_bench(path: Path) -> BenchFile:
             f"[kPa], angle [deg]; got {', '.join(table.heads)}"
         )
     cells = {
-        name: table.numbers(names.index(name), *_COLUMNS[name])
-        for name in _COLUMNS
-        if name in names
-    }
-    if len(table.rows) < 2:
-        raise ValueError(f"{table.where}: needs two rows at least, got {len(table.rows)}")
+        name: table.numbers(names.index(name), *_COLUMNS[name], name != "length")
+        for name in _COLUMNS if name in names
+    }  # fmt: skip
+    whole = np.isfinite(np.stack([cells[name] for name in cells])).all(axis=0)
+    cells = {name: values[whole] for name, values in cells.items()}
+    if whole.sum() < _FEWEST:
+        raise ValueError(f"{table.where}: needs {_FEWEST} rows at least, got {whole.sum()}")
     lengths = np.unique(cells["length"]).tolist() if "length" in cells else []
     if lengths and (len(lengths) > 1 or lengths[0] <= 0):
         raise ValueError(f"{table.where}: length must be one above 0, got {lengths}")
     pressure, bend = cells["pressure"], cells[bends[0]]
+    if heads[names.index("pressure")].absolute:
+        pressure = pressure - pressure.min()
     if bend[np.argmax(pressure)] < 0:  # seen from the other side
         bend = -bend
     return BenchFile(path, pressure, bend, bends == ["angle"], lengths[0] if lengths else None,
@@ -115,10 +122,11 @@ def read_actuator(path: Path, length: float | None) -> Actuator:
     """
     bench = read_bench(path)
     curvature, p = bench.curvature(length), bench.pressure
-    order = np.diff(p) > 0
-    if len(p) <= _POINTS and order.all() and (np.diff(curvature) >= 0).all():
-        rigidity = None if bench.rigidity is None else tuple(bench.rigidity.tolist())
-        return Actuator(tuple(p.tolist()), tuple(curvature.tolist()), rigidity)
+    order = slice(None, None, -1 if p[-1] < p[0] else 1)  # points of a fall are of the curve too
+    rises = (np.diff(p[order]) > 0).all() and (np.diff(curvature[order]) >= 0).all()
+    if len(p) <= _POINTS and rises:
+        rigidity = None if bench.rigidity is None else tuple(bench.rigidity[order].tolist())
+        return Actuator(tuple(p[order].tolist()), tuple(curvature[order].tolist()), rigidity)
     if bench.rigidity is not None:
         raise ValueError("rigidity is for points of rising pressure, the curvature not falling")
     from analytic.fitting.actuator import fit_actuator  # needs scipy.optimize

@@ -11,8 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.fitting.actuator import ActuatorFit, Number, Zero, fit_actuator
+from analytic.fitting.actuator import ActuatorFit, Number, fit_actuator
 from analytic.fitting.bench import Bench
+from analytic.fitting.least_squares import Zero
 from analytic.scene.limbs import LimbedRobot
 from analytic.scene.robot import Robot
 from mjsim.files.actuator_files import BenchFile, read_bench
@@ -168,9 +169,10 @@ def summary(fitted: Sequence[Fitted]) -> list[str]:
         fit, affine, count = each.fit, each.affine, sum(len(b.bend) for b in each.benches)
         plays = {0: "no hysteresis", 1: "one play"}.get(len(fit.play), f"{len(fit.play)} plays")
         files = ", ".join(bench.name for bench in each.benches)
+        late = f", from {1e-3 * fit.start:.3g} kPa on" if fit.start else ""
         lines.append(
             f"{each.name + ': ' if each.name else ''}{count} samples of {files}: {fit.law} law "
-            f"({_SOFTENS[fit.law]}), {plays}; misses {factor * fit.rms:.2g} {unit} rms, "
+            f"({_SOFTENS[fit.law]}){late}, {plays}; misses {factor * fit.rms:.2g} {unit} rms, "
             f"{factor * fit.worst:.2g} at most; the affine law misses {factor * affine.rms:.2g} "
             f"rms, {factor * affine.worst:.2g} at most"
         )

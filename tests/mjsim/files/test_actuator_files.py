@@ -30,6 +30,14 @@ def test_points_are_the_curve_of_a_free_segment(tmp_path):
     assert pneunet.rigidity(robot, 30e3) == pytest.approx(4.5e-4)
 
 
+def test_gaps_absolute_pressures_and_points_of_a_fall_are_read(tmp_path):
+    rows = "100, 50\n90, 34\n80, 21\n,\n70, 11\n60,\n60, 4\n50, 0\n"
+    file = curve(tmp_path, "pressure [kPa abs], angle [deg]\n" + rows)
+    robot, plain = (make_robot({"actuator": each}) for each in (file, curve(tmp_path, name="up")))
+    at = np.linspace(0, 50e3, 40)
+    np.testing.assert_allclose(*(pneunet.natural_curvature(r, at) for r in (robot, plain)))
+
+
 def test_a_log_of_rising_and_falling_pressure_is_fitted(tmp_path):
     rng = np.random.default_rng(0)
     p = np.concatenate([np.linspace(0, 50, 80), np.linspace(50, 0, 80)])
@@ -65,7 +73,7 @@ def test_scenes_with_curves_are_written_and_read_whole(tmp_path):
         (POINTS.replace("0, 0", "0, 3"), "curvature must be 0 without pressure"),
         (POINTS.replace("angle [deg]", "force [N]"), "columns must be pressure and angle or"),
         (POINTS.replace("[kPa]", ""), "must name its unit"),
-        ("pressure [kPa], angle [deg]\n50, 50\n", "needs two rows"),
+        ("pressure [kPa], angle [deg]\n50, 50\n", "needs 2 rows"),
     ],
 )  # fmt: skip
 def test_what_is_no_curve_is_refused_with_the_reason(tmp_path, text, message):

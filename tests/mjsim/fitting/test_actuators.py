@@ -10,8 +10,8 @@ from mjsim import build, read_tables
 from mjsim.commands import fit
 
 
-def log(path, scale=1.0, zero=0.0, heads="time [s],pressure [kPa],angle [deg]"):
-    p = np.concatenate([np.linspace(0, 50, 40), np.linspace(50, 0, 40)])
+def log(path, scale=1.0, zero=0.0, count=40, heads="time [s],pressure [kPa],angle [deg]"):
+    p = np.concatenate([np.linspace(0, 50, count), np.linspace(50, 0, count)])
     state, acting = 0.0, []
     for each in p:
         state = min(max(state, each - 8), each)
@@ -44,7 +44,7 @@ def test_a_bench_gives_curve_hysteresis_and_zero_and_what_the_affine_law_misses(
 
 
 def test_files_of_one_robot_differ_by_so_much_or_are_one_per_chamber(tmp_path, capsys):
-    files = [log(tmp_path / f"{name}.csv", scale) for name, scale in
+    files = [log(tmp_path / f"{name}.csv", scale, count=20) for name, scale in
              (("left", 1.0), ("middle", 1.1), ("right", 0.9))]  # fmt: skip
     words = [*files, "--free", "robot.actuator", "--out", str(tmp_path)]
     assert fit.main(words) == 0
