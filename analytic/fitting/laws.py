@@ -60,6 +60,9 @@ def _play(path: Array, width: float) -> Array:
     """State of one play along a path from rest, (n,)."""
     state, states = 0.0, []
     for high in path.tolist():  # plain floats: numpy is slow on single numbers
-        state = min(max(state, high - width), high)
+        if state > high:
+            state = high
+        elif state < high - width:
+            state = high - width
         states.append(state)
     return np.array(states)

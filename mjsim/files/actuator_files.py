@@ -125,6 +125,12 @@ def read_actuator(path: Path, length: float | None) -> Actuator:
     order = slice(None, None, -1 if p[-1] < p[0] else 1)  # points of a fall are of the curve too
     rises = (np.diff(p[order]) > 0).all() and (np.diff(curvature[order]) >= 0).all()
     if len(p) <= _POINTS and rises:
+        if p[order][0] == 0 and curvature[order][0]:
+            unit, size = ("deg", np.degrees(1)) if bench.angle else ("1/m", 1.0)
+            raise ValueError(
+                f"the bend must be 0 without pressure, got {size * bench.bend[order][0]:.4g} "
+                f"{unit}: undulator fit {path} --free robot.actuator --zero angle takes it off"
+            )
         rigidity = None if bench.rigidity is None else tuple(bench.rigidity[order].tolist())
         return Actuator(tuple(p[order].tolist()), tuple(curvature[order].tolist()), rigidity)
     if bench.rigidity is not None:
