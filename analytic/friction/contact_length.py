@@ -1,7 +1,7 @@
 """Contact lengths that follow from the contact forces on nodes, for one or many states."""
 
 from collections.abc import Sequence
-from functools import cache
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from analytic.scene.robot import Robot
 Array = NDArray[np.float64]
 
 PASSIVE = 0.01  # of the peak pressure: an end with less may lie on its side, if it does; chosen
+_ROBOTS = 256  # whose bending peaks are remembered; sweeps have many
 _HALVINGS = 50  # of an interval that a pressure lies in; to rounding
 _RIPPLE = 0.2  # of w L h^3 / D0: how high a flat stretch ripples between nodes, bounded; measured
 
@@ -132,7 +133,7 @@ def may_lie_flat(pressure: Any, peak_pressure: Any) -> Any:
     return abs(pressure) <= PASSIVE * peak_pressure
 
 
-@cache
+@lru_cache(_ROBOTS)
 def bending_peaks(robot: AnyRobot) -> Array:
     """Pressures of which the part PASSIVE bends chambers by that part of the peak's curvature.
 

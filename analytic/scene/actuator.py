@@ -13,7 +13,7 @@ rises from rest acts as p - sum w_k min(p, r_k); and at p = 0 the memory is gone
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from functools import cache
+from functools import lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -126,6 +126,7 @@ class Actuator:
         return float(np.max(np.diff(self.curvature_at(at)) / np.diff(at)))
 
 
+_CURVES = 256  # whose slopes are remembered
 _SLOPES = 200  # parts of a curve by whose secants its slope is taken; chosen
 
 
@@ -138,7 +139,7 @@ def _numbers(name: str, values: Any) -> tuple[float, ...]:
     return tuple(float(value) for value in values)
 
 
-@cache
+@lru_cache(_CURVES)
 def _slopes(x: tuple[float, ...], y: tuple[float, ...]) -> tuple[Array, Array, Array]:
     """Points (n,), (n,), and slopes there, (n,), of the monotone cubics of Fritsch and Butland.
 

@@ -70,7 +70,8 @@ def test_scenes_with_curves_are_written_and_read_whole(tmp_path):
     [
         (POINTS.replace("50, 50", "49, 80\n48.9, 99"),
          r"must be a function of the pressure, but it is 80 deg at 49 kPa and 99 deg at 48\.9 kPa"),
-        (POINTS.replace("0, 0", "0, 3"), "0 without pressure, got 3 deg: undulator fit .* --zero angle"),
+        (POINTS.replace("0, 0", "0, 3"),
+         "0 without pressure, got 3 deg: undulator fit .* --zero angle"),
         (POINTS.replace("angle [deg]", "force [N]"), "columns must be pressure and angle or"),
         (POINTS.replace("[kPa]", ""), "must name its unit"),
         ("pressure [kPa], angle [deg]\n50, 50\n", "needs 2 rows"),
