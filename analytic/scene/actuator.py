@@ -25,6 +25,9 @@ from analytic.fields import in_si
 
 Array = NDArray[np.float64]
 
+_CURVES = 256  # whose slopes are remembered
+_SLOPES = 200  # parts of a curve by whose secants its slope is taken; chosen
+
 
 @dataclass(frozen=True)
 class Actuator:
@@ -124,10 +127,6 @@ class Actuator:
         """Largest slope of the curve up to a pressure [1/(m Pa)]."""
         at = np.linspace(0.0, most, _SLOPES + 1)
         return float(np.max(np.diff(self.curvature_at(at)) / np.diff(at)))
-
-
-_CURVES = 256  # whose slopes are remembered
-_SLOPES = 200  # parts of a curve by whose secants its slope is taken; chosen
 
 
 def _numbers(name: str, values: Any) -> tuple[float, ...]:

@@ -112,7 +112,7 @@ def near_end(scene: Scene, prediction: Prediction) -> list[str]:
 
 def between_ends(scene: Scene) -> list[str]:
     """A note on friction where a long robot touches the ground between its ends."""
-    if scene.contacts != "ends" or not scene.gait.between():
+    if scene.contacts != "ends" or not scene.lies_between:
         return []
     everywhere = replace(scene, contacts="all", ceiling=None)
     shift = displacement(everywhere, prediction(everywhere))

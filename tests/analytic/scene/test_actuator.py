@@ -6,7 +6,7 @@ from analytic import MATERIALS, Actuator, Robot, predict
 from analytic.friction.contact_length import bending_peaks
 from analytic.scene import pneunet
 from analytic.scene.actuator import Memory
-from analytic.scene.limbs import acting_pressures, as_strip
+from analytic.scene.limbs import acting_pressures, as_bent, as_strip
 
 PEAK = Robot().peak_pressure
 ALPHA = pneunet.curvature_per_pressure(Robot())
@@ -163,3 +163,18 @@ def test_materials_are_moduli():
 def test_what_is_no_actuator_is_refused(values, message):
     with pytest.raises(ValueError, match=message):
         Actuator(*values)
+
+
+def test_a_gait_is_told_by_how_much_it_bends_not_by_its_pressures():
+    from analytic import GAITS, Gait
+
+    held = Gait("held", ((0.3, 0, 0), (0.3, 1, 0), (0.3, 1, 1), (0.3, 0, 0)))
+    soft = Robot(actuator=Actuator((0, 0.25 * PEAK, PEAK), (0, 1.0, 25.0)))
+    assert not held.between()
+    assert as_bent(Robot(), held) is held
+    assert as_bent(soft, held).between()  # its left end hardly bends
+    unlike = tuple(Actuator((0, PEAK), (0, 20.0), play=(r * PEAK,), share=(0.3,))
+                   for r in (0.1, 0.3, 0.2))  # fmt: skip
+    for gait in GAITS.values():
+        assert as_bent(Robot(actuator=STRAIGHT), gait).between() == gait.between()
+        assert as_bent(Robot(actuator=unlike), gait).between() == gait.between()
