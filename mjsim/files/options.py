@@ -124,6 +124,8 @@ def tables_of(options: SceneOptions) -> list[Tables]:
     if "segments" in robot:
         words = parts(robot["segments"])
         robot["segments"] = words if isinstance(words, tuple) else (words,)
+    if "actuator" in robot:
+        robot["actuator"] = parts(robot["actuator"])
     if "ramp_time" in gait:
         gait["ramp_time"] = parts(gait["ramp_time"])
     if "columns" in gait:

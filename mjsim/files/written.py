@@ -86,8 +86,15 @@ def _surface(surface: Surface) -> Table:
 
 def _plain(table: Table) -> Table:
     """The table without what is not given; tuples as lists, which TOML has."""
-    return {key: _listed(value) for key, value in table.items() if value is not None}
+    return {key: _listed(value) for key, value in table.items() if value not in (None, ())}
+
+
+def plain(record: Any) -> Table:
+    """The table of a dataclass."""
+    return _plain(asdict(record))
 
 
 def _listed(value: Any) -> Any:
+    if isinstance(value, dict):
+        return _plain(value)
     return [_listed(item) for item in value] if isinstance(value, tuple) else value

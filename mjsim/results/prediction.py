@@ -160,7 +160,7 @@ def error_bars(scene: Scene, fine: Reference, coarse: Reference) -> tuple[float 
 
 def links(scene: Scene) -> int:
     """Links of the reference."""
-    return max(_LINKS, _LINKS_A_SEGMENT * len(scene.strip.segments) * scene.gait.between())
+    return max(_LINKS, _LINKS_A_SEGMENT * len(scene.strip.segments) * scene.lies_between)
 
 
 def prediction(

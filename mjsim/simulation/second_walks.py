@@ -62,7 +62,8 @@ def swiftness(scene: Scene) -> float:
     kappa is the curvature at the peak pressure, T the time to fill a chamber to it.
     """
     robot = scene.robot
-    bend = max(pneunet.curvature_per_pressure(limb.strip) for limb in limbs_of(robot))
+    strips = [limb.strip for limb in limbs_of(robot)]
+    bend = max(pneunet.steepest_curvature(strip, robot.peak_pressure) for strip in strips)
     reach = bend * robot.peak_pressure * robot.length**2
     return reach / (scene.gravity * scene.fill_time**2)
 

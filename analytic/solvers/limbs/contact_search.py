@@ -13,7 +13,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_length, length_between, may_lie_flat
+from analytic.friction.contact_length import (
+    bending_peaks,
+    flat_length,
+    length_between,
+    may_lie_flat,
+)
 from analytic.friction.contacts import POINT, runs_without_gaps
 from analytic.friction.laws import LAWS
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb
@@ -72,6 +77,7 @@ class ContactSearch:
         robot, self._limbs = tree.robot, resting_limbs(tree)
         self._least = _TOUCHES * robot.weight
         parts = chambers_by_limb(robot)
+        self._peaks = bending_peaks(robot)
         self._end_chambers = np.array([[part.start, part.stop - 1] for part in parts])
 
     def find(self, rest: Rest, pressures: Array) -> list[Contact]:
@@ -88,8 +94,7 @@ class ContactSearch:
         Args:
             pressures: of the chambers, (..., S) [Pa].
         """
-        at_ends = pressures[..., self._end_chambers]
-        flat: NDArray[np.bool_] = may_lie_flat(at_ends, self._tree.robot.peak_pressure)
+        flat: NDArray[np.bool_] = may_lie_flat(pressures, self._peaks)[..., self._end_chambers]
         return flat
 
     def search(
