@@ -1,6 +1,7 @@
 """Contact lengths that follow from the contact forces on nodes, for one or many states."""
 
 from collections.abc import Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -8,16 +9,19 @@ from numpy.typing import NDArray
 
 from analytic.scene import pneunet
 from analytic.scene.robot import Robot
+from analytic.scene.surface import Surface
 
 Array = NDArray[np.float64]
 
 PASSIVE = 0.01  # of the peak pressure: an end with less may lie on its side, if it does; chosen
+_PEELS = 128 / 9  # D kappa^2 over gamma q, see flat_up_to
 _RIPPLE = 0.2  # of w L h^3 / D0: how high a flat stretch ripples between nodes, bounded; measured
 
 
 def side_contact(
-    robot: Robot, nodes: Array, force: Array, height: Array, pressures: Array, press: float = 0.0
-) -> tuple[Array, Array]:
+    robot: Robot, nodes: Array, force: Array, height: Array, pressures: Array,
+    surface: Surface | None = None,
+) -> tuple[Array, Array]:  # fmt: skip
     """Length of side contact at the left and the right end.
 
     An end whose segment is inflated is a tip: to lie flat it would need the moment D kappa, and an
@@ -33,8 +37,8 @@ def side_contact(
         force: of the ground on each, 0 where it does not touch, shape (B, S) [N].
         height: of each, shape (B, S) [m].
         pressures: of the segments, shape (B, S) [Pa].
-        press: pull of adhesion on a flat stretch, besides its weight; with any an inflated end may
-            lie flat too [N/m].
+        surface: whose adhesion pulls at a flat stretch, besides its weight, and may keep an
+            inflated end flat too.
 
     Returns:
         Two arrays of shape (B,) [m]; half the length each where no node is in the air, NaN where
@@ -42,7 +46,8 @@ def side_contact(
     """
     lifted = ripple(robot, nodes)
     lengths = [
-        [end_contact(robot, nodes[::order], f[::order], y[::order] > lifted, p[::order][0], press)
+        [end_contact(robot, nodes[::order], f[::order], y[::order] > lifted, p[::order][0],
+                     surface)
          for f, y, p in zip(force, height, pressures, strict=True)]
         for order in (1, -1)
     ]  # fmt: skip
@@ -50,8 +55,9 @@ def side_contact(
 
 
 def end_contact(
-    robot: Robot, nodes: Array, push: Array, air: NDArray[np.bool_], pressure: float, press: float
-) -> float:
+    robot: Robot, nodes: Array, push: Array, air: NDArray[np.bool_], pressure: float,
+    surface: Surface | None,
+) -> float:  # fmt: skip
     """Length of side contact at the end that comes first, of one state; see side_contact [m].
 
     Args:
@@ -60,11 +66,11 @@ def end_contact(
         push: force on each, (S,) [N].
         air: whether it is higher than a flat stretch ripples, (S,).
         pressure: of the segment at that end [Pa].
-        press: pull of adhesion, see side_contact [N/m].
+        surface: whose adhesion pulls, see side_contact.
     """
     if not np.isfinite(push[0]):
         return np.nan
-    if not press and not may_lie_flat(pressure, robot.peak_pressure):
+    if abs(pressure) > flat_up_to(robot, robot.peak_pressure, surface):
         return 0.0
     first = int((push > 0).argmax())  # the outermost node may hover by a rounding of h
     end = first + int(air[first:].argmax())
@@ -74,6 +80,7 @@ def end_contact(
         end = len(push)
     push = push[:end]
     moment = float(push @ np.abs(nodes[:end] - nodes[0]))
+    press = surface.press(robot.width) if surface else 0.0
     return float(flat_length(robot.weight_per_length + press, float(push.sum()), moment))
 
 
@@ -119,6 +126,27 @@ def length_between(weight: float, places: Sequence[float], push: Sequence[float]
 def may_lie_flat(pressure: Any, peak_pressure: Any) -> Any:
     """Tell whether an end segment at this pressure [Pa] may lie on its side: with next to none."""
     return abs(pressure) <= PASSIVE * peak_pressure
+
+
+def flat_up_to(robot: Robot, peak_pressure: float, surface: Surface | None) -> float:
+    """Greatest pressure of an end segment at which it may lie on its side [Pa].
+
+    Next to none, or what adhesion can hold: under a constant pull w' an inflated end arches to a
+    height of 9/128 D kappa^2 / w', and peels where that is the reach, D kappa^2 = 128/9 gamma q.
+    """
+    passive = PASSIVE * peak_pressure
+    if surface is None or not surface.adhesion:
+        return passive
+    return max(passive, _peeling_pressure(robot, surface.adhesion))
+
+
+@cache
+def _peeling_pressure(robot: Robot, adhesion: float) -> float:
+    """Root of (D0 + eta p) (alpha p)^2 = 128/9 gamma q, by (9) and (3) [Pa]."""
+    stiffening, stiffness = pneunet.rigidity_per_pressure(robot), pneunet.base_rigidity(robot)
+    work = _PEELS * adhesion * robot.width / pneunet.curvature_per_pressure(robot) ** 2
+    roots = np.roots([stiffening, stiffness, 0.0, -work])
+    return float(roots[np.isreal(roots)].real.max())
 
 
 def end_loads(force: Array, height: Array) -> tuple[Array, Array]:

@@ -131,17 +131,6 @@ class Incline(NamedTuple):
 LEVEL = Incline()
 
 
-def check_for_limbs(ground: Ground) -> None:
-    """Raise ValueError for ground that limbs are not told of: sticky, or stronger at rest."""
-    for surface in surfaces_of(ground):
-        if surface.adhesion or surface.static_ratio > 1:
-            key = "adhesion" if surface.adhesion else "static_ratio"
-            raise ValueError(
-                f"{key} of surface {surface.name!r} is for strips, not for robots of limbs; got "
-                f"{getattr(surface, key)!r}"
-            )
-
-
 def over(ground: Ground, begin: float, end: float) -> Surface:
     """Surface under a side contact between two places: the mean of the ground's properties.
 

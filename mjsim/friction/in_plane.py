@@ -58,7 +58,9 @@ class LimbFooting:
         self._ground, self._length = scene.ground, robot.length
         self._ceiling = CeilingPush(model, data)
         self.columns = ("contacts", *self._ceiling.columns)
-        self._tree = Tree(robot, numerics.links, incline=scene.incline)
+        self._tree = Tree(
+            robot, numerics.links, incline=scene.incline, surface=scene.ground.at(0.0)
+        )
         self._finder = Contacts(self._tree, scene.friction)
         self.contacts: list[Contact] = []
         self._resisting: list[PointFriction] = []
@@ -127,12 +129,13 @@ class LimbFooting:
 
     def _resistance(self, contact: Contact, point: PointFriction) -> tuple[float, float]:
         """Bound [N] and viscous resistance [N s/m]; on ground that changes their sum over it."""
+        speed = math.hypot(*point.velocity)
         if isinstance(self._ground, Surface):
-            return self._finder.resistance(contact, self._ground)
+            return self._finder.resistance(contact, self._ground, speed)
         ahead, left = self._data.xmat[point.body, :2].tolist()
         along, aside = np.array(contact.at) - contact.middle, np.array(contact.aside)
         places = point.place[0] + along * ahead + aside * left
-        bounds, drags = self._finder.resistances([contact], self._ground, places)
+        bounds, drags = self._finder.resistances([contact], self._ground, places, speed)
         return float(bounds.sum()), float(drags.sum())
 
     def _viscous(self, points: list[PointFriction]) -> float:

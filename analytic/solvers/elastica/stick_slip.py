@@ -78,9 +78,9 @@ class StickSlip:
     def __init__(self, chain: Chain, ground: Ground, friction: Friction) -> None:
         self._chain, self._ground, self._friction = chain, ground, friction
         self._nodes = node_positions(chain.robot, chain.links)
-        self._press = ground.at(0.0).press(chain.robot.width)
         self._air = ripple(chain.robot, self._nodes)
-        self._finder = ContactFinder(chain.robot, self._nodes, friction.roughness, self._press)
+        press = ground.at(0.0).press(chain.robot.width)
+        self._finder = ContactFinder(chain.robot, self._nodes, friction.roughness, press)
         self._law = LAWS[friction.law]
         self._by_speed = depends_on_speed(ground)
         self._pull = friction.downhill(chain.robot) / chain.force_unit
@@ -283,7 +283,7 @@ class StickSlip:
         air = height > self._air
         left, right = (
             end_contact(robot, self._nodes[::order], force[::order], air[::order], pressure,
-                        self._press)
+                        self._ground.at(0.0))
             for order, pressure in ((1, chain.pressure[0]), (-1, chain.pressure[-1]))
         )  # fmt: skip
         if self._friction.contacts == "all":

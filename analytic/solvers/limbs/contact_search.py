@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_length, length_between, may_lie_flat
+from analytic.friction.contact_length import flat_length, flat_up_to, length_between
 from analytic.friction.contact_length import ripple as strip_ripple
 from analytic.friction.contacts import POINT, runs_without_gaps
 from analytic.friction.laws import LAWS
@@ -83,11 +83,17 @@ class ContactSearch:
                 _free_ends(robot, limb),
                 _NEAR * limb.strip.length / tree.elements,
                 ripple(limb.strip, tree.elements),
+                tree.incline.normal * limb.strip.weight_per_length + press,
             )
-            for limb, vertices in zip(robot.limbs, tree.vertices, strict=True)
+            for limb, vertices, press in zip(
+                robot.limbs, tree.vertices, tree.press.tolist(), strict=True
+            )
         ]
         self._least = _TOUCHES * robot.weight
-        self._normal = tree.incline.normal
+        self._flat_up_to = np.array([
+            flat_up_to(limb.strip, robot.peak_pressure, tree.surface)
+            for limb in robot.limbs for _ in limb.strip.segments
+        ])  # fmt: skip
 
     def find(self, rest: Rest, pressures: Array) -> list[Contact]:
         """The contacts of a state at pressures of its chambers, (S,) [Pa]."""
@@ -95,7 +101,7 @@ class ContactSearch:
         # both edges together; a limb that leans lies on one of its edges
         forces = (rest.force[:half] + rest.force[half:]).tolist()
         heights = np.minimum(rest.nodes[:half, 2], rest.nodes[half:, 2]).tolist()
-        flat = may_lie_flat(pressures, self._tree.robot.peak_pressure).tolist()
+        flat = (np.abs(pressures) <= self._flat_up_to).tolist()
         parts = chambers_by_limb(self._tree.robot)
         may_lie = [{"begin": flat[part.start], "end": flat[part.stop - 1]} for part in parts]
         state = _State(
@@ -170,8 +176,8 @@ class ContactSearch:
         run = max(runs, key=len)
         if len(run) > POINT:
             places = [place[vertex] for vertex in run]
-            weight = self._normal * limb.strip.weight_per_length
-            flat = min(length_between(weight, places, [force[vertex] for vertex in run]), length)
+            push = [force[vertex] for vertex in run]
+            flat = min(length_between(limb.weight, places, push), length)
             if flat > SHORT * length:
                 begin = min(max(0.5 * (places[0] + places[-1] - flat), 0.0), length - flat)
                 return self._contact(i, "between", begin, flat, load)
@@ -218,7 +224,7 @@ class ContactSearch:
                 total, moment = total + joint, moment + joint * strip.length
         else:
             whole = False
-        weight, length = self._normal * strip.weight_per_length, strip.length
+        weight, length = limb.weight, strip.length
         side = length if whole else min(float(flat_length(weight, total, moment)), length)
         if side <= 0:
             return self._contact(i, end, tip, 0.0, load), 0.0, carried
@@ -245,6 +251,7 @@ class _Limb(NamedTuple):
         free: ends that no limb begins at and that no limb carries.
         near: distance from an end that counts as there [m].
         ripple: height below which a vertex is on the ground [m].
+        weight: that presses a flat stretch to the ground, with adhesion [N/m].
     """
 
     strip: Robot
@@ -255,6 +262,7 @@ class _Limb(NamedTuple):
     free: tuple[str, ...]
     near: float
     ripple: float
+    weight: float
 
 
 class _State(NamedTuple):

@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.scene.ground import check_for_limbs, durations, surfaces_of
+from analytic.scene.ground import check_adhesion, depends_on_speed, durations, surfaces_of
 from analytic.scene.surface import Ground, Surface
 from analytic.solvers.limbs.contact_search import SHORT, Contact, ContactSearch
 
@@ -26,12 +26,22 @@ class Contacts(ContactSearch):
         at = [at for contact in contacts for at in contact.at]
         return self._tree.points(limbs, at, [y for contact in contacts for y in contact.aside])
 
-    def resistances(self, contacts: list[Contact], ground: Ground, x: Array) -> tuple[Array, Array]:
-        """Bounds [N] and viscous resistances [N s/m] of all these points, at places x (C,) [m]."""
+    def resistances(
+        self, contacts: list[Contact], ground: Ground, x: Array, speeds: Array | float = 0.0
+    ) -> tuple[Array, Array]:
+        """Bounds [N] and viscous resistances [N s/m] of all these points.
+
+        Args:
+            contacts: whose points they are.
+            ground: under them.
+            x: places of the points, (C,) [m].
+            speeds: of their slips, (C,) or one for all [m/s].
+        """
         points = [contact for contact in contacts for _ in contact.at]
+        speeds = np.broadcast_to(speeds, len(points))
         pairs = [
-            self.resistance(contact, ground.at(place))
-            for contact, place in zip(points, x.tolist(), strict=True)
+            self.resistance(contact, ground.at(place), speed)
+            for contact, place, speed in zip(points, x.tolist(), speeds.tolist(), strict=True)
         ]
         bounds, viscous = np.array(pairs).reshape(-1, 2).T * shares(contacts)
         return bounds, viscous
@@ -39,7 +49,10 @@ class Contacts(ContactSearch):
     def strength(self, ground: Ground) -> float:
         """Greatest bound of all limbs together, each on its side or on its tip [N]."""
         robot = self._tree.robot
-        loads = [limb.strip.weight_per_length * limb.strip.length for limb in robot.limbs]
+        loads = [
+            (limb.strip.weight_per_length + press) * limb.strip.length
+            for limb, press in zip(robot.limbs, self._tree.press.tolist(), strict=True)
+        ]
         return max(
             sum(
                 max(
@@ -51,8 +64,10 @@ class Contacts(ContactSearch):
             for surface in surfaces_of(ground)
         )
 
-    def resistance(self, contact: Contact, surface: Surface) -> tuple[float, float]:
-        """Bound of friction [N] and viscous resistance [N s/m] of a contact."""
+    def resistance(
+        self, contact: Contact, surface: Surface, speed: float = 0.0
+    ) -> tuple[float, float]:
+        """Bound of friction [N] and viscous resistance [N s/m] of a contact at a speed [m/s]."""
         strip = self._tree.robot.limbs[contact.limb].strip
         width = strip.width
         if 0 < contact.length <= SHORT * strip.length and not self._law.needs_load:
@@ -61,6 +76,7 @@ class Contacts(ContactSearch):
         bound = self._law.bound(surface, width, contact.length, contact.load)
         if not contact.length and not self._law.needs_load:
             bound *= self._limbs[contact.limb].share
+        bound *= surface.at_speed(speed)
         return float(bound), float(surface.drag(width, contact.length))
 
     def radius(self, contact: Contact) -> float:
@@ -84,9 +100,12 @@ def spans_of(ground: Ground, times: Array | None, states: int) -> Array:
     """Durations of the increments between states, (B - 1,) [s]; of 1 s each without times.
 
     Raises:
-        ValueError: the ground is viscous and no times are given, or sticky, or stronger at rest.
+        ValueError: the ground resists by speed and no times are given, or it changes along x and
+            is adhesive.
     """
-    check_for_limbs(ground)
-    if times is None and any(surface.viscosity for surface in surfaces_of(ground)):
-        raise ValueError(f"times of the shapes must be given on viscous ground {ground.name!r}")
+    check_adhesion(ground)
+    if times is None and depends_on_speed(ground):
+        raise ValueError(
+            f"times of the shapes must be given on ground that resists by speed, {ground.name!r}"
+        )
     return durations(np.arange(float(states)) if times is None else times)
