@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from analytic.scene import pneunet
 from analytic.scene.chain import joint_springs, link_lengths
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb, limbs_of, rotation
-from analytic.solvers.limbs.contact_search import parts_of, ripple
+from analytic.solvers.limbs.contact_search import parts_of
+from analytic.solvers.limbs.contact_state import ripple
 from mjsim.model import parts
 from mjsim.model.ceiling import add_ceiling, add_upper_edge
 from mjsim.model.links import UP, add_links

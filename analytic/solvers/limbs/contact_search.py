@@ -2,10 +2,11 @@
 
 As for the strip of [Majidi13], section 2.2: a limb whose free end is inflated touches by its tip;
 one without pressure lies on its side over a length that follows from the ground's forces
-(analytic.friction.contact_length). Between its ends an underside, of a torso that carries others or
-of any limb, lies flat over the length that its weight and forces tell. A limb that lies flat as a
-whole passes on to its carrier what its side does not carry. Each vertex that pushes loads one
-contact alone: a tip carries what pushes its end, and where else the limb rests the rest.
+(analytic.friction.contact_length); one that curls up stands on its underside. Between its ends an
+underside, of a torso that carries others or of any limb, lies flat over the length that its weight
+and forces tell. A limb that lies flat as a whole passes on to its carrier what its side does not
+carry. Each vertex that pushes loads one contact alone: a tip carries what pushes its end, and where
+else the limb rests the rest.
 """
 
 from typing import NamedTuple
@@ -14,11 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.contact_length import flat_length, flat_up_to, length_between
-from analytic.friction.contact_length import ripple as strip_ripple
 from analytic.friction.contacts import POINT, runs_without_gaps
 from analytic.friction.laws import LAWS
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb
-from analytic.scene.robot import Robot
+from analytic.solvers.limbs.contact_state import ContactState, LimbAtRest, free_ends, ripple
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.rest import Rest
 
@@ -74,13 +74,13 @@ class ContactSearch:
         for limb in robot.limbs:
             widths[limb.on, limb.at] = widths.get((limb.on, limb.at), 0.0) + limb.strip.width
         self._limbs = [
-            _Limb(
+            LimbAtRest(
                 limb.strip,
                 tree.arclength[vertices].tolist(),
                 None if limb.on is None else robot.place(limb.on),
                 limb.at,
                 limb.strip.width / widths[limb.on, limb.at],
-                _free_ends(robot, limb),
+                free_ends(robot, limb),
                 _NEAR * limb.strip.length / tree.elements,
                 ripple(limb.strip, tree.elements),
                 tree.incline.normal * limb.strip.weight_per_length + press,
@@ -101,20 +101,24 @@ class ContactSearch:
         # both edges together; a limb that leans lies on one of its edges
         forces = (rest.force[:half] + rest.force[half:]).tolist()
         heights = np.minimum(rest.nodes[:half, 2], rest.nodes[half:, 2]).tolist()
-        flat = (np.abs(pressures) <= self._flat_up_to).tolist()
         parts = chambers_by_limb(self._tree.robot)
-        may_lie = [{"begin": flat[part.start], "end": flat[part.stop - 1]} for part in parts]
-        state = _State(
+        may_lie, curls = (
+            [{"begin": which[part.start], "end": which[part.stop - 1]} for part in parts]
+            for which in ((np.abs(pressures) <= self._flat_up_to).tolist(),
+                          (pressures < -self._flat_up_to).tolist())
+        )  # fmt: skip
+        state = ContactState(
             [forces[vertices] for vertices in self._tree.vertices],
             [heights[vertices] for vertices in self._tree.vertices],
             may_lie,
+            curls,
             {},
             set(),
         )
         inwards = range(len(may_lie) - 1, -1, -1)  # limbs that are carried come first
         return [contact for i in inwards for contact in self._of_limb(state, i)]
 
-    def _of_limb(self, state: "_State", i: int) -> list[Contact]:
+    def _of_limb(self, state: ContactState, i: int) -> list[Contact]:
         """Contacts of one limb; notes the force that it leaves to its carrier."""
         limb, force, contacts = self._limbs[i], state.force[i], list[Contact]()
         length, near, carrier = limb.strip.length, limb.near, limb.carrier
@@ -146,8 +150,9 @@ class ContactSearch:
         elif at_tip and carrier is not None and len(limb.strip.segments) == 1:
             return contacts
         else:
-            # a joint belongs to the limb that is flat there, and else to the carrier
-            if (i, "begin") in state.reached or carrier is not None:
+            # a joint belongs to the limb that is flat or curls up there, and else to the carrier
+            away = carrier is not None and not self._stands_at_joint(state, i)
+            if (i, "begin") in state.reached or away:
                 low = max(low, near)
             if (i, "end") in state.reached:
                 high = min(high, length - near)
@@ -157,36 +162,82 @@ class ContactSearch:
                 if push > self._least and low < place < high
             ]  # fmt: skip
         if sum(force[vertex] for vertex in inner) > self._least:
-            contacts.append(self._underside(state, i, inner))
+            contacts += self._undersides(state, i, inner, [contact.part for contact in contacts])
         return contacts
 
-    def _underside(self, state: "_State", i: int, inner: list[int]) -> Contact:
-        """The contact of an underside between the ends, where vertices push.
-
-        Where it lies flat either half carries its weight and a push, as of a strip, see
-        analytic.friction.contacts. One of several segments that touches at a point stands on a tip
-        there, as a strip does; one of a single segment on a side of no area.
-        """
-        limb, force = self._limbs[i], state.force[i]
-        load, length = sum(force[vertex] for vertex in inner), limb.strip.length
-        place = limb.arclength
+    def _undersides(
+        self, state: ContactState, i: int, inner: list[int], taken: list[str]
+    ) -> list[Contact]:
+        """Contacts of an underside: one, and one more for each free end that is in the air."""
+        limb, place = self._limbs[i], self._limbs[i].arclength
         runs = runs_without_gaps(
             inner, state.height[i], lambda before, node: _FLAT * (place[node] - place[before])
         )
+        contacts = []
+        for end, outermost in (("begin", 0), ("end", -1)):
+            if len(runs) > 1 and end in limb.free and end not in taken:
+                run = runs.pop(outermost)
+                contacts.append(self._underside(state, i, end, run, run))
         run = max(runs, key=len)
+        at_joint = limb.carrier is not None and place[run[-1]] <= limb.near
+        if len(run) <= POINT and at_joint and self._flat_at_joint(state, i):
+            return contacts  # the carrier's side
+        inner = [vertex for part in runs for vertex in part]
+        return [*contacts, self._underside(state, i, "between", run, inner)]
+
+    def _underside(
+        self, state: ContactState, i: int, part: str, run: list[int], inner: list[int]
+    ) -> Contact:
+        """A contact of an underside away from the ends, where vertices push.
+
+        Where it lies flat either half carries its weight and a push, as of a strip, see
+        analytic.friction.contacts. One of several segments, or that curls up, stands on a tip where
+        it touches at a point, as a strip does; another on a side of no area.
+
+        Args:
+            state: what pushes.
+            i: place of the limb.
+            part: see Contact.
+            run: vertices that push with no air between them.
+            inner: all that it carries.
+        """
+        limb, force, place = self._limbs[i], state.force[i], self._limbs[i].arclength
+        load, length = sum(force[vertex] for vertex in inner), limb.strip.length
         if len(run) > POINT:
             places = [place[vertex] for vertex in run]
             push = [force[vertex] for vertex in run]
             flat = min(length_between(limb.weight, places, push), length)
             if flat > SHORT * length:
                 begin = min(max(0.5 * (places[0] + places[-1] - flat), 0.0), length - flat)
-                return self._contact(i, "between", begin, flat, load)
+                return self._contact(i, part, begin, flat, load)
         at = sum(place[vertex] * force[vertex] for vertex in inner) / load
-        if len(limb.strip.segments) > 1:
-            return self._contact(i, "between", at, 0.0, load)
-        return Contact(i, "between", SHORT * length, (at,), (0.0,), load)
+        if len(limb.strip.segments) > 1 or any(state.curls[i].values()):
+            return self._contact(i, part, at, 0.0, load)
+        return Contact(i, part, SHORT * length, (at,), (0.0,), load)
 
-    def _at_end(self, state: "_State", i: int, end: str) -> tuple[Contact | None, float, int]:
+    def _flat_at_joint(self, state: ContactState, i: int) -> bool:
+        """Tell whether the limb that carries another lies flat where that begins."""
+        carrier, at = self._limbs[i].carrier, self._limbs[i].at
+        if carrier is None or state.curls[carrier][at]:
+            return False
+        ahead = 1 if at == "begin" else -1
+        return max(state.height[carrier][::ahead][:3]) <= self._limbs[carrier].ripple
+
+    def _stands_at_joint(self, state: ContactState, i: int) -> bool:
+        """Tell whether a limb may stand where it begins, as it curls up there.
+
+        It takes its part of what pushes its carrier there, unless that lies flat.
+        """
+        limb = self._limbs[i]
+        if limb.carrier is None or not state.curls[i]["begin"]:
+            return False
+        if not self._flat_at_joint(state, i):
+            end = 0 if limb.at == "begin" else -1
+            state.force[i][0] += limb.share * state.force[limb.carrier][end]
+            state.reached.add((limb.carrier, limb.at))
+        return True
+
+    def _at_end(self, state: ContactState, i: int, end: str) -> tuple[Contact | None, float, int]:
         """The contact that begins at an end of a limb.
 
         Returns:
@@ -208,7 +259,10 @@ class ContactSearch:
         total = load + state.passed.get((i, end), 0.0)
         if total <= self._least:
             return None, 0.0, 0
-        if not state.may_lie[i][end]:
+        if state.curls[i][end]:
+            if force[::order][0] <= self._least:
+                return None, 0.0, 0  # the end is in the air, however little
+        elif not state.may_lie[i][end]:
             # bent by pressure it stands on its tip alone; what else it rests on is an underside
             if end not in limb.free or not carried:
                 return None, 0.0, 0
@@ -217,10 +271,9 @@ class ContactSearch:
             return self._contact(i, end, tip, 0.0, force[::order][0]), 0.0, 1
         if whole and limb.carrier is not None:
             # limb and carrier share a joint, and which of them the ground pushes there is open
-            carrier, ahead = limb.carrier, 1 if limb.at == "begin" else -1
-            joint = limb.share * state.force[carrier][::ahead][0]
-            whole = max(state.height[carrier][::ahead][:3]) <= self._limbs[carrier].ripple
+            whole = self._flat_at_joint(state, i)
             if not whole:
+                joint = limb.share * state.force[limb.carrier][0 if limb.at == "begin" else -1]
                 total, moment = total + joint, moment + joint * strip.length
         else:
             whole = False
@@ -240,60 +293,8 @@ class ContactSearch:
         return Contact(i, part, length, at, aside, load)
 
 
-class _Limb(NamedTuple):
-    """A limb as the search for its contacts needs it.
-
-    Attributes:
-        strip: its geometry and weight.
-        arclength: of its vertices [m].
-        carrier, at: place of the limb that carries it, None for the trunk, and its end there.
-        share: part of the width of all limbs that begin at the same place.
-        free: ends that no limb begins at and that no limb carries.
-        near: distance from an end that counts as there [m].
-        ripple: height below which a vertex is on the ground [m].
-        weight: that presses a flat stretch to the ground, with adhesion [N/m].
-    """
-
-    strip: Robot
-    arclength: list[float]
-    carrier: int | None
-    at: str
-    share: float
-    free: tuple[str, ...]
-    near: float
-    ripple: float
-    weight: float
-
-
-class _State(NamedTuple):
-    """Forces [N] and heights [m] of each limb's vertices, and whether its ends may lie flat.
-
-    Noted during the search: forces that limbs which lie flat pass on to ends of carriers, and ends
-    of carriers where a limb is flat, or nearly.
-    """
-
-    force: list[list[float]]
-    height: list[list[float]]
-    may_lie: list[dict[str, bool]]
-    passed: dict[tuple[int, str], float]
-    reached: set[tuple[int, str]]
-
-
 def parts_of(limb: Limb, robot: LimbedRobot) -> tuple[str, ...]:
     """Parts of a limb that may be contacts, see Contact.part."""
     if limb.on is None or limb.name not in robot.outer:
         return "begin", "end", "between"
     return "end", "between"
-
-
-def _free_ends(robot: LimbedRobot, limb: Limb) -> tuple[str, ...]:
-    """Ends of a limb that no other limb is attached to."""
-    taken = {carried.at for carried in robot.limbs if carried.on == limb.name}
-    ends = ("begin", "end") if limb.on is None else ("end",)
-    return tuple(end for end in ends if end not in taken)
-
-
-def ripple(strip: Robot, elements: int) -> float:
-    """Height to which a limb that lies flat ripples between its nodes [m]."""
-    # wider links are four thirds of an element
-    return 4 * strip_ripple(strip, np.array([0.0, strip.length / elements]))

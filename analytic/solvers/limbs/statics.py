@@ -3,9 +3,9 @@
 The least energy over heights that are not below 0, found by an augmented Lagrangian (Hestenes and
 Powell): Newton's method with exact second derivatives inside, multipliers outside, which are the
 ground's forces in the end. Roll and pitch follow from it like every other angle. Adhesive ground
-pulls at nodes within its reach by constant forces, so that peeling a length off takes adhesion times
-its area. Without friction x, y and yaw stay as they are: the limit of weak friction, as in section
-2.2 of [Majidi13].
+pulls at nodes within its reach by constant forces, so that peeling takes adhesion times area.
+Without friction x, y and yaw stay as they are: the limit of weak friction, as in section 2.2 of
+[Majidi13].
 """
 
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""Adhesive ground, and ground that resists more at rest, under limbs in MuJoCo."""
+"""Adhesive ground, ground that resists more at rest, and limbs that curl up, in MuJoCo."""
 
 import math
 from dataclasses import replace
@@ -8,8 +8,10 @@ import pytest
 from walks import went
 
 from analytic import GAITS, SURFACES, Friction, Gait, Patches, Robot, Surface, predict
+from analytic.scene import pneunet
 from analytic.scene.limbs import Limb, LimbedRobot, as_strip, quadruped
 from analytic.solvers.models import Elastica
+from mjsim.model.pads import pads_of
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.simulation import Simulation, simulate
 
@@ -89,3 +91,32 @@ def test_a_strip_as_a_tree_goes_as_far_as_the_strip_s_elastica(ground):
         Scene(as_strip(STRIP), Gait("wave", stages, 8.0), ground), Numerics(timestep=STEP)
     )
     assert went(walk)[0] == pytest.approx(theory.locomotion.per_cycle, rel=0.03)
+
+
+def test_an_end_that_curls_up_rises_as_a_beam_does():
+    """By D kappa^2 / 2 w, see test_curling_up."""
+    strip, kappa = replace(STRIP, segments=(1.0,)), 2.0
+    part = -kappa / (pneunet.curvature_per_pressure(strip) * strip.peak_pressure)
+    gait = Gait("up", ((0.0,), (part,), (0.0,)), 2.0)
+    simulation = Simulation(Scene(LimbedRobot((Limb("solo", strip),)), gait), Numerics(links=24))
+    for i in range(300):
+        simulation.step(np.array([part * strip.peak_pressure * min(1.0, i / 100)]))
+    nodes = simulation.data.geom_xpos[pads_of(simulation.model, simulation.scene)[0, [0, -1], 0], 2]
+    lying = simulation.numerics.pad_radius
+    rise = float(pneunet.rigidity(strip, part * strip.peak_pressure)) * kappa**2
+    rise /= 2 * strip.weight_per_length
+    assert nodes - lying == pytest.approx(rise, rel=0.06)  # it lies 0.02 mm deep
+
+
+@pytest.mark.parametrize("ground", ["polyethylene",
+                                    pytest.param("gelatin", marks=pytest.mark.slow)])  # fmt: skip
+def test_a_strip_that_curls_up_as_a_tree_goes_as_far_as_the_strip_s_elastica(ground):
+    stages = np.array([[0, 0, 0], [0.6, 0, 0], [0.6, -0.3, 0], [0, -0.3, 0.6], [0, 0, 0.6],
+                       [0, 0, 0]])  # fmt: skip
+    one, tree = (Gait("both-ways", tuple(map(tuple, rows.tolist())), 8.0)
+                 for rows in (stages, stages[:, [1, 0, 2]]))  # fmt: skip
+    friction = Friction(tension=1.0, contacts="all")
+    theory = predict(STRIP, one, SURFACES[ground], Elastica(18), 20, friction=friction)
+    walk = simulate(Scene(as_strip(STRIP), tree, SURFACES[ground]), Numerics(timestep=STEP))
+    expected = theory.locomotion.per_cycle
+    assert went(walk)[0] == pytest.approx(expected, rel=0.04)

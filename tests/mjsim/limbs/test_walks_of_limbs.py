@@ -10,7 +10,7 @@ from analytic.scene.ground import Patches
 from analytic.scene.limbs import LENGTH, quadruped
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import SHEAR_STRENGTH, SURFACES, TIP_FORCE, Surface
-from analytic.solvers.limbs.contact_search import ripple
+from analytic.solvers.limbs.contact_state import ripple
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.statics import Statics
 from analytic.solvers.limbs.walk import walk as quasi_static
