@@ -11,18 +11,22 @@ from analytic.scene import pneunet
 from analytic.scene.actuator import Actuator
 from analytic.scene.limbs import AnyRobot, limbs_of
 from analytic.scene.robot import Robot
+from analytic.scene.surface import Surface
 
 Array = NDArray[np.float64]
 
 PASSIVE = 0.01  # of the peak pressure: an end with less may lie on its side, if it does; chosen
 _ROBOTS = 256  # whose bending peaks are remembered; sweeps have many
+_PEELS = 128 / 9  # D kappa^2 over gamma q, see flat_pressures
+_MOST = 64.0  # times the peak pressure, that no adhesion holds against; chosen
 _HALVINGS = 50  # of an interval that a pressure lies in; to rounding
 _RIPPLE = 0.2  # of w L h^3 / D0: how high a flat stretch ripples between nodes, bounded; measured
 
 
 def side_contact(
-    robot: Robot, nodes: Array, force: Array, height: Array, pressures: Array, press: float = 0.0
-) -> tuple[Array, Array]:
+    robot: Robot, nodes: Array, force: Array, height: Array, pressures: Array,
+    surface: Surface | None = None,
+) -> tuple[Array, Array]:  # fmt: skip
     """Length of side contact at the left and the right end.
 
     An end whose segment is inflated is a tip: to lie flat it would need the moment D kappa, and an
@@ -38,15 +42,16 @@ def side_contact(
         force: of the ground on each, 0 where it does not touch, shape (B, S) [N].
         height: of each, shape (B, S) [m].
         pressures: of the segments, shape (B, S) [Pa].
-        press: pull of adhesion on a flat stretch, besides its weight; with any an inflated end may
-            lie flat too [N/m].
+        surface: whose adhesion pulls at a flat stretch, besides its weight, and may keep an
+            inflated end flat too.
 
     Returns:
         Two arrays of shape (B,) [m]; half the length each where no node is in the air, NaN where
         a force is.
     """
     lifted = ripple(robot, nodes)
-    flat = may_lie_flat(pressures, bending_peaks(robot))
+    flat = np.abs(pressures) <= flat_pressures(robot, surface)
+    press = surface.press(robot.width) if surface else 0.0
     lengths = [
         [end_contact(robot, nodes[::order], f[::order], y[::order] > lifted, lies[::order][0],
                      press)
@@ -66,12 +71,12 @@ def end_contact(
         nodes: arclength, from that end or towards it, (S,) [m].
         push: force on each, (S,) [N].
         air: whether it is higher than a flat stretch ripples, (S,).
-        flat: whether the segment at that end may lie flat, see may_lie_flat.
-        press: pull of adhesion, see side_contact [N/m].
+        flat: whether the segment at that end may lie flat, see flat_pressures.
+        press: pull of adhesion [N/m].
     """
     if not np.isfinite(push[0]):
         return np.nan
-    if not press and not flat:
+    if not flat:
         return 0.0
     first = int((push > 0).argmax())  # the outermost node may hover by a rounding of h
     end = first + int(air[first:].argmax())
@@ -123,14 +128,33 @@ def length_between(weight: float, places: Sequence[float], push: Sequence[float]
     return length
 
 
-def may_lie_flat(pressure: Any, peak_pressure: Any) -> Any:
-    """Tell whether an end segment at this pressure [Pa] may lie on its side: with next to none.
+@lru_cache(_ROBOTS)
+def flat_pressures(robot: AnyRobot, surface: Surface | None = None) -> Array:
+    """Greatest pressures of chambers at which their segments may lie on their side, (S,) [Pa].
 
-    Args:
-        pressure: that acts.
-        peak_pressure: of the segment, see bending_peaks.
+    Next to none, or what adhesion can hold: under a constant pull w' an inflated end arches to a
+    height of 9/128 D kappa^2 / w', and peels where that is the reach, D kappa^2 = 128/9 gamma q.
     """
-    return abs(pressure) <= PASSIVE * peak_pressure
+    pressures = PASSIVE * bending_peaks(robot)
+    if surface is not None and surface.adhesion:
+        peels = [_peeling_pressures(limb.strip, surface.adhesion, robot.peak_pressure)
+                 for limb in limbs_of(robot)]  # fmt: skip
+        pressures = np.maximum(pressures, np.concatenate(peels))
+    pressures.flags.writeable = False
+    return pressures
+
+
+def _peeling_pressures(strip: Robot, adhesion: float, peak: float) -> Array:
+    """Roots of D kappa^2 = 128/9 gamma q of the segments of a strip, (S,) [Pa]."""
+    held = _PEELS * adhesion * strip.width
+    low = np.zeros(len(strip.segments))
+    high = np.full(len(strip.segments), _MOST * peak)
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        curvature = pneunet.natural_curvature(strip, middle)
+        holds = pneunet.rigidity(strip, middle) * curvature**2 <= held
+        low, high = np.where(holds, middle, low), np.where(holds, high, middle)
+    return low
 
 
 @lru_cache(_ROBOTS)

@@ -152,14 +152,8 @@ LEVEL = Incline()
 
 
 def check_for_limbs(ground: Ground) -> None:
-    """Raise ValueError for ground that limbs are not told of: sticky, or stronger at rest."""
+    """Raise ValueError for ground that limbs are not told of: a film under a nap."""
     for surface in surfaces_of(ground):
-        if surface.adhesion or surface.static_ratio > 1:
-            key = "adhesion" if surface.adhesion else "static_ratio"
-            raise ValueError(
-                f"{key} of surface {surface.name!r} is for strips, not for robots of limbs; got "
-                f"{getattr(surface, key)!r}"
-            )
         if surface.viscosity and not surface.is_round:
             raise ValueError(
                 f"viscosity of surface {surface.name!r}, which resists otherwise back or across "

@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import bending_peaks, may_lie_flat
+from analytic.friction.contact_length import flat_pressures
 from mjsim.friction.between_ends import BoundedContacts, ContactFrictionEverywhere
 from mjsim.friction.ceiling import CeilingPush
 from mjsim.friction.in_plane import LimbFooting
@@ -78,8 +78,7 @@ class StripFooting:
         self.columns = (*_COLUMNS, *self._ceiling.columns)
         self._slopes, self._shift, self._dt = joints.slopes, joints.shift, numerics.timestep
         self._before, self._after = self._law.before_step, self._law.after_step
-        self._peaks = bending_peaks(scene.robot)[[0, -1]]
-        self._sticky = scene.ground.at(0.0).adhesion > 0  # which may keep an inflated end flat
+        self._flat = flat_pressures(scene.robot, scene.ground.at(0.0))[[0, -1]]
         self._lengths = data.ten_length
         pads = pads_by_node(model)
         self._feet = int(pads[0, 0]), int(pads[-1, 0])
@@ -89,7 +88,7 @@ class StripFooting:
 
     def prepare(self, pressures: Array) -> Sequence[Any]:
         """Tell whether each end may lie on its side at each step, by its pressure."""
-        flat = self._sticky | may_lie_flat(pressures[:, [0, -1]], self._peaks)
+        flat = np.abs(pressures[:, [0, -1]]) <= self._flat
         return list(flat.tolist())
 
     def before_step(self, prepared: Any) -> None:

@@ -60,7 +60,9 @@ class LimbFooting:
         self._round = is_round(scene.ground)
         self._ceiling = CeilingPush(model, data)
         self.columns = ("contacts", *self._ceiling.columns)
-        self._tree = Tree(robot, numerics.links, numerics.twists, scene.incline)
+        self._tree = Tree(
+            robot, numerics.links, numerics.twists, scene.incline, scene.ground.at(0.0)
+        )
         self._finder = Contacts(self._tree, scene.friction)
         self.contacts: list[Contact] = []
         self._touching = 0.0  # limbs
@@ -88,21 +90,21 @@ class LimbFooting:
         self._viscosity = mass / numerics.tie_time  # of all points together [N s/m]
         self._look()
 
-    def prepare(self, pressures: Array) -> list[list[list[bool]]]:
-        """Whether the ends of each limb may lie flat at each step, by its pressures."""
-        flat: list[list[list[bool]]] = self._finder.may_lie(pressures).tolist()
-        return flat
+    def prepare(self, pressures: Array) -> list[list[list[int]]]:
+        """How the ends of each limb bend at each step, by its pressures."""
+        bends: list[list[list[int]]] = self._finder.bends(pressures).tolist()
+        return bends
 
-    def before_step(self, may_lie: list[list[bool]]) -> None:
+    def before_step(self, bends: list[list[int]]) -> None:
         """Read the contacts, and set what resists in the next step.
 
         Places of the state now, forces of the step before.
 
         Args:
-            may_lie: whether the two ends of each limb may lie flat.
+            bends: how the two ends of each limb do, see analytic.solvers.limbs.contact_state.
         """
         rows = self._rows
-        self.contacts = self._finder.search(self._pushes(), self._heights, may_lie)
+        self.contacts = self._finder.search(self._pushes(), self._heights, bends)
         rows.turn()
         numbers, bodies, offsets, radii = [], [], [], []
         for contact in self.contacts:
@@ -164,16 +166,18 @@ class LimbFooting:
         ground, finder, bounds, drags = self._ground, self._finder, [], []
         if isinstance(ground, Surface):
             ground = ground.against(way) if way else ground
-            for contact in self.contacts:
-                bound, drag = finder.resistance(contact, ground)
+            for contact, speed in zip(self.contacts, self._rows.speeds, strict=True):
+                bound, drag = finder.resistance(contact, ground, speed)
                 bounds.append(bound)
                 drags.append(drag)
             return bounds, drags
-        for contact, place, body in zip(self.contacts, self._rows.places, bodies, strict=True):
+        for contact, place, body, speed in zip(
+            self.contacts, self._rows.places, bodies, self._rows.speeds, strict=True
+        ):
             ahead, left = self._data.xmat[body, :2].tolist()
             along, aside = np.array(contact.at) - contact.middle, np.array(contact.aside)
             places = place.real + along * ahead + aside * left
-            of_points = finder.resistances([contact], ground, places, way)
+            of_points = finder.resistances([contact], ground, places, speed, way)
             bounds.append(float(of_points[0].sum()))
             drags.append(float(of_points[1].sum()))
         return bounds, drags

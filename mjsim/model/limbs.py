@@ -33,6 +33,7 @@ ROOT = ("x", "y", "z", "yaw", "pitch", "roll")
 ROWS = 3  # of friction at each contact, see mjsim.friction.friction_rows
 _THIN = 1e-9  # MuJoCo wants A + B >= C of inertias, of which a plate has A + B = C
 _TOWARDS = 3.0  # times the centripetal acceleration that contacts yield to; measured
+_STIFFEST = 1e-4  # that MuJoCo takes
 _SOFTEST = 0.1  # beyond, limbs sink in as they walk; chosen
 # of softness times gravity times the square of the contacts' time: how deep a robot lies, measured;
 # and how much of the height of ripples that may be, which costs 3 % of the distance, measured
@@ -44,6 +45,7 @@ def softness(scene: Scene, numerics: Resolved) -> float:
 
     MuJoCo stops J a at a contact, where the ground stops J a + J' v: a limb that turns about it at
     a rate v / r would leave it by v^2 / r, unless the contact yields by more than that to gravity.
+    Adhesion presses besides: contacts yield less, so that a robot lies no deeper.
     """
     robot, gait = scene.robot, scene.gait
     rates = np.abs(np.diff(robot.peak_pressure * np.array(gait.stages), axis=0))
@@ -55,8 +57,16 @@ def softness(scene: Scene, numerics: Resolved) -> float:
         change = float((rates[:, part] @ np.diff(strip.borders)).max())
         turning = pneunet.steepest_curvature(strip, robot.peak_pressure) * strip.length * change
         swift = max(swift, 0.5 * strip.length * float(turning) ** 2)
-    return min(numerics.contact_softness + _TOWARDS * swift / scene.gravity,
-               max(_SOFTEST, numerics.contact_softness))  # fmt: skip
+    yields = min(numerics.contact_softness + _TOWARDS * swift / scene.gravity,
+                 max(_SOFTEST, numerics.contact_softness))  # fmt: skip
+    return max(yields / _pressed(scene), min(yields, _STIFFEST))
+
+
+def _pressed(scene: Scene) -> float:
+    """Weight and adhesion of the limb that sticks most, over its weight [1]."""
+    surface = scene.ground.at(0.0)
+    strips = [limb.strip for limb in limbs_of(scene.robot)]
+    return 1.0 + max(surface.press(strip.width) / strip.weight_per_length for strip in strips)
 
 
 def longest_step(scene: Scene, numerics: Resolved) -> float:
@@ -66,7 +76,8 @@ def longest_step(scene: Scene, numerics: Resolved) -> float:
     ground's forces tell less well how much of it lies flat.
     """
     lowest = min(ripple(limb.strip, numerics.links) for limb in limbs_of(scene.robot))
-    depth = _SINKS * softness(scene, numerics) * scene.gravity * numerics.contact_time**2
+    pull = scene.gravity * _pressed(scene)
+    depth = _SINKS * softness(scene, numerics) * pull * numerics.contact_time**2
     return math.sqrt(_DEEPEST * lowest / depth)
 
 
@@ -139,6 +150,7 @@ def _add_limb(carrier: mujoco.MjsBody, scene: Scene, numerics: Resolved, limb: L
             pad = parts.add_pad(body, name, (x, y, 0.0), numerics)
             pad.solref[:] = numerics.contact_time * numerics.timestep, 1.0
             pad.solimp[:3] = impedance, impedance, 0.001
+            parts.stick(pad, scene, numerics, limb.strip, number, 2)
             if scene.ceiling is not None and number < len(lengths):
                 edge = f"{PREFIX}{limb.name}_top_{number}_{side}"
                 add_upper_edge(body, edge, limb.strip, lengths[number], y,

@@ -17,6 +17,7 @@ import numpy as np
 from analytic.scene import pneunet
 from analytic.scene.chain import link_lengths
 from analytic.scene.ground import is_round
+from analytic.scene.robot import Robot
 from mjsim.scene import Resolved, Scene
 
 PALE, DARK = (0.86, 0.82, 0.72), (0.16, 0.17, 0.20)  # passive and inflated, as in Figure 4
@@ -88,14 +89,11 @@ def add_pads(
 ) -> None:
     """Contact pads of one node, side by side at places in its body's frame [m]."""
     coulomb = scene.friction == "coulomb"
-    surface = scene.ground.at(0.0)
-    press, reach = surface.press(scene.strip.width), surface.adhesion_reach
     for i, place in enumerate(places):
         pad = add_pad(body, f"pad_{node}" + (f"_{i}" if i else ""), place, numerics)
         pad.condim = 3 if coulomb else 1
         pad.solref[:], pad.solimp[:3] = contact_softness(scene, numerics)
-        if press:
-            pad.adhesion, pad.gap = press * _share(scene, numerics, node) / len(places), reach
+        stick(pad, scene, numerics, scene.strip, node, len(places))
         if coulomb:
             pad.friction[:] = pad_friction(scene, node in (0, numerics.links + 1)), 0.0, 0.0
 
@@ -109,10 +107,17 @@ def add_pad(body: mujoco.MjsBody, name: str, place: Place, numerics: Resolved) -
     return pad
 
 
-def _share(scene: Scene, numerics: Resolved, node: int) -> float:
-    """Length of the strip that a node stands for, half of the links beside it [m]."""
-    lengths = np.concatenate([[0.0], link_lengths(scene.strip, numerics.links), [0.0]])
-    return 0.5 * float(lengths[node] + lengths[node + 1])
+def stick(
+    pad: mujoco.MjsGeom, scene: Scene, numerics: Resolved, strip: Robot, node: int, count: int
+) -> None:
+    """Let adhesive ground pull at one of so many pads of a node of a strip, or of a limb."""
+    surface = scene.ground.at(0.0)
+    if not surface.adhesion:
+        return
+    # half of the links beside it
+    lengths = np.concatenate([[0.0], link_lengths(strip, numerics.links), [0.0]])
+    share = 0.5 * float(lengths[node] + lengths[node + 1])
+    pad.adhesion, pad.gap = surface.press(strip.width) * share / count, surface.adhesion_reach
 
 
 def pad_friction(scene: Scene, at_end: bool) -> float:

@@ -6,7 +6,7 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import bending_peaks, may_lie_flat
+from analytic.friction.contact_length import flat_pressures
 from analytic.scene.actuator import Memory
 from analytic.scene.chain import joint_springs
 from analytic.scene.limbs import memory
@@ -147,8 +147,8 @@ class StripBatch:
             for row, path in zip(rows.tolist(), pressure, strict=True)
         ])  # fmt: skip
         springs = self._springs(rows, acting)
-        peaks = np.array([bending_peaks(self.scenes[row].strip)[[0, -1]] for row in rows])
-        flat = may_lie_flat(acting[:, :, [0, -1]], peaks[:, None])
+        may = np.array([flat_pressures(self.scenes[row].strip)[[0, -1]] for row in rows])
+        flat = np.abs(acting[:, :, [0, -1]]) <= may[:, None]
         dt, ends, hinges = self.numerics.timestep, self._ends, slice(_FIRST_HINGE, None)
         active = np.flatnonzero(~self.stopped[rows])
         block.steps[self.stopped[rows]] = 0

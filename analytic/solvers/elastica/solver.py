@@ -74,8 +74,7 @@ def solve_elastica(
     place = np.array([state.left for state in states]) * robot.length
     nodes, lengths = node_positions(robot, links), link_lengths(robot, links)
     p = np.array([point.pressure for point in points])
-    press = surface.press(robot.width) if surface else 0.0
-    left, right = side_contact(robot, nodes, force, height, p, press)
+    left, right = side_contact(robot, nodes, force, height, p, surface)
     return ContactShapes(
         robot=robot,
         separation=np.cos(theta) @ lengths,

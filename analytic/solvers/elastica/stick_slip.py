@@ -12,10 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.contact_length import (
-    bending_peaks,
     end_contact,
     end_loads,
-    may_lie_flat,
+    flat_pressures,
     ripple,
 )
 from analytic.friction.contacts import ContactFinder, StripContact
@@ -57,8 +56,9 @@ class StickSlip:
     def __init__(self, chain: Chain, ground: Ground, friction: Friction) -> None:
         self._chain, self._ground, self._friction = chain, ground, friction
         self._nodes = node_positions(chain.robot, chain.links)
-        self._press = ground.at(0.0).press(chain.robot.width)
         self._air = ripple(chain.robot, self._nodes)
+        self._press = ground.at(0.0).press(chain.robot.width)
+        self._flat = flat_pressures(chain.robot, ground.at(0.0))
         self._finder = ContactFinder(chain.robot, self._nodes, friction.roughness, self._press)
         self._law = LAWS[friction.law]
         self._by_speed, self._directed = depends_on_speed(ground), not is_round(ground)
@@ -287,7 +287,7 @@ class StickSlip:
         force = chain.ground_force(state) * chain.force_unit
         height = state.y * robot.length
         air = height > self._air
-        flat = may_lie_flat(chain.pressure, bending_peaks(robot))
+        flat = np.abs(chain.pressure) <= self._flat
         left, right = (
             end_contact(robot, self._nodes[::order], force[::order], air[::order], lies,
                         self._press)

@@ -65,7 +65,7 @@ class Problem(NamedTuple):
             friction: whose contacts hold and slide as they do.
         """
         rise, load, moves = self.tree.heights(pose), np.zeros_like(pose.nodes), None
-        load[:, 2] = self.tree.weight - force
+        load[:, 2] = self.tree.down(pose.nodes[:, 2]) - force
         pushed = rise[pushes]
         gradient = rise.T @ load[:, 2] + self.ground * pushed.T @ pose.nodes[pushes, 2]
         gradient[WHOLE:] += self.stiffness * (q[WHOLE:] - self.bent)

@@ -2,10 +2,11 @@
 
 As for the strip of [Majidi13], section 2.2: a limb whose free end is inflated touches by its tip;
 one without pressure lies on its side over a length that follows from the ground's forces
-(analytic.friction.contact_length). Between its ends an underside, of a torso that carries others or
-of any limb, lies flat over the length that its weight and forces tell. A limb that lies flat as a
-whole passes on to its carrier what its side does not carry. Each vertex that pushes loads one
-contact alone: a tip carries what pushes its end, and where else the limb rests the rest.
+(analytic.friction.contact_length); one that curls up stands on its underside. Between its ends an
+underside, of a torso that carries others or of any limb, lies flat over the length that its weight
+and forces tell. A limb that lies flat as a whole passes on to its carrier what its side does not
+carry. Each vertex that pushes loads one contact alone: a tip carries what pushes its end, and where
+else the limb rests the rest.
 """
 
 from typing import NamedTuple
@@ -13,15 +14,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import (
-    bending_peaks,
-    flat_length,
-    length_between,
-    may_lie_flat,
-)
+from analytic.friction.contact_length import flat_length, flat_pressures, length_between
 from analytic.friction.contacts import POINT, runs_without_gaps
 from analytic.friction.laws import LAWS
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb
+from analytic.solvers.limbs.contact_state import ContactState
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.rest import Rest
 from analytic.solvers.limbs.resting_limb import resting_limbs
@@ -31,6 +28,7 @@ Array = NDArray[np.float64]
 _ALONG = (0.5 - 12**-0.5, 0.5 + 12**-0.5)  # of a side: Gauss's points, over its length
 _WHOLE = 1e-9  # of a length: all of it
 SHORT = 1e-9  # of a length
+END = {"begin": 0, "end": -1}
 _FLAT = 1e-3  # rad; a gap between vertices that push is air if steeper, as of a strip; chosen
 _TOUCHES = 1e-6  # of the weight: a node that pushes less hovers
 # of the step that a twist makes in the edges' difference of height: how high the lower one may be
@@ -77,7 +75,7 @@ class ContactSearch:
         robot, self._limbs = tree.robot, resting_limbs(tree)
         self._least = _TOUCHES * robot.weight
         parts = chambers_by_limb(robot)
-        self._peaks = bending_peaks(robot)
+        self._flat = flat_pressures(robot, tree.surface)
         self._end_chambers = np.array([[part.start, part.stop - 1] for part in parts])
 
     def find(self, rest: Rest, pressures: Array) -> list[Contact]:
@@ -86,30 +84,30 @@ class ContactSearch:
         # both edges together; a limb that leans lies on one of its edges
         forces = (rest.force[:half] + rest.force[half:]).tolist()
         heights = self.heights(rest.nodes[:half, 2], rest.nodes[half:, 2]).tolist()
-        return self.search(forces, heights, self.may_lie(pressures).tolist())
+        return self.search(forces, heights, self.bends(pressures).tolist())
 
-    def may_lie(self, pressures: Array) -> NDArray[np.bool_]:
-        """Tell whether each limb may lie flat at its begin and its end, by pressures, (..., L, 2).
+    def bends(self, pressures: Array) -> NDArray[np.int_]:
+        """How limbs bend at their begin and end, by pressures, (..., L, 2): see ContactState.
 
         Args:
             pressures: of the chambers, (..., S) [Pa].
         """
-        flat: NDArray[np.bool_] = may_lie_flat(pressures, self._peaks)[..., self._end_chambers]
-        return flat
+        ways = np.where(np.abs(pressures) <= self._flat, 0, np.sign(pressures)).astype(int)
+        return np.asarray(ways[..., self._end_chambers])
 
     def search(
-        self, force: list[float], height: list[float], may_lie: list[list[bool]]
+        self, force: list[float], height: list[float], bends: list[list[int]]
     ) -> list[Contact]:
         """The contacts of a state.
 
         Args:
             force: of the ground on the vertices of all limbs [N].
             height: of the vertices [m].
-            may_lie: whether each limb may lie flat at its two ends.
+            bends: see `bends`.
         """
         vertices = self._tree.vertices
-        state = _State(
-            [force[limb] for limb in vertices], [height[limb] for limb in vertices], may_lie,
+        state = ContactState(
+            [force[limb] for limb in vertices], [height[limb] for limb in vertices], bends,
             {}, set(),
         )  # fmt: skip
         contacts: list[Contact] = []
@@ -132,7 +130,7 @@ class ContactSearch:
         lifted: Array = _BY_TWIST * np.maximum(steps[:, 1:], steps[:, :-1])
         return heights - lifted.ravel()
 
-    def _of_limb(self, state: "_State", i: int) -> list[Contact]:
+    def _of_limb(self, state: ContactState, i: int) -> list[Contact]:
         """Contacts of one limb; notes the force that it leaves to its carrier."""
         limb, force, passed = self._limbs[i], state.force[i], state.passed
         contacts: list[Contact] = []
@@ -162,8 +160,9 @@ class ContactSearch:
         elif at_tip and carrier is not None and limb.segments == 1:
             return contacts
         else:
-            # a joint belongs to the limb that is flat there, and else to the carrier
-            if carrier is not None or (i, "begin") in state.reached:
+            # a joint belongs to the limb that is flat or curls up there, and else to the carrier
+            away = carrier is not None and not self._stands_at_joint(state, i)
+            if away or (i, "begin") in state.reached:
                 low = max(low, near)
             if (i, "end") in state.reached:
                 high = min(high, length - near)
@@ -173,35 +172,81 @@ class ContactSearch:
                 if push > least and low < place[vertex] < high
             ]  # fmt: skip
         if inner and sum([force[vertex] for vertex in inner]) > self._least:
-            contacts.append(self._underside(state, i, inner))
+            contacts += self._undersides(state, i, inner, [contact.part for contact in contacts])
         return contacts
 
-    def _underside(self, state: "_State", i: int, inner: list[int]) -> Contact:
-        """The contact of an underside between the ends, where vertices push.
-
-        Where it lies flat either half carries its weight and a push, as of a strip, see
-        analytic.friction.contacts. One of several segments that touches at a point stands on a tip
-        there, as a strip does; one of a single segment on a side of no area.
-        """
-        limb, force, length = self._limbs[i], state.force[i], self._limbs[i].length
-        load, place = sum([force[vertex] for vertex in inner]), limb.arclength
+    def _undersides(
+        self, state: ContactState, i: int, inner: list[int], taken: list[str]
+    ) -> list[Contact]:
+        """Contacts of an underside: one, and one more for each free end that is in the air."""
+        limb, place = self._limbs[i], self._limbs[i].arclength
         runs = runs_without_gaps(
             inner, state.height[i], lambda before, node: _FLAT * (place[node] - place[before])
         )
+        contacts = []
+        for end, outermost in (("begin", 0), ("end", -1)):
+            if len(runs) > 1 and end in limb.free and end not in taken:
+                run = runs.pop(outermost)
+                contacts.append(self._underside(state, i, end, run, run))
         run = max(runs, key=len)
+        at_joint = limb.carrier is not None and place[run[-1]] <= limb.near
+        if len(run) <= POINT and at_joint and self._flat_at_joint(state, i):
+            return contacts  # the carrier's side
+        inner = [vertex for part in runs for vertex in part]
+        return [*contacts, self._underside(state, i, "between", run, inner)]
+
+    def _underside(
+        self, state: ContactState, i: int, part: str, run: list[int], inner: list[int]
+    ) -> Contact:
+        """A contact of an underside away from the ends, where vertices push.
+
+        Where it lies flat either half carries its weight and a push, as of a strip, see
+        analytic.friction.contacts. One of several segments, or that curls up, stands on a tip where
+        it touches at a point, as a strip does; another on a side of no area.
+
+        Args:
+            state: what pushes.
+            i: place of the limb.
+            part: see Contact.
+            run: vertices that push with no air between them.
+            inner: all that it carries.
+        """
+        limb, force, place = self._limbs[i], state.force[i], self._limbs[i].arclength
+        load, length = sum([force[vertex] for vertex in inner]), limb.length
         if len(run) > POINT:
             places = [place[vertex] for vertex in run]
             push = [force[vertex] for vertex in run]
             flat = min(length_between(limb.weight, places, push), length)
             if flat > SHORT * length:
                 begin = min(max(0.5 * (places[0] + places[-1] - flat), 0.0), length - flat)
-                return self._contact(i, "between", begin, flat, load)
+                return self._contact(i, part, begin, flat, load)
         at = sum([place[vertex] * force[vertex] for vertex in inner]) / load
-        if limb.segments > 1:
-            return self._contact(i, "between", at, 0.0, load)
-        return Contact(i, "between", SHORT * length, (at,), (0.0,), load)
+        if limb.segments > 1 or min(state.bends[i]) < 0:
+            return self._contact(i, part, at, 0.0, load)
+        return Contact(i, part, SHORT * length, (at,), (0.0,), load)
 
-    def _at_end(self, state: "_State", i: int, end: str) -> tuple[Contact | None, float, int]:
+    def _flat_at_joint(self, state: ContactState, i: int) -> bool:
+        """Tell whether the limb that carries another lies flat where that begins."""
+        carrier, at = self._limbs[i].carrier, self._limbs[i].at
+        if carrier is None or state.bends[carrier][END[at]] < 0:
+            return False
+        ahead = 1 if at == "begin" else -1
+        return max(state.height[carrier][::ahead][:3]) <= self._limbs[carrier].ripple
+
+    def _stands_at_joint(self, state: ContactState, i: int) -> bool:
+        """Tell whether a limb may stand where it begins, as it curls up there.
+
+        It takes its part of what pushes its carrier there, unless that lies flat.
+        """
+        limb = self._limbs[i]
+        if limb.carrier is None or state.bends[i][0] >= 0:
+            return False
+        if not self._flat_at_joint(state, i):
+            state.force[i][0] += limb.share * state.force[limb.carrier][END[limb.at]]
+            state.reached.add((limb.carrier, limb.at))
+        return True
+
+    def _at_end(self, state: ContactState, i: int, end: str) -> tuple[Contact | None, float, int]:
         """The contact that begins at an end of a limb.
 
         Returns:
@@ -223,7 +268,11 @@ class ContactSearch:
             return None, 0.0, 0
         length = limb.length
         tip = 0.0 if at_begin else length
-        if not state.may_lie[i][0 if at_begin else 1]:
+        bends = state.bends[i][END[end]]
+        if bends < 0:
+            if force[0] <= self._least:
+                return None, 0.0, 0  # the end is in the air, however little
+        elif bends:
             # bent by pressure it stands on its tip alone; what else it rests on is an underside
             if end not in limb.free or not carried:
                 return None, 0.0, 0
@@ -235,10 +284,9 @@ class ContactSearch:
             whole = False
         elif whole:
             # limb and carrier share a joint, and which of them the ground pushes there is open
-            ahead = 1 if limb.at == "begin" else -1
-            joint = limb.share * state.force[carrier][::ahead][0]
-            whole = max(state.height[carrier][::ahead][:3]) <= self._limbs[carrier].ripple
+            whole = self._flat_at_joint(state, i)
             if not whole:
+                joint = limb.share * state.force[carrier][END[limb.at]]
                 total, moment = total + joint, moment + joint * length
         weight = limb.weight
         side = length if whole else min(float(flat_length(weight, total, moment)), length)
@@ -256,20 +304,6 @@ class ContactSearch:
         near, far = _ALONG
         at = (begin + length * near,) * across + (begin + length * far,) * across
         return Contact(i, part, length, at, aside + aside, load)
-
-
-class _State(NamedTuple):
-    """Forces [N] and heights [m] of each limb's vertices, and whether its ends may lie flat.
-
-    Noted during the search: forces that limbs which lie flat pass on to ends of carriers, and ends
-    of carriers where a limb is flat, or nearly.
-    """
-
-    force: list[list[float]]
-    height: list[list[float]]
-    may_lie: list[list[bool]]
-    passed: dict[tuple[int, str], float]
-    reached: set[tuple[int, str]]
 
 
 def parts_of(limb: Limb, robot: LimbedRobot) -> tuple[str, ...]:

@@ -11,7 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.dissipation_in_plane import Nap, nap_of
-from analytic.scene.ground import check_for_limbs, durations, is_round, surfaces_of
+from analytic.scene.ground import (
+    check_adhesion,
+    check_for_limbs,
+    depends_on_speed,
+    durations,
+    is_round,
+    surfaces_of,
+)
 from analytic.scene.surface import Ground, Surface, Way
 from analytic.solvers.limbs.contact_search import SHORT, Contact, ContactSearch
 
@@ -28,37 +35,49 @@ class Contacts(ContactSearch):
         return self._tree.points(limbs, at, [y for contact in contacts for y in contact.aside])
 
     def resistances(
-        self, contacts: list[Contact], ground: Ground, x: Array, way: Way | None = None
-    ) -> tuple[Array, Array]:
-        """Bounds [N] and viscous resistances [N s/m] of all these points, at places x (C,) [m].
+        self, contacts: list[Contact], ground: Ground, x: Array, speeds: Array | float = 0.0,
+        way: Way | None = None,
+    ) -> tuple[Array, Array]:  # fmt: skip
+        """Bounds [N] and viscous resistances [N s/m] of all these points.
 
-        Against motion one way where the ground has a nap.
+        Args:
+            contacts: whose points they are.
+            ground: under them.
+            x: places of the points, (C,) [m].
+            speeds: of their slips, (C,) or one for all [m/s].
+            way: of the motion that is resisted, where the ground has a nap.
         """
         points = [contact for contact in contacts for _ in contact.at]
+        speeds = np.broadcast_to(speeds, len(points))
         pairs = [
-            self.resistance(contact, ground.at(place).against(way) if way else ground.at(place))
-            for contact, place in zip(points, x.tolist(), strict=True)
+            self.resistance(
+                contact, ground.at(place).against(way) if way else ground.at(place), speed
+            )
+            for contact, place, speed in zip(points, x.tolist(), speeds.tolist(), strict=True)
         ]
         bounds, viscous = np.array(pairs).reshape(-1, 2).T * shares(contacts)
         return bounds, viscous
 
     def friction(
-        self, contacts: list[Contact], ground: Ground, x: Array, robot: float, along: float
-    ) -> tuple[Array, Array, Nap | None]:
+        self, contacts: list[Contact], ground: Ground, x: Array, robot: float, along: float,
+        speeds: Array | float = 0.0,
+    ) -> tuple[Array, Array, Nap | None]:  # fmt: skip
         """Bounds, viscous resistances and directions of all these points, see resistances.
 
         Args:
             contacts, ground, x: see resistances.
             robot, along: directions of the robot and of the ground's +x, in the frame of the slips
                 [rad].
+            speeds: see resistances.
 
         Returns:
             No directions where the ground resists alike in all of them.
         """
         if is_round(ground):
-            return *self.resistances(contacts, ground, x), None
+            return *self.resistances(contacts, ground, x, speeds), None
         ahead, back, across = (
-            self.resistances(contacts, ground, x, way) for way in ("ahead", "back", "across")
+            self.resistances(contacts, ground, x, speeds, way)
+            for way in ("ahead", "back", "across")
         )
         of_robot = [ground.at(place).nap == "robot" for place in x.tolist()]
         angle = np.where(np.array(of_robot, dtype=bool), robot, along)
@@ -69,7 +88,10 @@ class Contacts(ContactSearch):
     def strength(self, ground: Ground) -> float:
         """Greatest bound of all limbs together, each on its side or on its tip [N]."""
         robot = self._tree.robot
-        loads = [limb.strip.weight_per_length * limb.strip.length for limb in robot.limbs]
+        loads = [
+            (limb.strip.weight_per_length + press) * limb.strip.length
+            for limb, press in zip(robot.limbs, self._tree.press.tolist(), strict=True)
+        ]
         return max(
             sum(
                 max(
@@ -81,8 +103,10 @@ class Contacts(ContactSearch):
             for surface in _all_ways(ground)
         )
 
-    def resistance(self, contact: Contact, surface: Surface) -> tuple[float, float]:
-        """Bound of friction [N] and viscous resistance [N s/m] of a contact."""
+    def resistance(
+        self, contact: Contact, surface: Surface, speed: float = 0.0
+    ) -> tuple[float, float]:
+        """Bound of friction [N] and viscous resistance [N s/m] of a contact at a speed [m/s]."""
         limb = self._limbs[contact.limb]
         width = limb.width
         if 0 < contact.length <= SHORT * limb.length and not self._law.needs_load:
@@ -91,6 +115,8 @@ class Contacts(ContactSearch):
         bound = self._law.bound(surface, width, contact.length, contact.load)
         if not contact.length and not self._law.needs_load:
             bound *= limb.share
+        if surface.static_ratio > 1:
+            bound *= surface.at_speed(speed)
         return float(bound), float(surface.drag(width, contact.length))
 
     def radius(self, contact: Contact) -> float:
@@ -122,9 +148,13 @@ def spans_of(ground: Ground, times: Array | None, states: int) -> Array:
     """Durations of the increments between states, (B - 1,) [s]; of 1 s each without times.
 
     Raises:
-        ValueError: the ground is viscous and no times are given, or sticky, or stronger at rest.
+        ValueError: the ground resists by speed and no times are given, or it changes along x and
+            is adhesive.
     """
     check_for_limbs(ground)
-    if times is None and any(surface.viscosity for surface in surfaces_of(ground)):
-        raise ValueError(f"times of the shapes must be given on viscous ground {ground.name!r}")
+    check_adhesion(ground)
+    if times is None and depends_on_speed(ground):
+        raise ValueError(
+            f"times of the shapes must be given on ground that resists by speed, {ground.name!r}"
+        )
     return durations(np.arange(float(states)) if times is None else times)

@@ -13,6 +13,7 @@ Flags = NDArray[np.bool_]
 
 _TINY = 1e-100
 _FAR = 2.0  # slips within which a spring holds, that are no direction yet
+_ALIKE = 0.01  # of the greatest bound, by which bounds may change and count as the same; chosen
 _WORST = 0.99  # of the greatest excess: what gives way at once
 
 
@@ -30,6 +31,7 @@ class ContactFriction(NamedTuple):
         spring: stiffness of what holds, (C,) [N/m].
         held: tractions so far, against slips as the nap scales them, (C, 2) [N].
         holds: which contacts hold, (C,).
+        speeds: of slips that the bounds are of, (C,) [m/s]; 0 where they do not depend on them.
         nap: directions of the contacts, None where all resist alike in all of them.
     """
 
@@ -40,7 +42,16 @@ class ContactFriction(NamedTuple):
     spring: Array
     held: Array
     holds: Flags
+    speeds: Array
     nap: Nap | None = None
+
+    def agrees(self, before: "ContactFriction") -> bool:
+        """Tell whether contacts, and bounds by the speed of slips, are as they were before."""
+        if len(self.bounds) != len(before.bounds):
+            return False
+        change = np.abs(self.bounds - before.bounds)
+        slides = (self.speeds > 0) | (before.speeds > 0)
+        return not (change[slides] > _ALIKE * self.bounds.max(initial=0.0)).any()
 
     def slips(self, nodes: Array) -> Array:
         """Slips with nodes at places (P, 3) [m], (C, 2) [m]."""

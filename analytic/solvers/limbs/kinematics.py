@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from analytic.scene.chain import joint_places, link_lengths, twisting_links
 from analytic.scene.ground import LEVEL, Incline
 from analytic.scene.limbs import LimbedRobot
+from analytic.scene.surface import Surface
 
 Array = NDArray[np.float64]
 
@@ -66,12 +67,15 @@ class Tree:
         elements: hinges of each limb, even.
         twists: of each limb, half as many as its hinges at most.
         incline: of the ground; places and heights are along it and off it.
+        surface: whose adhesion pulls at nodes within its reach.
 
     Attributes:
-        elements, twists: as given.
+        elements, twists, surface: as given.
         arclength: of each node, from where its limb begins, (P,) [m].
         weight: of each node that presses on the ground, (P,) [N].
         pull: of each node's weight along the ground, in plan, (P, 2) [N].
+        press: of adhesion on each limb's underside, (L,) [N/m].
+        adhesion, reach: on each node, (P,) [N], and the height below which it pulls [m].
         parent: joint that carries each joint, (Q,); of the first three the one before.
         carried: whether a joint moves a node, (P, Q).
         joints: places of each limb's joints among the coordinates.
@@ -81,12 +85,17 @@ class Tree:
     """
 
     def __init__(
-        self, robot: LimbedRobot, elements: int, twists: int = 0, incline: Incline = LEVEL
-    ) -> None:
+        self, robot: LimbedRobot, elements: int, twists: int = 0, incline: Incline = LEVEL,
+        surface: Surface | None = None,
+    ) -> None:  # fmt: skip
         if elements < 2 or elements % 2:
             raise ValueError(f"elements must be even and at least 2, got {elements}")
         self.robot, self.elements, self.twists = robot, elements, twists
-        self.incline = incline
+        self.incline, self.surface = incline, surface
+        self.reach = surface.adhesion_reach if surface and surface.adhesion else 0.0
+        self.press = np.array(
+            [surface.press(limb.strip.width) if surface else 0.0 for limb in robot.limbs]
+        )
         limbs, per_limb, joints = range(len(robot.limbs)), elements + 2, elements + twists
         count = WHOLE + joints * len(robot.limbs)
         self.joints = [slice(WHOLE + joints * i, WHOLE + joints * (i + 1)) for i in limbs]
@@ -125,6 +134,8 @@ class Tree:
         whole = np.concatenate(2 * weight)
         self.weight: Array = incline.normal * whole
         self.pull: Array = np.multiply.outer(whole, incline.downhill)
+        per_weight = self.press / [limb.strip.weight_per_length for limb in robot.limbs]
+        self.adhesion: Array = whole * np.tile(np.repeat(per_weight, per_limb), 2)
         self.arclength: Array = np.concatenate(2 * arclength)
         # a joint is above another if it is on the way from the trunk to it; and above itself
         self._above = np.eye(count, dtype=bool)
@@ -223,6 +234,12 @@ class Tree:
         rise[:, :3] = pose.axes[:3, 2]
         rise *= self.carried
         return rise
+
+    def down(self, height: Array) -> Array:
+        """Weight that presses and adhesion on nodes at heights (P,) [m], (P,) [N]."""
+        if not self.reach:
+            return self.weight
+        return np.asarray(self.weight + self.adhesion * (height < self.reach))
 
     def pulled(self, pose: Pose) -> Array:
         """Forces of the pull downhill by the coordinates, (Q,)."""

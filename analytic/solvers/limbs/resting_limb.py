@@ -25,7 +25,7 @@ class RestingLimb(NamedTuple):
         free: ends that no limb begins at and that no limb carries.
         near: distance from an end that counts as there [m].
         ripple: height below which a vertex is on the ground [m].
-        weight: that presses on the ground, per length [N/m].
+        weight: that presses a flat stretch on the ground, with adhesion [N/m].
         segments: how many it has.
         aside: how far to the left of its middle line a tip resists [m].
     """
@@ -63,11 +63,13 @@ def resting_limbs(tree: Tree) -> list[RestingLimb]:
             _free_ends(robot, limb),
             _NEAR * limb.strip.length / tree.elements,
             ripple(limb.strip, tree.elements),
-            tree.incline.normal * limb.strip.weight_per_length,
+            tree.incline.normal * limb.strip.weight_per_length + press,
             len(limb.strip.segments),
             tuple(limb.strip.width * part for part in _ASIDE),
         )
-        for limb, vertices in zip(robot.limbs, tree.vertices, strict=True)
+        for limb, vertices, press in zip(
+            robot.limbs, tree.vertices, tree.press.tolist(), strict=True
+        )
     ]
 
 

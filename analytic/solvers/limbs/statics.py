@@ -2,8 +2,10 @@
 
 The least energy over heights that are not below 0, found by an augmented Lagrangian (Hestenes and
 Powell): Newton's method with exact second derivatives inside, multipliers outside, which are the
-ground's forces in the end. Roll and pitch follow from it like every other angle. Without friction
-x, y and yaw stay as they are: the limit of weak friction, as in section 2.2 of [Majidi13].
+ground's forces in the end. Roll and pitch follow from it like every other angle. Adhesive ground
+pulls at nodes within its reach by constant forces, so that peeling takes adhesion times area.
+Without friction x, y and yaw stay as they are: the limit of weak friction, as in section 2.2 of
+[Majidi13].
 """
 
 from typing import NamedTuple
@@ -28,6 +30,7 @@ _GAIN_SHARP = 1e-16  # of energy, weight times length: less is none
 _SHORTEST = 1e-9
 _LONGEST = 0.5  # change of an angle in a step [rad]
 _TRIES = 4  # to find the contacts of a state that rest on its own forces
+_TRIES_BY_SPEED = 12  # and bounds by how fast they slide; measured
 _SMOOTH, _SHARP, _SHARPER = 1e-3, 1e-7, 0.05  # slips that count beside 0, over the length
 
 
@@ -49,7 +52,7 @@ class Statics:
         )
         nodes = tree.pose(np.zeros(len(tree.parent))).nodes
         self.length = float(np.ptp(nodes[:, :2] @ rotation(tree.robot.limbs[0].angle)[:, 0]))
-        self._weight = float(tree.weight.sum())
+        self._weight = float((tree.weight + tree.adhesion).sum())
         self._scale = np.ones(len(tree.parent))
         self._scale[: HEIGHT + 1] = self.length
         self._ground = _STIFF * self._weight / self.length
@@ -57,7 +60,7 @@ class Statics:
     def flat(self) -> Rest:
         """The tree flat on the ground, without pressure."""
         q = np.zeros(len(self.tree.parent))
-        return Rest(q, self.tree.pose(q).nodes, self.tree.weight.copy(), True)
+        return Rest(q, self.tree.pose(q).nodes, self.tree.weight + self.tree.adhesion, True)
 
     def springs(self, pressures: Array) -> tuple[Array, Array]:
         """Stiffness and rest angle of all joints at pressures of the chambers, (S,) [Pa]."""
@@ -100,15 +103,16 @@ class Statics:
             q, force, friction = solution
             return Rest(q, self.tree.pose(q).nodes, force, True), friction
         rest, friction = guess, renewed(guess, None) if renewed else None
-        for _ in range(_TRIES):
+        for tried in range(1, _TRIES_BY_SPEED + 1):
             rest = self._least(stiffness, bent, rest, friction)
             if friction is None or renewed is None:
-                break
+                return rest, friction
             before = friction
             friction = renewed(rest, friction.least(rest.nodes, _SHARP * self.length))
-            if len(friction.bounds) == len(before.bounds):
-                break
-        return rest, friction
+            by_speed = friction.speeds.any()
+            if friction.agrees(before) or (tried >= _TRIES and not by_speed):
+                return rest, friction
+        return rest._replace(converged=False), friction
 
     def _least(
         self, stiffness: Array, bent: Array, guess: Rest, friction: ContactFriction | None
@@ -187,6 +191,7 @@ class _Lagrangian(NamedTuple):
         nodes = self.tree.pose(q).nodes
         push, bent = self.push(nodes), q[WHOLE:] - self.rest
         stored = 0.5 * self.stiffness @ bent**2 + self.tree.weight @ nodes[:, 2]
+        stored += self.tree.adhesion @ np.minimum(nodes[:, 2], self.tree.reach)
         stored += 0.5 * push @ push / self.ground
         if self.friction is None:
             return float(stored)
@@ -198,7 +203,7 @@ class _Lagrangian(NamedTuple):
         pose = self.tree.pose(q)
         push, rise = self.push(pose.nodes), self.tree.heights(pose)
         force = np.zeros_like(pose.nodes)
-        force[:, 2] = self.tree.weight - push
+        force[:, 2] = self.tree.down(pose.nodes[:, 2]) - push
         gradient = rise.T @ force[:, 2]
         if self.friction is not None and self.tree.incline.slope:
             gradient -= self.tree.pulled(pose)

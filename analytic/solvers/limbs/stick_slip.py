@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.progress import counted
+from analytic.scene.ground import surfaces_of
 from analytic.scene.surface import Ground
 from analytic.solvers.limbs.contact_search import Contact
 from analytic.solvers.limbs.contacts import Contacts, shares, spans_of
@@ -80,6 +81,7 @@ class _State(NamedTuple):
         bounds, viscous: of these points, (C,) [N, N s/m].
         held: their tractions, (C, 2) [N].
         holds: which of them hold, (C,).
+        speeds: of their slips in the increment before, (C,) [m/s].
     """
 
     row: Array
@@ -91,6 +93,7 @@ class _State(NamedTuple):
     viscous: Array
     held: Array
     holds: NDArray[np.bool_]
+    speeds: Array
 
     def by_limb(self, limbs: int) -> Array:
         """Bound [N] and viscous resistance [N/m] of each of so many limbs, (2, limbs)."""
@@ -108,8 +111,9 @@ class _Increment:
         self._finder, self._ground, self._before = finder, ground, before
         self._row, self._span = row, span
         self._viscosity, self._slip = viscosity, slip
+        self._by_speed = any(surface.static_ratio > 1 for surface in surfaces_of(ground))
         self.contacts, self.weights = before.contacts, before.weights
-        self.viscous = before.viscous
+        self.viscous, self.speeds = before.viscous, before.speeds
 
     def __call__(self, rest: Rest, friction: ContactFriction | None) -> ContactFriction:
         """Friction at a state, from the friction so far; from the state before at first."""
@@ -117,6 +121,7 @@ class _Increment:
         if friction is None:
             self.contacts, self.weights = before.contacts, before.weights
             held, holds = before.held, before.holds
+            self.speeds = before.speeds
         else:
             contacts = self._finder.find(rest, self._row)
             held, holds = _carried(friction, self.contacts, contacts)
@@ -124,18 +129,24 @@ class _Increment:
         # a side that grows or shrinks slips at points that are those of neither state
         alike = _kinds(self.contacts) == _kinds(before.contacts)
         weights = 0.5 * (self.weights + before.weights) if alike else self.weights
+        start = weights @ before.rest.nodes[:, :2]
+        if friction is not None and self._by_speed:
+            slid = np.hypot(*(weights @ rest.nodes[:, :2] - start).T)
+            self.speeds = np.where(holds, 0.0, slid / self._span)
+        elif friction is not None:
+            self.speeds = np.zeros(len(holds))
         heading = 0.5 * float(before.rest.q[_YAW] + rest.q[_YAW])
         bounds, viscous, nap = self._finder.friction(
-            self.contacts, self._ground, self.weights @ rest.nodes[:, 0], heading, 0.0
+            self.contacts, self._ground, self.weights @ rest.nodes[:, 0], heading, 0.0, self.speeds
         )
         self.viscous, film = viscous, viscous / self._span
         least = min(self._viscosity, _WEAK * float(film.sum())) if film.any() else self._viscosity
         part = bounds / np.maximum(np.sqrt((held**2).sum(axis=1)), _TINY)
         part = np.where(holds, np.minimum(1.0, part), part)
         return ContactFriction(
-            weights, weights @ before.rest.nodes[:, :2], bounds,
+            weights, start, bounds,
             film + least * shares(self.contacts), bounds / self._slip, part[:, None] * held, holds,
-            nap,
+            self.speeds, nap,
         )  # fmt: skip
 
 
@@ -160,7 +171,7 @@ class _StickSlip:
         )
         self._states.append(
             _State(pressures[0], times[0], first, contacts, weights, bounds,
-                   viscous, np.zeros((len(bounds), 2)), bounds > 0)
+                   viscous, np.zeros((len(bounds), 2)), bounds > 0, np.zeros(len(bounds)))
         )  # fmt: skip
         for row, time, span in counted(list(zip(pressures[1:], times[1:], spans, strict=True))):
             self._go(row, time, span)
@@ -216,7 +227,8 @@ class _StickSlip:
                 rest = rest._replace(converged=False)  # viscosity alone balances its weight
         assert friction is not None  # since an increment was given
         return _State(row, time, rest, increment.contacts, increment.weights, friction.bounds,
-                      increment.viscous, friction.held, friction.holds)  # fmt: skip
+                      increment.viscous, friction.held, friction.holds,
+                      increment.speeds)  # fmt: skip
 
     def _ahead(self, row: Array) -> Rest:
         """A guess at pressures (S,) [Pa]: on from the last two states if pressures go on so."""

@@ -17,7 +17,7 @@ from analytic.progress import counted
 from analytic.scene.gait import Gait
 from analytic.scene.ground import LEVEL, Incline
 from analytic.scene.limbs import LimbedRobot, acting_pressures, rotation, usual_twists
-from analytic.scene.surface import Ground
+from analytic.scene.surface import Ground, Surface
 from analytic.solvers.limbs.contacts import Contacts, shares, spans_of
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.path import Path
@@ -36,6 +36,7 @@ def shapes(
     elements: int,
     chamber: str = "linearized",
     twists: int | None = None,
+    surface: Surface | None = None,
 ) -> tuple[Tree, list[Rest]]:
     """Equilibria along a path of pressures that begins near none.
 
@@ -45,8 +46,11 @@ def shapes(
         elements: hinges of each limb, even.
         chamber: law of the chambers, see analytic.scene.chain.
         twists: of each limb; as usual_twists has them if None.
+        surface: whose adhesion pulls at the limbs.
     """
-    tree = Tree(robot, elements, usual_twists(robot, elements) if twists is None else twists)
+    if twists is None:
+        twists = usual_twists(robot, elements)
+    tree = Tree(robot, elements, twists, surface=surface)
     statics = Statics(tree, chamber)
     rest, rests = statics.flat(), []
     for row in counted(list(pressures)):
@@ -159,9 +163,9 @@ def walk(
     if twists is None:
         twists = usual_twists(robot, elements, incline)
     if bent:
-        statics = Statics(Tree(robot, elements, twists, incline), chamber)
+        statics = Statics(Tree(robot, elements, twists, incline, ground.at(0.0)), chamber)
         return stick_slip_path(statics, path, ground, law, times, all_on_tips)
-    tree, rests = shapes(robot, path, elements, chamber, twists)
+    tree, rests = shapes(robot, path, elements, chamber, twists, ground.at(0.0))
     return follow(tree, rests, path, ground, law, times)
 
 

@@ -138,8 +138,6 @@ def test_what_cannot_be_is_refused_in_one_line():
         Numerics(timestep=0.2)
     with pytest.raises(ValueError, match=r"shortest ramp of 0\.1 s has 4 steps"):
         Simulation(scene(ramp=0.1), Numerics(timestep=0.05))
-    with pytest.raises(ValueError, match="adhesion of surface"):
-        Scene(quadruped(), ground=replace(SURFACES["felt"], name="tape", adhesion=0.1))
     with pytest.raises(ValueError, match="must be 5 finite pressures"):
         Simulation(scene(), NUMERICS).step([0.0, 1.0])
 
