@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from trees import covers, read, row_of
 
 from analytic.scene.limbs import quadruped
 from analytic.scene.quadruped_gaits import undulation
@@ -63,3 +64,18 @@ def test_parts_of_a_walk_in_mujoco_add_up_to_it_and_it_has_no_error_beside_itsel
     )
     assert turns[-1].sum() == pytest.approx(numbers.turn, abs=1e-12)
     assert changes(walk, walk) == (0.0, 0.0)
+
+
+def test_error_bars_of_the_benchmark_s_trees_cover_what_finer_numerics_change():
+    rows = read()
+    assert len(rows) >= 60
+    assert np.mean([covers(row.walk_bar, row.walk, row.quarter) for row in rows]) >= 0.9
+    assert np.mean([covers(row.theory_bar, row.theory, row.fine) for row in rows]) >= 0.95
+
+
+@pytest.mark.slow
+def test_a_row_of_the_benchmark_s_trees_is_what_it_finds():
+    (kept,) = (row for row in read() if row.seed == 48)
+    again = row_of(48)
+    for name in ("walk", "quarter", "theory", "fine", "walk_bar", "theory_bar"):
+        assert getattr(again, name) == pytest.approx(getattr(kept, name), abs=1e-3)
