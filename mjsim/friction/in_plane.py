@@ -118,8 +118,8 @@ class LimbFooting:
         if numbers != rows.numbers:
             self._touching = float(len({contact.limb for contact in self.contacts}))
         rows.move_to(numbers, bodies, offsets)
+        rows.slip(radii)
         if self._round:
-            rows.slip(radii)
             bounds, drags = self._resistances(bodies)
         else:
             bounds, drags, naps = self._naps(bodies)

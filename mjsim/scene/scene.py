@@ -16,6 +16,7 @@ from analytic.scene.gait import GAITS, Gait
 from analytic.scene.ground import (
     Incline,
     check_adhesion,
+    check_for_limbs,
     depends_on_speed,
     surfaces_of,
 )
@@ -189,6 +190,7 @@ class Scene:
             raise ValueError("contacts of a robot of limbs must be all, got 'ends': it has many")
         if self.chamber == "sealed":
             raise ValueError("chamber of a robot of limbs cannot be sealed, which is of strips")
+        check_for_limbs(self.ground)
 
     @property
     def in_space(self) -> bool:
