@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.checks import one_of, times_of, whole
-from analytic.friction.contact_length import PASSIVE, bending_peaks
+from analytic.friction.contact_length import flat_pressures
 from analytic.friction.dissipation_in_plane import least_dissipation_in_plane
 from analytic.friction.laws import LAWS
 from analytic.progress import counted
@@ -159,7 +159,7 @@ def walk(
         times_of(times, len(path))
     spans_of(ground, times, len(path))  # refuses what has no times and needs them
     clock = np.arange(float(len(path))) if times is None else np.asarray(times, dtype=float)
-    path, times = _with_thresholds(robot, acting_pressures(robot, path), clock)
+    path, times = _with_thresholds(robot, ground.at(0.0), acting_pressures(robot, path), clock)
     if twists is None:
         twists = usual_twists(robot, elements, incline)
     if bent:
@@ -169,12 +169,15 @@ def walk(
     return follow(tree, rests, path, ground, law, times)
 
 
-def _with_thresholds(robot: LimbedRobot, path: Array, times: Array) -> tuple[Array, Array]:
+def _with_thresholds(
+    robot: LimbedRobot, surface: Surface, path: Array, times: Array
+) -> tuple[Array, Array]:
     """Pressures (B, S) and times (B,) with states either side of where an end may begin to lie.
 
-    What resists there jumps, and where it does is known: at a part of the peak pressure.
+    What resists there jumps, and where it does is known: at a part of the peak pressure, or where
+    it peels off.
     """
-    level = PASSIVE * bending_peaks(robot)
+    level = flat_pressures(robot, surface)
     begin, change = path[:-1], np.diff(path, axis=0)
     parts = np.divide(level - begin, change, out=np.full_like(change, -1.0), where=change != 0)
     rows, columns = np.nonzero((parts > _APART) & (parts < 1 - _APART))
