@@ -5,6 +5,7 @@ from itertools import accumulate
 
 from analytic.checks import positive
 from analytic.fields import in_si
+from analytic.scene.feet import Foot, in_order
 
 PSI = 6894.757293168  # Pa in a pound-force per square inch (NIST SP 811)
 GRAVITY = 9.81  # m/s^2
@@ -30,7 +31,7 @@ class Robot:
 
     Raises:
         ValueError: a value is not a positive finite number, there is no segment, chamber_fraction
-            exceeds 1, or one quantity is given in two ways.
+            exceeds 1, one quantity is given in two ways, or feet overlap.
     """
 
     length: float = 0.130
@@ -61,6 +62,8 @@ class Robot:
     """eta of (9), in place of what the chambers give [N m^2/Pa]"""
     torsion: float | None = None
     """GJ, torsional rigidity of a limb, in place of that of its solid section [N m^2]"""
+    feet: tuple[Foot, ...] = ()
+    """stretches of its underside that resist otherwise than its skin"""
 
     def __post_init__(self) -> None:
         in_si(self)
@@ -72,9 +75,10 @@ class Robot:
         for length in self.segments:
             positive("segments' lengths", length)
         object.__setattr__(self, "segments", tuple(float(part) for part in self.segments))
+        object.__setattr__(self, "feet", in_order(self.feet))
         for field in fields(self):
             value = getattr(self, field.name)
-            if field.name == "segments" or (value is None and field.name in _OPTIONAL):
+            if field.name in ("segments", "feet") or (value is None and field.name in _OPTIONAL):
                 continue
             positive(field.name, value)
             object.__setattr__(self, field.name, float(value))

@@ -30,7 +30,7 @@ from mjsim.scene.valves import Valves
 
 _RobotOptions = optional(
     "RobotOptions",
-    {Robot: [item.name for item in fields(Robot)]},
+    {Robot: [item.name for item in fields(Robot) if item.name != "feet"]},  # tables of a file
     {"peak_pressure": "--pressure", "segments": "--segments"},
 )
 _SurfaceOptions = optional("SurfaceOptions", {Surface: SURFACE_FIELDS})

@@ -1,0 +1,66 @@
+"""Feet of strips in MuJoCo."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from analytic import SURFACES, Robot
+from analytic.scene.feet import Foot
+from mjsim.files.tables import build, read_tables
+from mjsim.files.written import as_tables
+from mjsim.model.standalone import standalone_spec
+from mjsim.results.measures import measure
+from mjsim.results.prediction import reference
+from mjsim.scene import Numerics, Scene
+from mjsim.simulation.batch_layout import refusal
+from mjsim.simulation.simulation import simulate
+
+EXAMPLES = Path(__file__).parents[3] / "examples"
+FILES = "directional_feet.toml", "anchored_inchworm.toml"
+
+
+def example(name):
+    return build(read_tables(EXAMPLES / name))
+
+
+@pytest.mark.parametrize("friction", ["constant", "coulomb"])
+@pytest.mark.parametrize("contacts", ["ends", "all"])
+def test_a_foot_everywhere_is_ground_that_is_scaled(friction, contacts):
+    """By a power of two, which rounds nothing."""
+    surface = SURFACES["polyethylene"]
+    scenes = [
+        Scene(robot, ground=ground, friction=friction, contacts=contacts)
+        for robot, ground in ((Robot(feet=(Foot(0, 1, grip=0.5),)), surface),
+                              (Robot(), surface.scaled(0.5)))
+    ]  # fmt: skip
+    numerics = Numerics(timestep=0.02, links=12) if friction == "constant" else Numerics()
+    shod, scaled = (simulate(scene, numerics).position for scene in scenes)
+    assert (shod == scaled).all()
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_crawlers_on_feet_go_as_far_as_the_theory_says(name):
+    scene, numerics = example(name)
+    expected = reference(scene).displacement[0]
+    assert expected > 0.1
+    assert measure(simulate(scene, numerics)).displacement == pytest.approx(expected, rel=0.02)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_feet_are_written_as_they_are_read(name):
+    scene, numerics = example(name)
+    tables = as_tables(scene, numerics)
+    assert scene.strip.feet
+    assert build(tables)[0] == scene
+
+
+def test_what_does_not_know_feet_says_so():
+    scene, numerics = example(FILES[1])
+    assert "no feet" in refusal(scene)
+    with pytest.raises(ValueError, match="without feet"):
+        standalone_spec(scene, numerics)
+    with pytest.raises(ValueError, match="friction constant, not coulomb"):
+        replace(scene, ground=SURFACES["felt"], friction="coulomb")
+    with pytest.raises(ValueError, match="chamber of a foot"):
+        Scene(Robot(feet=(Foot(0, 1, chamber="4"),)))
