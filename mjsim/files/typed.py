@@ -78,7 +78,7 @@ def as_type(hint: Any, value: Any, name: str, unit: str | None = None) -> Any:
             return value
         if get_origin(option) is tuple and isinstance(value, list | tuple):
             inner = get_args(option)[0]
-            if is_dataclass(inner):
+            if isinstance(inner, type) and is_dataclass(inner):
                 tables = enumerate(value, start=1)
                 return tuple(_record(inner, item, f"{name}, number {i}") for i, item in tables)
             return tuple(as_type(inner, item, f"{name}'s parts", unit) for item in value)
