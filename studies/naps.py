@@ -20,7 +20,9 @@ from mjsim.scene import Scene
 from mjsim.simulation.simulation import simulate
 from studies.drawing import FONT, save
 
-RATIOS = 2.0 ** np.linspace(-2.0, 2.0, 17)  # bound back over bound ahead
+RATIOS = np.array([0.25, 0.35, 0.5, 0.7, 0.98, 1.0, 1.02, 1.4, 2.0, 2.8, 4.0])
+"""Bounds back over bounds ahead; near 1 the distance jumps, where tips resist alike."""
+_SHOWN = [0, 2, 4, 5, 6, 8, 10]  # of them in the table
 KINDS = ((0.0, 1.0), (0.125, 1.0), (0.25, 1.0), (0.5, 1.0), (2 / 3, 2 / 3), (0.8, 0.4), (0.9, 0.2),
          (1.0, 0.0))  # fmt: skip
 """Tip force and shear strength over those of analytic.scene.surface, felt first, gelatin last."""
@@ -32,8 +34,10 @@ def napped(surface: Surface, ratio: float) -> Surface:
     """A surface that resists back by so much more than ahead, and as strongly on average."""
     ahead = 2.0 / (1.0 + ratio)
     bounds = {key: getattr(surface, key) for key in ("tip_force", "shear_strength")}
-    return replace(surface, **{key: ahead * value for key, value in bounds.items()},
-                   **{f"{key}_back": ratio * ahead * value for key, value in bounds.items()})  # fmt: skip
+    return replace(
+        surface, **{key: ahead * value for key, value in bounds.items()},
+        **{f"{key}_back": ratio * ahead * value for key, value in bounds.items()},
+    )  # fmt: skip
 
 
 def by_theory(surface: Surface, ratio: float) -> float:
@@ -71,10 +75,10 @@ def main() -> None:
     )
     turns = [[neutral(surface, distance) for surface in surfaces]
              for distance in (by_theory, by_simulation)]  # fmt: skip
-    print("| tip : side |", " | ".join(f"{ratio:.2g}" for ratio in RATIOS[::4]), "| turns at |")
-    print("|---" * (len(RATIOS[::4]) + 2) + "|")
+    print("| tip : side |", " | ".join(f"{ratio:.3g}" for ratio in RATIOS[_SHOWN]), "| turns at |")
+    print("|---" * (len(_SHOWN) + 2) + "|")
     for (tip, side), row, walked, *pair in zip(KINDS, theory, walks, *turns, strict=True):
-        cells = [f"{a:+.4f} ({b:+.4f})" for a, b in zip(row[::4], walked[::4], strict=True)]
+        cells = [f"{a:+.4f} ({b:+.4f})" for a, b in zip(row[_SHOWN], walked[_SHOWN], strict=True)]
         at = ["nowhere" if turn is None else f"{turn:.3f}" for turn in pair]
         print(f"| {tip:.3g} : {side:.3g} |", " | ".join(cells), f"| {at[0]} ({at[1]}) |")
     off = np.abs(walks - theory)
@@ -87,8 +91,10 @@ def main() -> None:
         lines.plot(RATIOS, walks[number], "o", color=f"C{list(NAMED).index(name)}", markersize=4)
     lines.axhline(0, color="0.7", linewidth=0.8, zorder=0)
     lines.axvline(1, color="0.7", linewidth=0.8, zorder=0)
-    lines.set(xscale="log", xlabel="bound back over bound ahead", ylabel="distance per cycle over length")  # fmt: skip
-    lines.legend(title="lines: theory; dots: MuJoCo", frameon=False, fontsize=8)
+    lines.set(xscale="log", xlabel="bound back over bound ahead",
+              ylabel="distance per cycle over length")  # fmt: skip
+    lines.legend(title="lines: theory; dots: MuJoCo", frameon=False, fontsize=8, loc="upper left",
+                 bbox_to_anchor=(0.0, 0.86))  # fmt: skip
     levels = np.linspace(-0.25, 0.25, 21)
     heights = np.arange(len(KINDS))
     shown = plane.contourf(RATIOS, heights, theory, levels=levels, cmap="RdBu", extend="both")

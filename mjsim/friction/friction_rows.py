@@ -181,9 +181,10 @@ class FrictionRows:
         forces: list[float] = []
         damping: list[float] = []
         impedances: list[float] = []
+        times: list[float] = []
         # the discrete integrator makes of a row f = -D (dv/dt + b v), D = d / (1 - d) / its inverse
         # mass and b = 2 / (d time): with b much above 1 / dt it is viscous, f = -D b v
-        stiffness = _STIFFER * self._dt / _VISCOUS
+        stiffness, time = _STIFFER * self._dt / _VISCOUS, 2.0 * self._dt / _VISCOUS
         for number, bound, drag, radius, (u, v, w), speed in zip(
             self.numbers, bounds, drags, self._radii, self._rates, self.speeds, strict=True
         ):
@@ -203,6 +204,7 @@ class FrictionRows:
                 elif impedance > _STIFFEST:
                     impedance = _STIFFEST
                 impedances.append(impedance)
+                times.append(time / impedance)
         if self._naps is not None:
             self._turn_naps(along, viscous)
         layout = self._layout
@@ -217,9 +219,8 @@ class FrictionRows:
         self._frictionloss[layout.rows] = forces
         if wet:
             self._damping[layout.rows] = damping
-        across = np.array(impedances)
-        self._times[layout.times] = 2.0 * self._dt / _VISCOUS / across
-        self._impedances[layout.impedances] = across
+        self._times[layout.times] = times
+        self._impedances[layout.impedances] = impedances + impedances
 
     def after_step(self) -> list[tuple[float, complex, complex, float]]:
         """Bound, place x + i y, motion beyond dt times its slip, and speed of each [N, m, m/s]."""

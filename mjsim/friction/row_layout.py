@@ -49,8 +49,8 @@ class Layout(NamedTuple):
             last row to the viscous force, (3 C + 1, 6 C), and places of what is not 0 in it.
         coefficients, parts: places of the coefficients, and where they are in the Jacobians along
             the rows.
-        times, impedances: places of those of the rows across, and twice for the two ends of an
-            impedance that is constant, (2 C,) and (2, 2 C).
+        times, impedances: places of those of the rows across, (2 C,), and twice for the two ends of
+            an impedance that is constant, (4 C,).
         in_order: place among those that touch, number and rows of each with a bound, in the order
             of MuJoCo's rows of dry friction.
         bounded: how many rows these have.
@@ -87,7 +87,8 @@ class Layout(NamedTuple):
             _joined([*(entries[slot, :, slot] for slot in range(count)), viscous]),
             _joined([mine.coefficients for mine in own]),
             _joined([ROWS * nv * slot + begins + mine.dofs for slot, mine in enumerate(own)]),
-            mujoco.mjNREF * across, mujoco.mjNIMP * across + np.array([[0], [1]]),
+            mujoco.mjNREF * across,
+            np.concatenate([mujoco.mjNIMP * across + end for end in (0, 1)]),
             in_order, sum(rows_of for *_, rows_of in in_order),
         )  # fmt: skip
 

@@ -12,7 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import LinAlgError, cho_factor, cho_solve, eigh
+from scipy.linalg import eigh
+from scipy.linalg.lapack import dposv
 
 from analytic.solvers.limbs.friction import ContactFriction
 from analytic.solvers.limbs.kinematics import IN_PLAN, WHOLE, Pose, Tree
@@ -136,11 +137,10 @@ def newton_step(hessian: Array, gradient: Array) -> tuple[Array, float]:
 
     Where the energy curves down the step is that as if it curved up as much.
     """
-    try:
-        factor = cho_factor(hessian, check_finite=False)
-        return np.asarray(-cho_solve(factor, gradient, check_finite=False)), 0.0
-    except LinAlgError:
-        values, vectors = eigh(hessian, check_finite=False)
-        sizes = np.maximum(np.abs(values), _FLAT * np.abs(values).max())
-        step = -vectors @ ((vectors.T @ gradient) / sizes)
-        return np.asarray(step), min(float(values[0]), 0.0)
+    _, step, failed = dposv(hessian, -gradient)  # by Cholesky's factors
+    if not failed:
+        return np.asarray(step), 0.0
+    values, vectors = eigh(hessian, check_finite=False)
+    sizes = np.maximum(np.abs(values), _FLAT * np.abs(values).max())
+    step = -vectors @ ((vectors.T @ gradient) / sizes)
+    return np.asarray(step), min(float(values[0]), 0.0)

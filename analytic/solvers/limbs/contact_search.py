@@ -197,8 +197,7 @@ class ContactSearch:
             load += push
             moment += push * arm
             carried += 1
-        whole = not at_begin and carried == len(force)
-        total = load + state.passed.get((i, end), 0.0)
+        total = load + state.passed.get((i, end), 0.0) if state.passed else load
         if total <= self._least:
             return None, 0.0, 0
         length = limb.length
@@ -210,15 +209,16 @@ class ContactSearch:
             if self._all_on_tips and limb.carrier is not None and limb.segments == 1:
                 return self._contact(i, end, tip, 0.0, sum(force)), 0.0, len(force)
             return self._contact(i, end, tip, 0.0, force[0]), 0.0, 1
-        if whole and limb.carrier is not None:
+        whole, carrier = carried == len(force) and not at_begin, limb.carrier
+        if carrier is None:
+            whole = False
+        elif whole:
             # limb and carrier share a joint, and which of them the ground pushes there is open
-            carrier, ahead = limb.carrier, 1 if limb.at == "begin" else -1
+            ahead = 1 if limb.at == "begin" else -1
             joint = limb.share * state.force[carrier][::ahead][0]
             whole = max(state.height[carrier][::ahead][:3]) <= self._limbs[carrier].ripple
             if not whole:
                 total, moment = total + joint, moment + joint * length
-        else:
-            whole = False
         weight = limb.weight
         side = length if whole else min(float(flat_length(weight, total, moment)), length)
         if side <= 0:

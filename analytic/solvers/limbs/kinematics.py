@@ -9,6 +9,7 @@ points), pitch (up) and roll (left side up), then the joints limb by limb, trunk
 order along the limb; a hinge turns the outward direction up, a twist the left side.
 """
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -129,6 +130,7 @@ class Tree:
         self._above = np.eye(count, dtype=bool)
         for joint in range(1, count):
             self._above[joint] |= self._above[self.parent[joint]]
+        self._below = np.tril(~self._above.T, -1)  # where the upper half is copied to
         self.carried = self._above[2 * movers]
         self._carries = self.carried.T.astype(float)
         begins = np.array([[joints.start] for joints in self.joints])
@@ -189,10 +191,10 @@ class Tree:
         turned = np.empty((len(hinges), self.twists + 1, 3, 3))
         turned[:, 0] = _EYE
         axes = directions[:, self._twisting]
+        about = _turns(axes.reshape(-1, 3), twists.ravel()).reshape(*twists.shape, 3, 3)
         for twist in range(self.twists):
-            about = _turns(axes[:, twist], twists[:, twist])
             axes[:, twist] = (turned[:, twist] @ axes[:, twist, :, None])[..., 0]
-            turned[:, twist + 1] = turned[:, twist] @ about
+            turned[:, twist + 1] = turned[:, twist] @ about[:, twist]
         places = np.zeros((len(hinges), self.elements + 2, 3))
         cos, sin = directions[:, -1, 0], directions[:, -1, 2]
         pitched = np.zeros((len(hinges), 3, 3))
@@ -242,7 +244,7 @@ class Tree:
         inner = pose.axes @ turned.T  # (i, j)
         inner[:3], inner[:, :3] = 0.0, 0.0
         upper = np.where(self._above.T, inner, 0.0)
-        return np.asarray(upper + np.tril(upper.T, -1) * (~self._above.T))
+        return np.where(self._below, upper.T, upper)
 
     def points(self, limbs: Sequence[int], at: Sequence[float], aside: Sequence[float]) -> Array:
         """Weights of the nodes in points of the limbs, (C, P).
@@ -268,7 +270,14 @@ class Tree:
 
 def _turn(axis: Array, angle: float) -> Array:
     """Matrix of a rotation about a unit axis, (3, 3)."""
-    return np.asarray(_turns(axis[None], np.array([angle]))[0])
+    x, y, z = axis.tolist()
+    sin, cos = math.sin(angle), math.cos(angle)
+    rest = 1.0 - cos
+    return np.array([
+        [1.0 - rest * (y * y + z * z), rest * x * y - sin * z, rest * x * z + sin * y],
+        [rest * x * y + sin * z, 1.0 - rest * (x * x + z * z), rest * y * z - sin * x],
+        [rest * x * z - sin * y, rest * y * z + sin * x, 1.0 - rest * (x * x + y * y)],
+    ])  # fmt: skip
 
 
 def _turns(axes: Array, angles: Array) -> Array:
