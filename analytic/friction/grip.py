@@ -12,8 +12,8 @@ import numpy as np
 
 from analytic.friction.laws import Number, TractionLaw, bounds_both_ways
 from analytic.scene.feet import Foot, check_chambers
-from analytic.scene.ground import is_round
-from analytic.scene.limbs import AnyRobot
+from analytic.scene.ground import is_round, surfaces_of
+from analytic.scene.limbs import AnyRobot, limbs_of
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground, Surface, Way
 
@@ -32,6 +32,7 @@ class Grip:
     Attributes:
         feet: whether there are any.
         switched: whether chambers switch any.
+        most: greatest grip of any part of it [1], and hold of all feet together [N].
 
     Raises:
         ValueError: a foot is switched by a chamber that the robot does not have.
@@ -45,6 +46,9 @@ class Grip:
         self.feet = bool(self._feet)
         self.switched = any(foot.column is not None for foot in self._feet)
         self._round = all(foot.is_round for foot in strip.feet)
+        ways: tuple[Way, ...] = ("ahead", "back", "across")
+        grips = [foot.grip_against(way) for foot in strip.feet for way in ways]
+        self.most = max(1.0, *grips, 0.0), sum(foot.hold for foot in strip.feet)
 
     def is_round(self, ground: Ground) -> bool:
         """Tell whether contacts on a ground resist everywhere alike in all directions."""
@@ -140,6 +144,24 @@ class _Placed(NamedTuple):
             (foot.end - foot.begin) * length,
             None if foot.chamber is None else chambers.index(foot.chamber),
         )
+
+
+def check_feet_in_space(robot: AnyRobot, ground: Ground) -> None:
+    """Refuse ground on which feet with a direction are not known, in the plane.
+
+    Raises:
+        ValueError: it has a nap whose ahead is not the robot's, or a viscous film.
+    """
+    feet = [foot for limb in limbs_of(robot) for foot in limb.strip.feet]
+    if all(foot.is_round for foot in feet):
+        return
+    for surface in surfaces_of(ground):
+        if surface.viscosity or not (surface.is_round or surface.nap == "robot"):
+            what = "viscosity" if surface.viscosity else "a nap of the ground's own"
+            raise ValueError(
+                f"feet of limbs that grip otherwise back or across than ahead are for ground "
+                f"without {what}, got surface {surface.name!r}"
+            )
 
 
 def pressures_of(shapes: Any) -> Any:

@@ -10,6 +10,7 @@ import numpy as np
 
 from analytic.checks import is_number, one_of, positive, slope, whole
 from analytic.fields import in_si
+from analytic.friction.grip import check_feet_in_space
 from analytic.friction.laws import LAWS, ROUGHNESS, Friction
 from analytic.scene.chain import CHAMBER_LAWS
 from analytic.scene.feet import Foot, check_chambers
@@ -209,6 +210,7 @@ class Scene:
         if self.chamber == "sealed":
             raise ValueError("chamber of a robot of limbs cannot be sealed, which is of strips")
         check_for_limbs(self.ground)
+        check_feet_in_space(self.robot, self.ground)
 
     @property
     def in_space(self) -> bool:

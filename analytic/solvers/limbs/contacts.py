@@ -2,24 +2,41 @@
 
 A tip resists by V_t, over its width; limbs that begin at one place share the tip force of an end by
 their widths. A side resists by tau times its area, at four points: two of Gauss along it, two
-across. Under mu N each resists by its coefficient times its load.
+across. Under mu N each resists by its coefficient times its load. A foot changes the contact that
+it is in at all its points alike.
 """
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.dissipation_in_plane import Nap, nap_of
-from analytic.scene.ground import check_for_limbs, durations, is_round, surfaces_of
+from analytic.friction.grip import Grip
+from analytic.scene.ground import check_for_limbs, durations, surfaces_of
 from analytic.scene.surface import Ground, Surface, Way
 from analytic.solvers.limbs.contact_search import SHORT, Contact, ContactSearch
+from analytic.solvers.limbs.kinematics import Tree
 
 Array = NDArray[np.float64]
 
 
 class Contacts(ContactSearch):
-    """Finds the contacts of a tree, and tells how they resist; see ContactSearch."""
+    """Finds the contacts of a tree, and tells how they resist; see ContactSearch.
+
+    Attributes:
+        switched: whether chambers switch any foot.
+    """
+
+    def __init__(self, tree: Tree, law: str = "constant", all_on_tips: bool = False) -> None:
+        super().__init__(tree, law, all_on_tips)
+        self._grips = [Grip(limb.strip, self._law, tree.robot) for limb in tree.robot.limbs]
+        self.switched = any(grip.switched for grip in self._grips)
+
+    def is_round(self, ground: Ground) -> bool:
+        """Tell whether all contacts on a ground resist alike in all directions."""
+        return all(grip.is_round(ground) for grip in self._grips)
 
     def weights(self, contacts: list[Contact]) -> Array:
         """Weights of the nodes in the points of all contacts that resist, (C, P)."""
@@ -28,39 +45,55 @@ class Contacts(ContactSearch):
         return self._tree.points(limbs, at, [y for contact in contacts for y in contact.aside])
 
     def resistances(
-        self, contacts: list[Contact], ground: Ground, x: Array, way: Way | None = None
+        self,
+        contacts: list[Contact],
+        ground: Ground,
+        x: Array,
+        way: Way | None = None,
+        pressures: Any = None,
     ) -> tuple[Array, Array]:
         """Bounds [N] and viscous resistances [N s/m] of all these points, at places x (C,) [m].
 
-        Against motion one way where the ground has a nap.
+        Against motion one way where the ground or a foot has a nap; at pressures of the chambers,
+        (S,) [Pa], of no matter without feet that are switched.
         """
         points = [contact for contact in contacts for _ in contact.at]
         pairs = [
-            self.resistance(contact, ground.at(place).against(way) if way else ground.at(place))
+            self.resistance(
+                contact, ground.at(place).against(way) if way else ground.at(place),
+                way or "ahead", pressures,
+            )
             for contact, place in zip(points, x.tolist(), strict=True)
-        ]
+        ]  # fmt: skip
         bounds, viscous = np.array(pairs).reshape(-1, 2).T * shares(contacts)
         return bounds, viscous
 
     def friction(
-        self, contacts: list[Contact], ground: Ground, x: Array, robot: float, along: float
+        self,
+        contacts: list[Contact],
+        ground: Ground,
+        x: Array,
+        robot: float,
+        along: float,
+        pressures: Any = None,
     ) -> tuple[Array, Array, Nap | None]:
         """Bounds, viscous resistances and directions of all these points, see resistances.
 
         Args:
-            contacts, ground, x: see resistances.
+            contacts, ground, x, pressures: see resistances.
             robot, along: directions of the robot and of the ground's +x, in the frame of the slips
                 [rad].
 
         Returns:
-            No directions where the ground resists alike in all of them.
+            No directions where ground and feet resist alike in all of them.
         """
-        if is_round(ground):
-            return *self.resistances(contacts, ground, x), None
+        if self.is_round(ground):
+            return *self.resistances(contacts, ground, x, None, pressures), None
         ahead, back, across = (
-            self.resistances(contacts, ground, x, way) for way in ("ahead", "back", "across")
+            self.resistances(contacts, ground, x, way, pressures)
+            for way in ("ahead", "back", "across")
         )
-        of_robot = [ground.at(place).nap == "robot" for place in x.tolist()]
+        of_robot = [ground.at(place).ahead_is_the_robots for place in x.tolist()]
         angle = np.where(np.array(of_robot, dtype=bool), robot, along)
         axes = np.stack([np.cos(angle), np.sin(angle)], axis=1)
         bounds, nap = nap_of(ahead[0], back[0], across[0], axes)
@@ -72,26 +105,44 @@ class Contacts(ContactSearch):
         loads = [limb.strip.weight_per_length * limb.strip.length for limb in robot.limbs]
         return max(
             sum(
-                max(
-                    self.resistance(Contact(i, "end", length, (0.0,), (0.0,), load), surface)[0]
+                self._grips[i].most[0] * max(
+                    self._dry(Contact(i, "end", length, (0.0,), (0.0,), load), surface)
                     for length in (0.0, limb.strip.length)
-                )
+                ) + self._grips[i].most[1]
                 for i, (limb, load) in enumerate(zip(robot.limbs, loads, strict=True))
             )
             for surface in _all_ways(ground)
-        )
+        )  # fmt: skip
 
-    def resistance(self, contact: Contact, surface: Surface) -> tuple[float, float]:
-        """Bound of friction [N] and viscous resistance [N s/m] of a contact."""
+    def resistance(
+        self, contact: Contact, surface: Surface, way: Way = "ahead", pressures: Any = None
+    ) -> tuple[float, float]:
+        """Bound of friction [N] and viscous resistance [N s/m] of a contact.
+
+        Args:
+            contact: one.
+            surface: under it, alike in all directions.
+            way: of the motion, which feet may resist otherwise.
+            pressures: see resistances.
+        """
+        width, grip = self._limbs[contact.limb].width, self._grips[contact.limb]
+        bound = self._dry(contact, surface)
+        if grip.feet:
+            half = 0.5 * contact.length
+            stretch = contact.middle - half, contact.middle + half
+            mean, hold = grip.over(way, stretch, pressures)
+            bound = mean * bound + hold
+        return bound, float(surface.drag(width, contact.length))
+
+    def _dry(self, contact: Contact, surface: Surface) -> float:
+        """Bound of a contact by the ground alone [N]."""
         limb = self._limbs[contact.limb]
-        width = limb.width
         if 0 < contact.length <= SHORT * limb.length and not self._law.needs_load:
-            # no area: what rounding leaves would be the only bound there is
-            return 0.0, 0.0
-        bound = self._law.bound(surface, width, contact.length, contact.load)
+            return 0.0  # no area: what rounding leaves would be the only bound there is
+        bound = self._law.bound(surface, limb.width, contact.length, contact.load)
         if not contact.length and not self._law.needs_load:
             bound *= limb.share
-        return float(bound), float(surface.drag(width, contact.length))
+        return float(bound)
 
     def radius(self, contact: Contact) -> float:
         """Mean distance from its middle of what resists, 0 of a point [m]."""
