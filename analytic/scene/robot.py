@@ -63,7 +63,8 @@ class Robot:
     torsion: float | None = None
     """GJ, torsional rigidity of a limb, in place of that of its solid section [N m^2]"""
     feet: tuple[Foot, ...] = ()
-    """stretches of its underside that resist otherwise than its skin"""
+    """stretches of its underside that resist otherwise than its skin: tables of begin, end, grip,
+    grip_back, grip_across, hold and chamber; as an option 0..0.1 grip_back=2, 1..1 hold=50mN"""
 
     def __post_init__(self) -> None:
         in_si(self)

@@ -176,8 +176,8 @@ def _check(name: str) -> None:
         raise ValueError(
             f"key {key!r} of {name!r} is unknown; known are {', '.join(SURFACE_FIELDS)}"
         )
-    if key == "segments":
-        raise ValueError("robot.segments cannot be fitted")
+    if key in ("segments", "feet"):
+        raise ValueError(f"robot.{key} cannot be fitted")
 
 
 def unit_of(name: str) -> str:

@@ -3,16 +3,19 @@
 from dataclasses import replace
 from pathlib import Path
 
+import mujoco
 import pytest
 
 from analytic import SURFACES, Robot
 from analytic.scene.feet import Foot
-from mjsim.files.tables import build, read_tables
+from mjsim.files.options import SceneOptions, tables_of
+from mjsim.files.tables import build, merged, read_tables
 from mjsim.files.written import as_tables
 from mjsim.model.standalone import standalone_spec
+from mjsim.pictures.camera import look
 from mjsim.results.measures import measure
 from mjsim.results.prediction import reference
-from mjsim.scene import Numerics, Scene
+from mjsim.scene import Numerics, Scene, resolved
 from mjsim.simulation.batch_layout import refusal
 from mjsim.simulation.simulation import simulate
 
@@ -64,3 +67,28 @@ def test_what_does_not_know_feet_says_so():
         replace(scene, ground=SURFACES["felt"], friction="coulomb")
     with pytest.raises(ValueError, match="chamber of a foot"):
         Scene(Robot(feet=(Foot(0, 1, chamber="4"),)))
+
+
+def test_feet_of_an_option_are_those_of_a_file():
+    text = "0..0 hold=50 mN chamber=left, 1..1 hold=50mN chamber=right"
+    bare = read_tables(EXAMPLES / FILES[1])
+    bare["robot"].pop("feet")
+    tables = merged(bare, *tables_of(with_feet(text)))
+    assert build(tables)[0].strip == example(FILES[1])[0].strip
+    for wrong, words in (("left", "must be such as"), ("0..1 grib=2", "did you mean grip"),
+                         ("0..x", "end must be a number")):  # fmt: skip
+        with pytest.raises(ValueError, match=words):
+            build(tables_of(with_feet(wrong))[0])
+
+
+def with_feet(text):
+    options = SceneOptions()
+    return replace(options, robot_=replace(options.robot_, feet=text))
+
+
+def test_pictures_show_a_block_along_all_of_a_foot():
+    scene, numerics = example(FILES[0])
+    model = look(scene, resolved(scene, numerics), 0.2).model
+    boxes = (model.geom_type == mujoco.mjtGeom.mjGEOM_BOX) & (model.geom_bodyid > 0)
+    length = scene.strip.length
+    assert 2.0 * model.geom_size[boxes, 0].sum() == pytest.approx(0.2 * length)
