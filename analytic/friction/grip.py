@@ -110,7 +110,10 @@ class Grip:
         if column is None:
             return 1.0
         if pressures is None:
-            raise ValueError("feet that a chamber switches need pressures, which modes do not give")
+            raise ValueError(
+                "feet that a chamber switches need the pressures of shapes, which this solver does "
+                "not give"
+            )
         return low(0.0, high(1.0, pressures[column] / self._peak))
 
 

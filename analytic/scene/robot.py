@@ -76,6 +76,8 @@ class Robot:
         for length in self.segments:
             positive("segments' lengths", length)
         object.__setattr__(self, "segments", tuple(float(part) for part in self.segments))
+        if isinstance(self.feet, str) or not hasattr(self.feet, "__iter__"):
+            raise ValueError(f"feet must be Foot, or tables of its fields, got {self.feet!r}")
         object.__setattr__(self, "feet", in_order(self.feet))
         for field in fields(self):
             value = getattr(self, field.name)

@@ -157,7 +157,7 @@ def test_an_arch_between_switched_anchors_nets_the_separation_from_swap_to_swap(
 
 def test_modes_know_no_pressures_that_switch_feet():
     robot, _ = inchworm()
-    with pytest.raises(ValueError, match="switches need pressures"):
+    with pytest.raises(ValueError, match="switches need the pressures"):
         predict(replace(robot, segments=(1, 1, 1)), GAITS["wave"], GROUND, "modes")
 
 
@@ -170,7 +170,11 @@ def test_modes_know_no_pressures_that_switch_feet():
     ([{"begin": 0, "end": 0.5}, {"begin": 0.4, "end": 1}], "must not overlap"),
     ([{"begin": 0, "end": 0}, {"begin": 0, "end": 1}], "must not overlap"),
     ([{"begin": 0, "end": 1, "chamber": "midle"}], "did you mean middle"),
+    ([{"begin": 0, "end": 1, "grib": 2}], "did you mean grip"),
+    ([{"begin": 0}], "end of a foot is missing"),
+    ([3], "feet must be Foot"),
+    ("left", "feet must be Foot"),
 ])  # fmt: skip
 def test_what_is_no_foot_is_refused_in_one_line(feet, words):
     with pytest.raises(ValueError, match=words):
-        predict(shod(*[Foot(**foot) for foot in feet]), ARCH, GROUND, states_per_ramp=1)
+        predict(Robot(feet=feet), ARCH, GROUND, states_per_ramp=1)

@@ -15,6 +15,7 @@ from mjsim.model.standalone import standalone_spec
 from mjsim.pictures.camera import look
 from mjsim.results.measures import measure
 from mjsim.results.prediction import reference
+from mjsim.results.trajectory import load
 from mjsim.scene import Numerics, Scene, resolved
 from mjsim.simulation.batch_layout import refusal
 from mjsim.simulation.simulation import simulate
@@ -43,11 +44,14 @@ def test_a_foot_everywhere_is_ground_that_is_scaled(friction, contacts):
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_crawlers_on_feet_go_as_far_as_the_theory_says(name):
+def test_crawlers_on_feet_go_as_far_as_the_theory_says_and_are_read_back(name, tmp_path):
     scene, numerics = example(name)
     expected = reference(scene).displacement[0]
     assert expected > 0.1
-    assert measure(simulate(scene, numerics)).displacement == pytest.approx(expected, rel=0.02)
+    walk = simulate(scene, numerics)
+    assert measure(walk).displacement == pytest.approx(expected, rel=0.02)
+    walk.save(tmp_path / "walk.nc")
+    assert load(tmp_path / "walk.nc").scene == scene
 
 
 @pytest.mark.parametrize("name", FILES)
