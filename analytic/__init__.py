@@ -16,6 +16,7 @@ __getattr__, __dir__, __all__ = lazily(
         "analytic.friction.laws": ("LAWS", "Friction", "TractionLaw"),
         "analytic.locomotion": ("Direction", "Locomotion", "direction", "displacements"),
         "analytic.prediction": ("Prediction", "predict"),
+        "analytic.scene.feet": ("Foot",),
         "analytic.scene.gait": ("GAITS", "Gait"),
         "analytic.scene.ground": ("Patches",),
         "analytic.scene.limbs": ("Limb", "LimbedRobot", "quadruped"),

@@ -20,6 +20,7 @@ from mjsim.scene import Numerics, Scene, resolved
 from mjsim.simulation.batch_layout import refusal
 from mjsim.simulation.simulation import simulate
 
+GROUND = SURFACES["polyethylene"]
 EXAMPLES = Path(__file__).parents[3] / "examples"
 FILES = "directional_feet.toml", "anchored_inchworm.toml"
 
@@ -28,19 +29,25 @@ def example(name):
     return build(read_tables(EXAMPLES / name))
 
 
+def napped(surface):
+    keys = ("tip_force", "shear_strength", "friction", "tip_friction")
+    return replace(surface, **{f"{key}_back": 2.0 * getattr(surface, key) for key in keys})
+
+
 @pytest.mark.parametrize("friction", ["constant", "coulomb"])
 @pytest.mark.parametrize("contacts", ["ends", "all"])
-def test_a_foot_everywhere_is_ground_that_is_scaled(friction, contacts):
-    """By a power of two, which rounds nothing."""
-    surface = SURFACES["polyethylene"]
+@pytest.mark.parametrize(("foot", "ground"), [
+    (Foot(0, 1, grip=0.5), GROUND.scaled(0.5)), (Foot(0, 1, grip_back=2.0), napped(GROUND)),
+])  # fmt: skip
+def test_a_foot_everywhere_is_ground_that_is_scaled_or_has_a_nap(friction, contacts, foot, ground):
+    """By powers of two, which round nothing."""
     scenes = [
-        Scene(robot, ground=ground, friction=friction, contacts=contacts)
-        for robot, ground in ((Robot(feet=(Foot(0, 1, grip=0.5),)), surface),
-                              (Robot(), surface.scaled(0.5)))
-    ]  # fmt: skip
+        Scene(robot, ground=under, friction=friction, contacts=contacts)
+        for robot, under in ((Robot(feet=(foot,)), GROUND), (Robot(), ground))
+    ]
     numerics = Numerics(timestep=0.02, links=12) if friction == "constant" else Numerics()
-    shod, scaled = (simulate(scene, numerics).position for scene in scenes)
-    assert (shod == scaled).all()
+    shod, other = (simulate(scene, numerics).position for scene in scenes)
+    assert (shod == other).all()
 
 
 @pytest.mark.parametrize("name", FILES)
