@@ -19,6 +19,7 @@ __getattr__, __dir__, __all__ = lazily(
         "analytic.locomotion": ("Direction", "Locomotion", "direction", "displacements"),
         "analytic.prediction": ("Prediction", "predict"),
         "analytic.scene.actuator": ("Actuator",),
+        "analytic.scene.feet": ("Foot",),
         "analytic.scene.gait": ("GAITS", "Gait"),
         "analytic.scene.ground": ("Patches",),
         "analytic.scene.limbs": ("Limb", "LimbedRobot", "quadruped"),

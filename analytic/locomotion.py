@@ -6,10 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.contact_length import end_loads
+from analytic.friction.grip import Grip, pressures_of
 from analytic.friction.laws import LAWS, Friction, slip_fraction
 from analytic.friction.motion import motion
-from analytic.scene.ground import is_round, over
-from analytic.scene.surface import Ground, Surface, Way
+from analytic.scene.ground import over
+from analytic.scene.surface import Ground, Surface
 from analytic.shapes import ContactShapes, Shapes
 
 Array = NDArray[np.float64]
@@ -86,7 +87,8 @@ def _on_uniform(shapes: Shapes, surface: Surface, friction: Friction) -> tuple[A
     before, after = (slip_fraction(*ends, downhill, change > 0) for ends in sides)
     slip = 0.5 * (before + after)
     switches = before != after
-    if not surface.is_round:  # where the separation turns, the other end's turn may come
+    if not Grip(shapes.robot, LAWS[friction.law]).is_round(surface):
+        # where the separation turns, the other end's turn may come
         turns = (np.diff(np.sign(change)) != 0) & (np.diff(slip) != 0)
         switches[1:] |= turns
         switches[:-1] |= turns
@@ -102,33 +104,34 @@ def _resisting(
         shapes, surface, law: see bounds.
         growing: whether the separation grows in the increment, (B - 1,).
     """
-    ahead = bounds(shapes, surface.against("ahead"), law)
-    back = ahead if surface.is_round else bounds(shapes, surface.against("back"), law)
     left, right = (
-        [np.where(way, back[end][part], ahead[end][part]) for part in (slice(-1), slice(1, None))]
-        for end, way in ((0, growing), (1, ~growing))
-    )
+        [np.where(way, back[part], ahead[part]) for part in (slice(-1), slice(1, None))]
+        for (ahead, back), way in zip(_both_ways(shapes, surface, law), (growing, ~growing),
+                                      strict=True)
+    )  # fmt: skip
     return (left[0], right[0]), (left[1], right[1])
 
 
 def _along(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, Mask]:
     """See `left_end`, for ground that changes under the robot."""
-    law, width = LAWS[friction.law], shapes.robot.width
+    grip, stretches = Grip(shapes.robot, LAWS[friction.law]), _stretches(shapes)
     contact, load = _ends(shapes, friction.law)
+    pressures = pressures_of(shapes)
     downhill = friction.downhill(shapes.robot)
     left = np.zeros(len(shapes))
     changes, before = np.zeros(len(shapes) - 1, dtype=bool), 0.5
-    directed = not is_round(ground)
     for i, separation in enumerate(shapes.separation[:-1]):
         change = shapes.separation[i + 1] - separation
         slips, surfaces, x = [], [], left[i]
-        ways: tuple[Way, Way] = ("back", "ahead") if change > 0 else ("ahead", "back")
+        ways = (1, 0) if change > 0 else (0, 1)  # back or ahead
         for j in (i, i + 1):
             right = x + shapes.separation[j]
             under = over(ground, x, x + contact[0][j]), over(ground, right - contact[1][j], right)
-            if directed:
-                under = under[0].against(ways[0]), under[1].against(ways[1])
-            ends = (law.bound(under[k], width, contact[k][j], load[k][j]) for k in (0, 1))
+            state = None if pressures is None else pressures[:, j]
+            ends = (
+                grip.both_ways(under[k], contact[k][j], load[k][j], stretches[k][j], state)[ways[k]]
+                for k in (0, 1)
+            )
             slips.append(slip_fraction(next(ends), next(ends), downhill, change > 0))
             surfaces.append((ground.at(x), ground.at(right)))
             x = left[i] - slips[0] * change  # where the second state would be by the first's rule
@@ -152,11 +155,28 @@ def bounds(shapes: Shapes, surface: Surface, law: str) -> tuple[Array, Array]:
     Raises:
         ValueError: the law needs contact forces and the shapes have none.
     """
-    contact, load = _ends(shapes, law)
+    (left, _), (right, _) = _both_ways(shapes, surface, law)
+    return left, right
+
+
+def _both_ways(
+    shapes: Shapes, surface: Surface, law: str
+) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+    """Bounds of the left end, ahead and back, and of the right end, (B,) each [N]; see bounds."""
+    grip, (contact, load) = Grip(shapes.robot, LAWS[law]), _ends(shapes, law)
+    pressures = pressures_of(shapes)
     left, right = (
-        LAWS[law].bound(surface, shapes.robot.width, contact[end], load[end]) for end in (0, 1)
+        grip.both_ways(surface, contact[end], load[end], tuple(stretch.T), pressures)
+        for end, stretch in enumerate(_stretches(shapes))
     )
-    return np.asarray(left), np.asarray(right)
+    return left, right
+
+
+def _stretches(shapes: Shapes) -> tuple[Array, Array]:
+    """Arclengths between which the left and the right end touch, (B, 2) each [m]."""
+    zero, length = np.zeros(len(shapes)), np.full(len(shapes), shapes.robot.length)
+    left, right = shapes.contact_left, shapes.robot.length - shapes.contact_right
+    return np.stack([zero, left], axis=1), np.stack([right, length], axis=1)
 
 
 def _ends(shapes: Shapes, law: str) -> tuple[tuple[Array, Array], tuple[Array, Array]]:

@@ -35,7 +35,10 @@ class StripContact(NamedTuple):
     load: float
 
     def extent(self, x: Array) -> tuple[float, float]:
-        """Places where the contact begins and ends, from those of all nodes, (N,) [m]."""
+        """Places where the contact begins and ends, from those of all nodes, (N,) [m].
+
+        Of arclengths of the nodes the stretch of the strip that touches.
+        """
         place = float(np.dot(self.share, x[self.nodes]))
         if self.nodes == [0]:
             return place, place + self.length

@@ -5,7 +5,8 @@ from numpy.typing import NDArray
 
 from analytic.friction.contacts import StripContact, contacts_of
 from analytic.friction.dissipation import least_dissipation, minimisers
-from analytic.friction.laws import LAWS, Friction, bounds_both_ways
+from analytic.friction.grip import Grip
+from analytic.friction.laws import LAWS, Friction
 from analytic.scene.ground import over
 from analytic.scene.surface import Ground
 from analytic.shapes import ContactShapes, Shapes
@@ -31,7 +32,7 @@ def motion(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, M
             "friction at all contacts needs contact forces, which the modes do not give"
         )
     x, contacts = _contacts(shapes, friction.roughness)
-    count = len(shapes)
+    strip, count = _Strip(shapes, ground, friction), len(shapes)
     left = np.zeros(count)
     changes = np.zeros(count - 1, dtype=bool)
     for i in range(count - 1):
@@ -40,8 +41,8 @@ def motion(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array, M
             left[i + 1 :] = np.nan
             break
         step = x[i + 1] - x[i]
-        sides = [_slide(state, x[i] + left[i], step, ground, shapes.robot.width, friction)
-                 for state in pair]  # fmt: skip
+        sides = [strip.slide(touching, i + j, x[i] + left[i], step)
+                 for j, touching in enumerate(pair)]  # fmt: skip
         (begin, begin_open, begin_stuck), (end, end_open, end_stuck) = sides
         left[i + 1] = left[i] + 0.5 * (begin + end)
         moved = abs(begin_stuck - end_stuck) > 1.5 * float(np.diff(shapes.nodes).max())
@@ -64,13 +65,13 @@ def undecided_motion(shapes: ContactShapes, ground: Ground, friction: Friction) 
     """
     x, contacts = _contacts(shapes, friction.roughness)
     left = motion(shapes, ground, friction)[0] if shapes.left is None else shapes.left
-    width, total = shapes.robot.width, 0.0
+    strip, total = _Strip(shapes, ground, friction), 0.0
     for i in range(len(shapes) - 1):
         pair = contacts[i : i + 2]
         if all(pair):
             step, place = x[i + 1] - x[i], x[i] + left[i]
-            ranges = (_open(*_resistance(state, place, step, ground, width, friction), friction)
-                      for state in pair)  # fmt: skip
+            ranges = (_open(*strip.resistance(touching, i + j, place, step), friction)
+                      for j, touching in enumerate(pair))  # fmt: skip
             total += 0.5 * min(ranges)
     return total
 
@@ -93,38 +94,46 @@ def _open(bounds: Array, back: Array, moves: Array, friction: Friction) -> float
     return 0.0 if decided else float(moves.max() - moves.min())
 
 
-def _slide(
-    contacts: list[StripContact],
-    x: Array,
-    step: Array,
-    ground: Ground,
-    width: float,
-    friction: Friction,
-) -> tuple[float, bool, float]:
-    """Motion in an increment [m], whether bounds leave it open, and where a contact sticks [m]."""
-    bounds, back, moves = _resistance(contacts, x, step, ground, width, friction)
-    low, high = minimisers(bounds.tolist(), moves.tolist(), back.tolist())
-    whole = least_dissipation(bounds, moves, back)
-    stuck = contacts[int(np.argmin(np.abs(whole + moves)))]
-    place = float(stuck.share @ x[stuck.nodes])
-    return whole, high > low and moves.max() > moves.min(), place
+class _Strip:
+    """Contacts of a strip on a ground.
 
+    Args:
+        shapes: states.
+        ground: under the left end at x = 0 and on both sides of it.
+        friction: law.
+    """
 
-def _resistance(
-    contacts: list[StripContact],
-    x: Array,
-    step: Array,
-    ground: Ground,
-    width: float,
-    friction: Friction,
-) -> tuple[Array, Array, Array]:
-    """Bounds of contacts ahead and back [N], and their moves by the shape alone [m], (C,) each."""
-    law = LAWS[friction.law]
-    bounds = np.array([
-        bounds_both_ways(
-            law, over(ground, *contact.extent(x)), width, contact.length, contact.load
-        )
-        for contact in contacts
-    ])  # fmt: skip
-    moves = np.array([contact.share @ step[contact.nodes] for contact in contacts])
-    return bounds[:, 0], bounds[:, 1], moves
+    def __init__(self, shapes: ContactShapes, ground: Ground, friction: Friction) -> None:
+        self._grip = Grip(shapes.robot, LAWS[friction.law])
+        self._nodes, self._pressures, self._ground = shapes.nodes, shapes.pressures, ground
+
+    def slide(
+        self, contacts: list[StripContact], state: int, x: Array, step: Array
+    ) -> tuple[float, bool, float]:
+        """Motion in an increment [m], whether bounds leave it open, and where one sticks [m]."""
+        bounds, back, moves = self.resistance(contacts, state, x, step)
+        low, high = minimisers(bounds.tolist(), moves.tolist(), back.tolist())
+        whole = least_dissipation(bounds, moves, back)
+        stuck = contacts[int(np.argmin(np.abs(whole + moves)))]
+        place = float(stuck.share @ x[stuck.nodes])
+        return whole, high > low and moves.max() > moves.min(), place
+
+    def resistance(
+        self, contacts: list[StripContact], state: int, x: Array, step: Array
+    ) -> tuple[Array, Array, Array]:
+        """Bounds of contacts ahead and back [N], and moves by the shape alone [m], (C,) each.
+
+        Args:
+            contacts: of the state of a number.
+            state: that number.
+            x, step: places of the nodes, and by how much the shape moves them, (N,) [m].
+        """
+        bounds = np.array([
+            self._grip.both_ways(
+                over(self._ground, *contact.extent(x)), contact.length, contact.load,
+                contact.extent(self._nodes), self._pressures[state],
+            )
+            for contact in contacts
+        ])  # fmt: skip
+        moves = np.array([contact.share @ step[contact.nodes] for contact in contacts])
+        return bounds[:, 0], bounds[:, 1], moves

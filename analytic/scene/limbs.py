@@ -260,7 +260,13 @@ def quadruped(base: Robot | None = None, angle: float = LEG_ANGLE) -> LimbedRobo
 
 
 def as_strip(strip: Robot) -> LimbedRobot:
-    """A strip of three segments as a torso with a leg before and one behind, to verify by."""
+    """A strip of three segments as a torso with a leg before and one behind, to verify by.
+
+    Raises:
+        ValueError: it has feet, whose places are along the whole strip.
+    """
+    if strip.feet:
+        raise ValueError("a strip as limbs must have no feet; give the limbs theirs")
     lengths = strip.length * np.diff(strip.borders)
     rear, middle, front = (replace(strip, length=float(part), segments=(1.0,)) for part in lengths)
     return LimbedRobot(

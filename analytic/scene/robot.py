@@ -6,6 +6,7 @@ from itertools import accumulate
 from analytic.checks import one_of, positive
 from analytic.fields import in_si
 from analytic.scene.actuator import Actuator
+from analytic.scene.feet import Foot, in_order
 from analytic.scene.materials import MATERIALS
 
 PSI = 6894.757293168  # Pa in a pound-force per square inch (NIST SP 811)
@@ -14,7 +15,7 @@ THREE_EQUAL = (1.0, 1.0, 1.0)  # [Majidi13], section 2.3
 
 _THREE = ("left", "middle", "right")
 _OPTIONAL = ("mass", "rigidity", "curvature_per_pressure", "rigidity_per_pressure", "torsion")
-_OTHERS = ("segments", "material", "actuator")  # fields that are no number
+_OTHERS = ("segments", "material", "actuator", "feet")  # fields that are no number
 _SAME = 1e-9  # of a modulus that is given and follows from the actuator too
 
 
@@ -34,7 +35,7 @@ class Robot:
 
     Raises:
         ValueError: a value is not a positive finite number, there is no segment, chamber_fraction
-            exceeds 1, or one quantity is given in two ways.
+            exceeds 1, one quantity is given in two ways, or feet overlap.
     """
 
     length: float = 0.130
@@ -71,6 +72,9 @@ class Robot:
     actuator: Actuator | tuple[Actuator, ...] | None = None
     """curvature, and rigidity where it was measured, over pressure, in place of what the chambers
     give: files of pressure and angle or curvature, one for all segments or one per segment"""
+    feet: tuple[Foot, ...] = ()
+    """stretches of its underside that resist otherwise than its skin: tables of begin, end, grip,
+    grip_back, grip_across, hold and chamber; as an option 0..0.1 grip_back=2, 1..1 hold=50mN"""
 
     def __post_init__(self) -> None:
         in_si(self)
@@ -82,6 +86,9 @@ class Robot:
         for length in self.segments:
             positive("segments' lengths", length)
         object.__setattr__(self, "segments", tuple(float(part) for part in self.segments))
+        if isinstance(self.feet, str) or not hasattr(self.feet, "__iter__"):
+            raise ValueError(f"feet must be Foot, or tables of its fields, got {self.feet!r}")
+        object.__setattr__(self, "feet", in_order(self.feet))
         for field in fields(self):
             value = getattr(self, field.name)
             if field.name in _OTHERS or (value is None and field.name in _OPTIONAL):

@@ -113,6 +113,11 @@ class Surface:
             for name in DIRECTED for way in ("back", "across")
         )  # fmt: skip
 
+    @property
+    def ahead_is_the_robots(self) -> bool:
+        """True unless it has a nap of its own; of round ground, on which feet may have one."""
+        return self.nap == "robot" or self.is_round
+
     def against(self, way: Way) -> "Surface":
         """The surface that resists in all directions as this one does against motion one way."""
         return _against(self, way)

@@ -4,7 +4,7 @@ The next state minimises
 
     E(q) + sum over contacts of V_c |x_c(q) - x_c|    over    y_k(q) >= 0,
 
-(b V_c where a contact slides back),
+(b V_c where a contact slides back; b and V_c by the contact's feet, see strip.py),
 
 with the strip as n equal rigid links of length h, q = (y of the left end, directions, x of the left
 end), and E the bending of n - 1 springs and the weight on the n + 1 nodes. Nodes that the ground
@@ -33,12 +33,13 @@ _DEPTH = 5  # halvings of an increment in which contacts change
 
 @dataclass
 class Contact:
-    """Nodes pushed in a row, their parts of the force, length and bound."""
+    """Nodes pushed in a row, their parts of the force, length and bounds ahead and back."""
 
     nodes: NDArray[np.int_]
     share: Array
     length: float
     bound: float
+    back: float
 
 
 @dataclass
@@ -68,10 +69,12 @@ class Chain:
         middles = (np.arange(2 * links) + 0.5) * 0.5 * self.h
         self.segment = np.minimum(np.searchsorted(ends, middles), len(ends) - 1)
         self.k, self.rest = np.zeros(links - 1), np.zeros(links - 1)
+        self.pressure = np.zeros(len(ends))
 
     def load(self, pressure: Array) -> None:
         """Springs: two half links in series at each joint."""
-        d, kappa = self.strip.bending(np.asarray(pressure, float))
+        self.pressure = np.asarray(pressure, float)
+        d, kappa = self.strip.bending(self.pressure)
         d, kappa = d / (self.unit * self.strip.length**2), kappa * self.strip.length
         half = 0.5 * self.h
         left, right = self.segment[1:-1:2], self.segment[2:-1:2]
@@ -113,7 +116,12 @@ class Chain:
                 bound = self.strip.side(begin, end)
             else:
                 bound = self.strip.tip(place)
-            found.append(Contact(run, share, length, bound / self.unit))
+            part, middle = length / self.strip.length, float(share @ (run * self.h))
+            start = middle - 0.5 * part
+            if run[0] == 0 or run[-1] == self.links:
+                start = 0.0 if run[0] == 0 else 1.0 - part
+            bounds = self.strip.shod(bound, start, start + part, self.pressure) / self.unit
+            found.append(Contact(run, share, length, bounds[0], self.strip.back * bounds[1]))
         return found
 
     def _passive(self, run: NDArray[np.int_]) -> bool:
@@ -168,6 +176,7 @@ class Chain:
         for row, contact in zip(share, contacts, strict=True):
             row[contact.nodes] = contact.share
         bound = np.array([contact.bound for contact in contacts])
+        ratio = np.array([c.back / c.bound if c.bound > 0 else 1.0 for c in contacts])
         at = share @ self.places(before.q)[0]
         beyond = share.sum(axis=1)[:, None] - np.cumsum(share, axis=1)[:, :-1]  # after link i
         q, force, pull = before.q.copy(), before.force.copy(), np.zeros(count)
@@ -203,7 +212,7 @@ class Chain:
                 return None
             free, response = solution[:, 0], solution[:, 1:]
             gap = share @ x - at + shift @ free[place]
-            found = friction(gap, shift @ response[place], bound, slips, self.strip.back)
+            found = friction(gap, shift @ response[place], bound, slips, ratio)
             if found is None:
                 return None
             pull, whole, slips = found

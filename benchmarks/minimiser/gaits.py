@@ -1,11 +1,13 @@
 """Theory against an independent minimiser on random gaits through low pressures.
 
-    python benchmarks/minimiser/gaits.py [--theory] [--nap] [COUNT]
+    python benchmarks/minimiser/gaits.py [--theory] [--nap] [--feet] [COUNT]
 
 Gaits of three segments that start inflated or pass through pressures of a few per cent: of even
 seeds on uniform ground at Phi of 1.5 to 4, of odd ones on two to four patches at Phi of 0.1 to 1.5;
 with --nap, seeds from 1000 on, through half the pressure, on uniform ground that resists otherwise
-back than ahead, by half the links.
+back than ahead, by half the links; with --feet, seeds from 2000 on, likewise on ground that is
+round, with two or three feet, some unlike ahead and back, some with a bound of their own, some
+switched.
 The minimiser (chain.py beside this file) is numpy and scipy alone, of 99 links, and of 198 where
 it differs. Adds what is missing of the first COUNT (40) seeds to gaits.csv, a row as it is done,
 and prints how many agree within 3 % or 0.0005 L. A row of a seed is made anew by deleting it; with
@@ -28,6 +30,7 @@ from mjsim.results.prediction import HALF, displacement, error_bars, prediction,
 
 ROWS = Path(__file__).with_name("gaits.csv")
 NAP = 1000  # seeds from here on are of ground with a nap
+FEET = 2000  # and from here on of strips with feet
 COUNT, COARSE, LINKS, FINER, STATES = 40, 48, 99, 198, 60
 RELATIVE, ABSOLUTE = 0.03, 5e-4  # of the distance; over L
 LOW = (0.02, 0.05, 0.1)  # of the peak pressure
@@ -60,6 +63,9 @@ def tables(seed: int) -> dict[str, Any]:
     if seed >= NAP:
         stages[np.isin(stages, LOW)] = 0.5
         stages[0] = 0.0
+        if seed >= FEET:  # which go farther
+            stages = rng.choice([0.0, 0.5, 1.0], (4, 3))
+            stages[0] = 0.0
     elif not (stages[0].any() or np.isin(stages, LOW).any()):
         stages[0, int(rng.integers(3))] = 1.0
     peak = round(float(rng.uniform(25e3, 48e3)))
@@ -79,18 +85,44 @@ def tables(seed: int) -> dict[str, Any]:
         if number:
             patch["from"] = float(round(places[number - 1], 4))
         patches.append(patch)
-    if seed >= NAP:
+    if NAP <= seed < FEET:
         backward = float(np.exp(rng.uniform(-1, 1) * np.log(5.0)))
         for key in ("tip_force", "shear_strength"):
             value = patches[0][key] / max(backward, 1.0)
             patches[0][key] = {"ahead": value, "back": backward * value}
+    feet = {"feet": _feet(rng, unit)} if seed >= FEET else {}
     closed = [*stages.tolist(), stages[0].tolist()]
     return {
         "robot": {"peak_pressure": float(peak),
-                  "weight_per_length": round(float(rng.uniform(0.9, 2.0)), 3)},
+                  "weight_per_length": round(float(rng.uniform(0.9, 2.0)), 3), **feet},
         "gait": {"stages": closed, "ramp_time": 8.0},
         "ground": patches[0] if uniform else {"patches": patches},
     }  # fmt: skip
+
+
+def _feet(rng: np.random.Generator, unit: float) -> list[dict[str, Any]]:
+    """Two or three feet as tables, not stronger than a unit [N] by far."""
+    edges = [0.0, *np.sort(rng.uniform(0.1, 0.9, 4)).round(3).tolist(), 1.0]
+    feet = []
+    for begin, end in list(zip(edges[::2], edges[1::2], strict=True))[: int(rng.integers(2, 4))]:
+        ahead, ratio = np.exp(rng.uniform(-1, 1, 2) * np.log(3.0)).tolist()
+        foot = {"begin": begin, "end": end, "grip": round(ahead, 3)}
+        if rng.random() < 0.5:
+            foot["grip_back"] = round(ahead * ratio, 3)
+        if rng.random() < 0.5:
+            foot["hold"] = float(rng.uniform(0.1, 0.5) * unit)
+        if rng.random() < 0.5:
+            foot["chamber"] = str(rng.choice(["left", "middle", "right"]))
+        feet.append(foot)
+    return feet
+
+
+def _foot(table: dict[str, Any]) -> tuple[float, float, float, float, float, int]:
+    """Numbers of a foot as the minimiser takes them."""
+    chambers = ("left", "middle", "right")
+    segment = chambers.index(table["chamber"]) if "chamber" in table else -1
+    grips = table["grip"], table.get("grip_back", table["grip"])
+    return table["begin"], table["end"], *grips, table.get("hold", 0.0), segment
 
 
 def by_minimiser(scene: dict[str, Any], links: int = LINKS, states: int = STATES) -> Walk:
@@ -103,12 +135,13 @@ def by_minimiser(scene: dict[str, Any], links: int = LINKS, states: int = STATES
         ahead = {k: patches[0][k]["ahead"] for k in ("tip_force", "shear_strength")}
         patches = [ahead]
     strip = Strip(
-        back=backward,
+        back=backward, peak=scene["robot"]["peak_pressure"],
+        feet=tuple(map(_foot, scene["robot"].get("feet", []))),
         weight_per_length=scene["robot"]["weight_per_length"],
         borders=tuple(patch["from"] for patch in patches[1:]),
         tips=tuple(patch["tip_force"] for patch in patches),
         shears=tuple(patch["shear_strength"] for patch in patches),
-    )
+    )  # fmt: skip
     stages = np.array(scene["gait"]["stages"])
     return walk(strip, stages, scene["robot"]["peak_pressure"], states, 1, links)
 
@@ -158,7 +191,7 @@ def write(found: Row) -> None:
 
 def main(words: list[str]) -> None:
     counts = [int(word) for word in words if not word.startswith("-")]
-    first = NAP if "--nap" in words else 0
+    first = FEET if "--feet" in words else NAP if "--nap" in words else 0
     seeds, rows = range(first, first + (counts[0] if counts else COUNT)), read()
     if "--theory" in words:
         for seed, old in rows.items():

@@ -13,12 +13,16 @@ _SMALL = 1e-10
 
 
 def friction(
-    gap: Array, compliance: Array, bound: Array, before: tuple[int, ...], backward: float = 1.0
+    gap: Array,
+    compliance: Array,
+    bound: Array,
+    before: tuple[int, ...],
+    backward: Array | float = 1.0,
 ) -> tuple[Array, float, tuple[int, ...]] | None:
     """Friction t of each contact, motion U of the whole and slips, by trying all patterns of slips.
 
     s = g + U - K t, sum t = 0, -b V <= t <= V where s = 0, else t = V + c s ahead and -b V + c s
-    back, with c next to none and b = backward.
+    back, with c next to none and b = backward, of each.
     """
     count = len(bound)
     if not count:

@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+_PIECES = 2000  # of a contact
+
 
 @dataclass(frozen=True)
 class Strip:
@@ -25,6 +27,9 @@ class Strip:
     tips: tuple[float, ...] = (0.0,)  # V_t of each surface
     shears: tuple[float, ...] = (0.0,)  # tau
     back: float = 1.0  # bounds against motion back over those ahead
+    # begin and end over L, factors ahead and back, bound besides, segment that switches it or -1
+    feet: tuple[tuple[float, float, float, float, float, int], ...] = ()
+    peak: float = 1.0  # pressure at which feet are switched on [Pa]
 
     def bending(self, pressure: Array) -> tuple[Array, Array]:
         """D and natural curvature, equations (9) and (3)."""
@@ -42,3 +47,15 @@ class Strip:
         edges = np.array([-np.inf, *self.borders, np.inf])
         lengths = np.minimum(edges[1:], end) - np.maximum(edges[:-1], begin)
         return float(self.width * np.maximum(lengths, 0.0) @ np.array(self.shears))
+
+    def shod(self, bound: float, begin: float, end: float, pressure: Array) -> Array:
+        """Bounds ahead and back of a contact between two arclengths over L, summed over pieces."""
+        pieces = begin + (end - begin) * (np.arange(_PIECES) + 0.5) / _PIECES
+        grip, hold = np.ones((2, _PIECES)), 0.0
+        for first, last, ahead, back, holds, segment in self.feet:
+            on = 1.0 if segment < 0 else float(pressure[segment]) / self.peak
+            under = (first <= pieces) & (pieces <= last)
+            grip[:, under] = 1.0 + on * (np.array([[ahead], [back]]) - 1.0)
+            part = under.mean() * (end - begin) / (last - first) if end > begin else under.mean()
+            hold += on * holds * float(part)
+        return np.asarray(grip.mean(axis=1) * bound + hold)

@@ -50,7 +50,7 @@ def option(kind: Any, text: str, default: Any = None, alias: str | None = None) 
         help=text,
         aliases=(alias,) if alias else None,
         metavar=metavar,
-        help_behavior_hint="" if default is None else f"(default: {_shown(default)})",
+        help_behavior_hint="" if default in (None, ()) else f"(default: {_shown(default)})",
     )
     # text of a number, which may carry its unit; for X | None tyro would import typeguard
     return Annotated[Optional[str if kind is float else kind], argument]  # noqa: UP045

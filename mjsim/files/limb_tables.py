@@ -4,7 +4,7 @@
 [[robot.limbs]] in place of a name: name, and for all but the first `on`, the limb that carries
                 it, `at`, its "begin" or "end", `angle_deg` of its direction in plan, from the
                 ground's x to the left, `offset` to the left [m]; and fields of analytic.Robot of
-                its own over the shared ones: length, width, mass, segments, ...
+                its own over the shared ones: length, width, mass, segments, feet, ...
 
 A robot of one limb that points along x is a strip.
 """

@@ -1,5 +1,6 @@
 """Every field of a scene as an option of the command line."""
 
+import re
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Annotated, Any, Optional
@@ -126,6 +127,8 @@ def tables_of(options: SceneOptions) -> list[Tables]:
         robot["segments"] = words if isinstance(words, tuple) else (words,)
     if "actuator" in robot:
         robot["actuator"] = parts(robot["actuator"])
+    if "feet" in robot:
+        robot["feet"] = _feet(robot["feet"])
     if "ramp_time" in gait:
         gait["ramp_time"] = parts(gait["ramp_time"])
     if "columns" in gait:
@@ -154,6 +157,21 @@ def tables_of(options: SceneOptions) -> list[Tables]:
         return [merged(*layers, over)]
     names = list(SURFACES) if options.surface == ALL else options.surface.split(",")
     return [merged(*layers, {**over, "ground": {**ground, "surface": name}}) for name in names]
+
+
+def _feet(text: str) -> list[dict[str, Any]]:
+    """Tables of feet: "0..0.1 grip_back=2, 1..1 hold=50 mN chamber=right"."""
+    feet = []
+    for words in text.split(","):
+        place, *settings = re.split(r"\s+(?=\w+=)", words.strip())
+        begin, dots, end = place.partition("..")
+        if not dots or not all("=" in setting for setting in settings):
+            raise ValueError(
+                f"robot.feet must be such as '0..0.1 grip_back=2, 1..1 hold=50mN chamber=right', "
+                f"got {words.strip()!r}"
+            )
+        feet.append({"begin": begin, "end": end, **dict(s.split("=", 1) for s in settings)})
+    return feet
 
 
 def _stages(text: str) -> tuple[tuple[float, ...], ...]:

@@ -2,7 +2,7 @@
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import MISSING, fields
+from dataclasses import MISSING, fields, is_dataclass
 from numbers import Real
 from pathlib import Path
 from types import NoneType, UnionType
@@ -78,10 +78,26 @@ def as_type(hint: Any, value: Any, name: str, unit: str | None = None) -> Any:
             return value
         if get_origin(option) is tuple and isinstance(value, list | tuple):
             inner = get_args(option)[0]
+            if isinstance(inner, type) and is_dataclass(inner):
+                tables = enumerate(value, start=1)
+                return tuple(_record(inner, item, f"{name}, number {i}") for i, item in tables)
             return tuple(as_type(inner, item, f"{name}'s parts", unit) for item in value)
     if isinstance(value, str) and float in options:
         return in_unit(name, value, unit)
     raise ValueError(f"{name} must be {_described(options)}, got {value!r}")
+
+
+def _record(kind: type[Kind], value: Any, name: str) -> Kind:
+    """Make a dataclass of a table, or take one that is made.
+
+    Raises:
+        ValueError: it is neither.
+    """
+    if isinstance(value, kind):
+        return value
+    if not isinstance(value, Mapping):
+        raise ValueError(f"{name} must be a table, got {value!r}")
+    return make(kind, value, f"{name}: ")
 
 
 def _described(options: tuple[Any, ...]) -> str:

@@ -111,6 +111,7 @@ class BoundedContacts(BoundedFriction):
         self._finder = ContactFinder(scene.strip, nodes, scene.roughness, press)
         self._half = 0.5 * scene.strip.length
         self._tendons = node_tendons(model, len(nodes))
+        self._nodes = dict(zip(self._tendons, nodes.tolist(), strict=True))
         self._bounds[self._tendons] = 0.0
         self._resisting: list[int] = [self._both]
         self._averaged: list[int] = []  # nodes in the mean position

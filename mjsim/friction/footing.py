@@ -87,12 +87,16 @@ class StripFooting:
         self._thrown = thrown(scene, numerics)
 
     def prepare(self, pressures: Array) -> Sequence[Any]:
-        """Tell whether each end may lie on its side at each step, by its pressure."""
+        """Tell whether each end may lie on its side at each step, and what switches feet then."""
         flat = np.abs(pressures[:, [0, -1]]) <= self._flat
-        return list(flat.tolist())
+        if not self._law.grip.switched:
+            return list(flat.tolist())
+        return list(zip(*flat.T.tolist(), pressures.tolist(), strict=True))
 
     def before_step(self, prepared: Any) -> None:
         """See Footing.before_step."""
+        if self._law.grip.switched:
+            *prepared, self._law.pressures = prepared
         self._before(self._slopes(), *prepared)
 
     def after_step(self) -> tuple[float, ...]:

@@ -18,13 +18,13 @@ from numpy.typing import NDArray
 
 from analytic.friction.dissipation_in_plane import nap_of
 from analytic.scene.chain import link_lengths
-from analytic.scene.ground import is_round
 from analytic.scene.surface import Surface, Way
 from analytic.solvers.limbs.contact_search import Contact, parts_of
 from analytic.solvers.limbs.contacts import Contacts
 from analytic.solvers.limbs.kinematics import Tree
 from mjsim.friction.ceiling import CeilingPush
 from mjsim.friction.friction_rows import STANDS, Directions, FrictionRows
+from mjsim.friction.rigid_motion import rigid_motion
 from mjsim.model.limbs import contact_name, joints_to, limbed, link_prefix
 from mjsim.model.pads import edges, node_of_geom, pads_of
 from mjsim.results.status import THROWN
@@ -36,7 +36,6 @@ _WEAK = 0.005  # of all bounds and drags, that viscosity adds at most; chosen
 _TIPPED = 1.0  # rad of pitch or roll of the trunk as a whole: it fell over; chosen
 _STEEP, _LEANS = math.tan(_TIPPED), math.sin(_TIPPED)
 _YAW = 3  # of the coordinates
-_POINT = 1e-8  # m^2; points that are closer do not tell a turn
 
 
 class LimbFooting:
@@ -57,14 +56,15 @@ class LimbFooting:
         robot = limbed(scene)
         self._model, self._data, self._numerics = model, data, numerics
         self._ground, self._length = scene.ground, robot.length
-        self._round = is_round(scene.ground)
         self._ceiling = CeilingPush(model, data)
         self.columns = ("contacts", *self._ceiling.columns)
         self._tree = Tree(
             robot, numerics.links, numerics.twists, scene.incline, scene.ground.at(0.0)
         )
         self._finder = Contacts(self._tree, scene.friction)
+        self._round = self._finder.is_round(scene.ground)
         self.contacts: list[Contact] = []
+        self._pressures: list[float] = []
         self._touching = 0.0  # limbs
         parts = [(i, part) for i, limb in enumerate(robot.limbs) for part in parts_of(limb, robot)]
         self._rows = FrictionRows(
@@ -90,20 +90,21 @@ class LimbFooting:
         self._viscosity = mass / numerics.tie_time  # of all points together [N s/m]
         self._look()
 
-    def prepare(self, pressures: Array) -> list[list[list[int]]]:
-        """How the ends of each limb bend at each step, by its pressures."""
+    def prepare(self, pressures: Array) -> list[tuple[list[list[int]], list[float]]]:
+        """How the ends of each limb bend at each step by its pressures, and these [Pa]."""
         bends: list[list[list[int]]] = self._finder.bends(pressures).tolist()
-        return bends
+        return list(zip(bends, pressures.tolist(), strict=True))
 
-    def before_step(self, bends: list[list[int]]) -> None:
+    def before_step(self, prepared: tuple[list[list[int]], list[float]]) -> None:
         """Read the contacts, and set what resists in the next step.
 
         Places of the state now, forces of the step before.
 
         Args:
-            bends: how the two ends of each limb do, see analytic.solvers.limbs.contact_state.
+            prepared: how the two ends of each limb do, see analytic.solvers.limbs.contact_state;
+                and pressures in the chambers, which switch feet [Pa].
         """
-        rows = self._rows
+        rows, (bends, self._pressures) = self._rows, prepared
         self.contacts = self._finder.search(self._pushes(), self._heights, bends)
         rows.turn()
         numbers, bodies, offsets, radii = [], [], [], []
@@ -138,7 +139,7 @@ class LimbFooting:
         )
         heading = self._data.qpos.item(_YAW)
         grounds = (self._ground.at(place.real) for place in self._rows.places)
-        angles = np.array([heading if at.nap == "robot" else 0.0 for at in grounds])
+        angles = np.array([heading if at.ahead_is_the_robots else 0.0 for at in grounds])
         axes = np.stack([np.cos(angles), np.sin(angles)], axis=1)
         bounds, nap = nap_of(np.array(ahead[0]), np.array(back[0]), np.array(across[0]), axes)
         columns = np.concatenate([nap.scale.reshape(-1, 4), nap.lean], axis=1)
@@ -161,13 +162,15 @@ class LimbFooting:
     ) -> tuple[list[float], list[float]]:
         """Bounds [N] and viscous resistances [N s/m] of the contacts, each on one of the links.
 
-        Against motion one way where the ground has a nap.
+        Against motion one way where the ground or a foot has a nap.
         """
         ground, finder, bounds, drags = self._ground, self._finder, [], []
         if isinstance(ground, Surface):
             ground = ground.against(way) if way else ground
             for contact, speed in zip(self.contacts, self._rows.speeds, strict=True):
-                bound, drag = finder.resistance(contact, ground, speed)
+                bound, drag = finder.resistance(
+                    contact, ground, speed, way or "ahead", self._pressures
+                )
                 bounds.append(bound)
                 drags.append(drag)
             return bounds, drags
@@ -177,7 +180,7 @@ class LimbFooting:
             ahead, left = self._data.xmat[body, :2].tolist()
             along, aside = np.array(contact.at) - contact.middle, np.array(contact.aside)
             places = place.real + along * ahead + aside * left
-            of_points = finder.resistances([contact], ground, places, speed, way)
+            of_points = finder.resistances([contact], ground, places, speed, way, self._pressures)
             bounds.append(float(of_points[0].sum()))
             drags.append(float(of_points[1].sum()))
         return bounds, drags
@@ -270,32 +273,3 @@ class LimbFooting:
         qpos[1] -= shift.imag
         qpos[3] -= turn
         return touching
-
-
-def rigid_motion(
-    points: list[tuple[float, complex, complex]], origin: complex
-) -> tuple[complex, float]:
-    """Motion of a rigid body in the plane nearest to those of points, by weighted least squares.
-
-    With x + i y for (x, y) it minimises sum w |m - s - i r p|^2 over s and r:
-    r (sum w |p|^2 - |sum w p|^2 / W) = Im(sum w p* m - (sum w p)* (sum w m) / W), and
-    s = (sum w m - i r sum w p) / W, with W = sum w.
-
-    Args:
-        points: weight w, place and displacement m of each [1, m, m]; p is its place from o.
-        origin: o, about which the body turns [m].
-
-    Returns:
-        s and r [m, rad]; r is 0 where the points are too close to tell it.
-    """
-    total = square = 0.0
-    place = move = product = 0j
-    for weight, p, m in points:
-        p -= origin
-        total, place, move = total + weight, place + weight * p, move + weight * m
-        square += weight * (p.conjugate() * p).real
-        product += weight * (p.conjugate() * m)
-    spread = square - (place.conjugate() * place).real / total
-    turned = (product - place.conjugate() * move / total).imag
-    turn = turned / spread if spread > _POINT * total else 0.0
-    return (move - 1j * turn * place) / total, turn

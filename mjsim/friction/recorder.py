@@ -6,7 +6,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.scene.ground import depends_on_speed, is_round
+from analytic.friction.grip import Grip
+from analytic.friction.laws import LAWS
+from analytic.scene.ground import depends_on_speed
 from mjsim.friction.lean import Lean
 from mjsim.model.pads import node_of_geom, pads_by_node
 from mjsim.model.parts import PREFIX, TENDONS, tendon_names
@@ -41,7 +43,8 @@ class ContactRecorder:
         self._divisors = model.wrap_prm[begin : begin + model.tendon_num[both] : 3]
         self._coulomb = scene.friction == "coulomb"
         self._viscous = depends_on_speed(scene.ground)
-        self._lean = None if is_round(scene.ground) else Lean(model)
+        grip = Grip(scene.strip, LAWS[scene.friction])
+        self._lean = None if grip.is_round(scene.ground) else Lean(model)
         self._six = np.zeros(6)
         self._rows: list[tuple[NDArray[Any], ...]] = []
         self._pushes: list[tuple[Array, Array]] = []

@@ -10,11 +10,14 @@ Coulomb friction at every pad, by MuJoCo's own contacts.
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 
 import mujoco
 
-from analytic.friction.laws import LAWS, bounds_both_ways, slip_fraction
-from analytic.scene.ground import depends_on_speed, is_round, over
+from analytic.friction.grip import Grip
+from analytic.friction.laws import LAWS, slip_fraction
+from analytic.scene.chain import node_positions
+from analytic.scene.ground import depends_on_speed, over
 from analytic.scene.surface import Surface
 from mjsim.friction.contact_length import ContactForces
 from mjsim.friction.lean import Lean
@@ -36,11 +39,15 @@ class StripFriction(ABC):
             than the two ends share the motion.
         drift: speed of what friction should have anchored in the last step [m/s], where left_slip
             does not tell what that is; else NaN.
+        grip: of the strip and its feet.
+        pressures: in the chambers in the next step [Pa], where feet are switched by them.
     """
 
     def __init__(
         self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
+        self.grip = Grip(scene.strip, LAWS[scene.friction])
+        self.pressures: Sequence[float] = ()
         self.contact_left = self.contact_right = 0.0
         self.left_slip, self.drift = 0.5, float("nan")
         self._forces = ContactForces(scene, numerics, model, data)
@@ -96,12 +103,13 @@ class BoundedFriction(StripFriction):
         self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         super().__init__(scene, numerics, model, data)
-        self._law, self._ground, self._width = LAWS[scene.friction], scene.ground, scene.strip.width
+        self._law, self._ground, self._strip = LAWS[scene.friction], scene.ground, scene.strip
+        self._nodes: dict[int, float] = {self._left: 0.0, self._right: scene.strip.length}
         self._surface = scene.ground if isinstance(scene.ground, Surface) else None
         self._level, self._tie = scene.slope == 0, tie_force(scene, numerics)
         self._softness, self._bounds = model.geom_solref, model.tendon_frictionloss
         self._drag, self._by_speed = model.tendon_damping, depends_on_speed(scene.ground)
-        self._lean = None if is_round(scene.ground) else Lean(model)
+        self._lean = None if self.grip.is_round(scene.ground) else Lean(model)
         self._stiff = contact_softness(scene, numerics)[0][0]
         self._soft = numerics.steep_contact_time * numerics.timestep
         self._steep_angle, self._steep = numerics.steep_angle, (False, False)
@@ -123,20 +131,22 @@ class BoundedFriction(StripFriction):
             load: normal force [N].
             inward: part of the length that lies beyond the tendon's end: 1, 1/2 or 0.
         """
-        surface = self._surface
+        surface, outward = self._surface, (1.0 - inward) * contact
         if surface is None:
-            begin = self._place.item(tendon) + self._far - (1.0 - inward) * contact
+            begin = self._place.item(tendon) + self._far - outward
             surface = over(self._ground, begin, begin + contact)
-        lean = 0.0
-        if self._lean:
-            ahead, back = bounds_both_ways(self._law, surface, self._width, contact, load)
+        width, lean = self._strip.width, 0.0
+        if self.grip.feet or self._lean:
+            node = self._nodes[tendon]
+            stretch = node - outward, node + inward * contact
+            ahead, back = self.grip.both_ways(surface, contact, load, stretch, self.pressures)
             bound, lean = 0.5 * (ahead + back), 0.5 * (back - ahead)
         else:
-            bound = self._law.bound(surface, self._width, contact, load)
+            bound = self._law.bound(surface, width, contact, load)
         if self._by_speed:
             factor = surface.at_speed(self._rate.item(tendon))
             bound, lean = bound * factor, lean * factor
-            self._drag[tendon] = surface.drag(self._width, contact)
+            self._drag[tendon] = surface.drag(width, contact)
         if self._lean:
             self._lean.set(tendon, lean)
         return float(bound)
@@ -154,7 +164,8 @@ class BoundedEnds(BoundedFriction):
         super().__init__(scene, numerics, model, data)
         self._always = bool(
             self._law.needs_load or self._surface is None or self._by_speed or self._lean
-        )
+            or self.grip.switched
+        )  # fmt: skip
         self._contacts, self._tied = (-1.0, -1.0), False
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
@@ -199,12 +210,17 @@ class ContactFriction(StripFriction):
     ) -> None:
         super().__init__(scene, numerics, model, data)
         self._ground, self._friction = scene.ground, model.geom_friction
-        self._uniform = isinstance(scene.ground, Surface)
+        self._uniform = isinstance(scene.ground, Surface) and not self.grip.feet
         self._x = data.geom_xpos[:, 0]
-        self._inner = pads_by_node(model)[1:-1].ravel()
+        pads = pads_by_node(model)
+        self._inner = pads[1:-1].ravel()
+        places = node_positions(scene.strip, numerics.links).tolist()
+        self._places = {
+            pad: place for row, place in zip(pads.tolist(), places, strict=True) for pad in row
+        }
         self._sides: tuple[bool, bool] | None = (False, False)
         self._lean = None
-        if not is_round(scene.ground):
+        if not self.grip.is_round(scene.ground):
             self._lean, self._sides = Lean(model), None
             names = tendon_names(numerics.links + 2)
             self._node_tendons = [model.tendon(PREFIX + name).id for name in names]
@@ -222,11 +238,12 @@ class ContactFriction(StripFriction):
 
     def _set_friction(self, sides: tuple[bool, bool]) -> None:
         for pads, on_side in zip(self._pads, sides, strict=True):
-            surface = self._ground.at(self._x.item(pads[0]))
-            self._friction[pads, 0] = _coefficient(surface, on_side)
+            ahead, back = self._coefficients(int(pads[0]), on_side)
+            self._friction[pads, 0] = 0.5 * (ahead + back)
         if not self._uniform or self._lean:
             for pad in self._inner.tolist():
-                self._friction[pad, 0] = _coefficient(self._ground.at(self._x.item(pad)), True)
+                ahead, back = self._coefficients(pad, True)
+                self._friction[pad, 0] = 0.5 * (ahead + back)
 
     def _lean_by_load(self, sides: tuple[bool, bool]) -> None:
         """Set how much more each node resists back than ahead, by its load in the step before."""
@@ -237,20 +254,19 @@ class ContactFriction(StripFriction):
         for node, (push, tendon) in enumerate(zip(force, self._node_tendons, strict=True)):
             half = 0.0
             if push > 0.0:
-                surface = self._ground.at(self._x.item(self._node_pads[node]))
-                half = 0.5 * push * _difference(surface, on_side.get(node, True))
+                ahead, back = self._coefficients(self._node_pads[node], on_side.get(node, True))
+                half = 0.5 * push * (back - ahead)
             self._lean.set(tendon, half)
 
-
-def _coefficient(surface: Surface, on_side: bool) -> float:
-    """Coefficient of friction of a side or a tip, the mean of ahead and back."""
-    if surface.is_round:
-        return float(surface.friction if on_side else surface.tip_friction or 0.0)
-    name = "friction" if on_side else "tip_friction"
-    return 0.5 * (surface.resistance(name) + surface.resistance(f"{name}_back"))
-
-
-def _difference(surface: Surface, on_side: bool) -> float:
-    """Coefficient of friction back less that ahead."""
-    name = "friction" if on_side else "tip_friction"
-    return surface.resistance(f"{name}_back") - surface.resistance(name)
+    def _coefficients(self, pad: int, on_side: bool) -> tuple[float, float]:
+        """Coefficients of friction of a pad, on a side or a tip, ahead and back."""
+        surface = self._ground.at(self._x.item(pad))
+        name = "friction" if on_side else "tip_friction"
+        ahead = back = float(getattr(surface, name))
+        if not surface.is_round:
+            back = surface.resistance(f"{name}_back")
+        if self.grip.feet:
+            at = self._places[pad], self._places[pad]
+            ahead *= self.grip.over("ahead", at, self.pressures)[0]
+            back *= self.grip.over("back", at, self.pressures)[0]
+        return ahead, back

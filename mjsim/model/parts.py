@@ -14,9 +14,10 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from analytic.friction.grip import Grip
+from analytic.friction.laws import LAWS
 from analytic.scene import pneunet
 from analytic.scene.chain import link_lengths
-from analytic.scene.ground import is_round
 from analytic.scene.robot import Robot
 from mjsim.scene import Resolved, Scene
 
@@ -137,7 +138,8 @@ def add_ends(spec: mujoco.MjSpec, scene: Scene, nodes: Sequence[Node]) -> None:
     names = ["end_left", *(f"node_{node}" for node in range(1, len(nodes) - 1)), "end_right"]
     constant = scene.friction != "coulomb"
     tendons = tendon_names(len(nodes))
-    everywhere = scene.between or (not constant and not is_round(scene.ground))
+    is_round = Grip(scene.strip, LAWS[scene.friction]).is_round(scene.ground)
+    everywhere = scene.between or (not constant and not is_round)
     bound = NO_BOUND if constant else 0.0
     for name, (body, place) in zip(names, nodes, strict=True):
         if everywhere or name.startswith("end"):

@@ -56,6 +56,8 @@ def refusal(scene: Scene) -> str | None:
         return "shoes are for uniform ground that neither sticks nor resists by speed"
     if not ground.is_round:
         return "shoes resist alike ahead and back"
+    if scene.strip.feet:
+        return "shoes are for strips without feet"
     if scene.between or scene.slope:
         return "shoes are for friction at the two ends on level ground"
     if scene.friction != "constant":

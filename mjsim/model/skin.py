@@ -1,6 +1,7 @@
 """A smooth skin over the chain: a soft strip with the ribs of its pneu-net chambers."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import mujoco
@@ -18,6 +19,9 @@ PALE_SKIN = (*PALE, 1.0)
 CELLS = 6  # pneu-net chambers drawn per segment; chosen, the theory needs only their fraction
 PER_CELL = 8  # stations along a cell
 _CORNER = 5  # points round each upper corner
+_POINT = 0.04  # of the length, of a foot that is a point; chosen
+_RUST = (0.60, 0.28, 0.12, 1.0)  # colour of feet, unlike any pressure's
+_RIM, _WIDER = 0.5, 1.04  # of feet, over the layer's thickness and width; chosen
 
 
 class Skin(NamedTuple):
@@ -70,6 +74,34 @@ def add_strip_skins(
         skin.bindquat = np.ravel([half] * len(shape.bones))
         skin.vertid = [moved.tolist() for _, moved, _ in shape.bones]
         skin.vertweight = [weight.tolist() for _, _, weight in shape.bones]
+    _add_feet(spec, strip, starts.tolist(), bodies, numerics.pad_radius)
+
+
+def _add_feet(
+    spec: mujoco.MjSpec, strip: Robot, starts: list[float], bodies: str, below: float
+) -> None:
+    """Draw each foot as a block on every link that it is under; points a little longer.
+
+    Args:
+        spec, strip, bodies: see add_strip_skins.
+        starts: arclength of the links' ends, from the left, (N + 2,) [m].
+        below: how far the underside lies below the neutral line [m].
+    """
+    for foot in strip.feet:
+        begin, end = foot.begin * strip.length, foot.end * strip.length
+        if begin == end:
+            half = 0.5 * _POINT * strip.length
+            begin, end = begin - half, end + half
+        for link, (start, stop) in enumerate(pairwise(starts)):
+            low, high = max(begin, start), min(end, stop)
+            if high <= low:
+                continue
+            block = spec.body(f"{bodies}{link}").add_geom(type=mujoco.mjtGeom.mjGEOM_BOX)
+            up = _RIM * strip.thickness
+            block.pos = (0.5 * (low + high) - start, 0.0, 0.5 * (up - below))
+            block.size = (0.5 * (high - low), _WIDER * 0.5 * strip.width, 0.5 * (up + below))
+            block.contype = block.conaffinity = 0
+            block.mass, block.rgba = 0.0, _RUST
 
 
 def segment_skin(

@@ -40,6 +40,10 @@ def walking_scene(scene: Scene) -> Scene:
     """
     ground = uniform(scene.ground)
     check_round(ground, "a file that walks by itself")
+    if any(limb.strip.feet for limb in limbs_of(scene.robot)):
+        raise ValueError(
+            "a file that walks by itself is for robots without feet; this one has some"
+        )
     if not ground.friction and not ground.tip_friction:
         legs = [limb.strip for limb in limbs_of(scene.robot)[1:]]
         feet = len(legs) or 2 - scene.in_space

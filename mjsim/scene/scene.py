@@ -10,8 +10,10 @@ import numpy as np
 
 from analytic.checks import is_number, one_of, positive, slope, whole
 from analytic.fields import in_si
+from analytic.friction.grip import check_feet_in_space
 from analytic.friction.laws import LAWS, ROUGHNESS, Friction
 from analytic.scene.chain import CHAMBER_LAWS
+from analytic.scene.feet import Foot, check_chambers
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.ground import (
     Incline,
@@ -157,9 +159,11 @@ class Scene:
                 "coulomb"
             )
         check_adhesion(self.ground)
+        feet = self._check_feet()
         acts = LAWS[self.friction].acts_on
         surfaces = surfaces_of(self.ground)
-        if not any(acts(surface) or surface.viscosity for surface in surfaces):
+        holds = any(foot.hold for foot in feet)
+        if not holds and not any(acts(surface) or surface.viscosity for surface in surfaces):
             acting = [law for law in _LAWS if any(map(LAWS[law].acts_on, surfaces))]
             hint = "".join(f"add friction = {law!r}, or --friction {law}; or " for law in acting)
             raise ValueError(
@@ -176,6 +180,22 @@ class Scene:
             strip = f"limb {limb.name!r}" if self.in_space else "this strip"
             check_turn(limb.strip, self.robot.peak_pressure, most, self.gait.name, strip)
 
+    def _check_feet(self) -> list[Foot]:
+        """Feet of all limbs.
+
+        Raises:
+            ValueError: one is switched by no chamber of the robot, or holds under friction by load.
+        """
+        feet = [foot for limb in limbs_of(self.robot) for foot in limb.strip.feet]
+        check_chambers(feet, self.robot.chambers)
+        holds = max((foot.hold for foot in feet), default=0.0)
+        if holds and self.friction == "coulomb":
+            raise ValueError(
+                f"feet that hold by a bound need friction constant, not coulomb, got a hold of "
+                f"{holds:g} N"
+            )
+        return feet
+
     def _check_limbs(self) -> None:
         """Raise ValueError for what a robot of limbs cannot do, with the reason."""
         for name, only, why in (
@@ -191,6 +211,7 @@ class Scene:
         if self.chamber == "sealed":
             raise ValueError("chamber of a robot of limbs cannot be sealed, which is of strips")
         check_for_limbs(self.ground)
+        check_feet_in_space(self.robot, self.ground)
 
     @property
     def in_space(self) -> bool:

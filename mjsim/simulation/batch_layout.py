@@ -45,6 +45,8 @@ def refusal(scene: Scene) -> str | None:
         return "ground must be uniform, without viscosity and adhesion"
     if not ground.is_round:
         return "ground must resist alike in all directions"
+    if scene.strip.feet:
+        return "the strip must have no feet"
     return None
 
 

@@ -18,9 +18,10 @@ from analytic.friction.contact_length import (
     ripple,
 )
 from analytic.friction.contacts import ContactFinder, StripContact
-from analytic.friction.laws import LAWS, Friction, bounds_both_ways
+from analytic.friction.grip import Grip
+from analytic.friction.laws import LAWS, Friction
 from analytic.scene.chain import node_positions
-from analytic.scene.ground import depends_on_speed, is_round, over
+from analytic.scene.ground import depends_on_speed, over
 from analytic.scene.surface import Ground, Surface
 from analytic.solvers.elastica.fixed_point import FixedPoint
 from analytic.solvers.elastica.newton import Chain
@@ -61,7 +62,9 @@ class StickSlip:
         self._flat = flat_pressures(chain.robot, ground.at(0.0))
         self._finder = ContactFinder(chain.robot, self._nodes, friction.roughness, self._press)
         self._law = LAWS[friction.law]
-        self._by_speed, self._directed = depends_on_speed(ground), not is_round(ground)
+        self._grip = Grip(chain.robot, self._law)
+        self._by_speed = depends_on_speed(ground)
+        self._directed = not self._grip.is_round(ground)
         self._pull = friction.downhill(chain.robot) / chain.force_unit
         self._unit = friction.tension / chain.force_unit
         self.contacts: list[StripContact] = []
@@ -164,10 +167,7 @@ class StickSlip:
                 for i, contact in enumerate(contacts)
             ]
         pairs = list(zip(under, contacts, strict=True))
-        both_ways = [
-            bounds_both_ways(self._law, surface, robot.width, contact.length, contact.load)
-            for surface, contact in pairs
-        ]  # fmt: skip
+        both_ways = [self._bounds(contact, surface) for surface, contact in pairs]
         bounds = self._unit * np.array([
             both[way] for way in range(1 + self._directed) for both in both_ways
         ])  # fmt: skip
@@ -191,12 +191,14 @@ class StickSlip:
             return over(self._ground, begin, end)
         near = _BORDER * self._chain.robot.length
         sides = self._ground.at(begin - near), self._ground.at(begin + near)
-        width = self._chain.robot.width
-        return max(
-            sides, key=lambda side: sum(
-                bounds_both_ways(self._law, side, width, 0.0, contact.load)
-            ),
-        )  # fmt: skip
+        return max(sides, key=lambda side: sum(self._bounds(contact, side)))
+
+    def _bounds(self, contact: StripContact, surface: Surface) -> tuple[float, float]:
+        """Bounds of a contact ahead and back [N]."""
+        stretch = contact.extent(self._nodes)
+        return self._grip.both_ways(
+            surface, contact.length, contact.load, stretch, self._chain.pressure
+        )
 
     def _margins(self, contacts: list[StripContact], state: ChainState) -> Array:
         """Length of a side over L, less the height of the node beside a tip at an end, (C,)."""

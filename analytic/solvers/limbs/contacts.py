@@ -2,31 +2,47 @@
 
 A tip resists by V_t, over its width; limbs that begin at one place share the tip force of an end by
 their widths. A side resists by tau times its area, at four points: two of Gauss along it, two
-across. Under mu N each resists by its coefficient times its load.
+across. Under mu N each resists by its coefficient times its load. A foot changes the contact that
+it is in at all its points alike.
 """
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.dissipation_in_plane import Nap, nap_of
+from analytic.friction.grip import Grip
 from analytic.scene.ground import (
     check_adhesion,
     check_for_limbs,
     depends_on_speed,
     durations,
-    is_round,
     surfaces_of,
 )
 from analytic.scene.surface import Ground, Surface, Way
 from analytic.solvers.limbs.contact_search import SHORT, Contact, ContactSearch
+from analytic.solvers.limbs.kinematics import Tree
 
 Array = NDArray[np.float64]
 
 
 class Contacts(ContactSearch):
-    """Finds the contacts of a tree, and tells how they resist; see ContactSearch."""
+    """Finds the contacts of a tree, and tells how they resist; see ContactSearch.
+
+    Attributes:
+        switched: whether chambers switch any foot.
+    """
+
+    def __init__(self, tree: Tree, law: str = "constant", all_on_tips: bool = False) -> None:
+        super().__init__(tree, law, all_on_tips)
+        self._grips = [Grip(limb.strip, self._law, tree.robot) for limb in tree.robot.limbs]
+        self.switched = any(grip.switched for grip in self._grips)
+
+    def is_round(self, ground: Ground) -> bool:
+        """Tell whether all contacts on a ground resist alike in all directions."""
+        return all(grip.is_round(ground) for grip in self._grips)
 
     def weights(self, contacts: list[Contact]) -> Array:
         """Weights of the nodes in the points of all contacts that resist, (C, P)."""
@@ -36,7 +52,7 @@ class Contacts(ContactSearch):
 
     def resistances(
         self, contacts: list[Contact], ground: Ground, x: Array, speeds: Array | float = 0.0,
-        way: Way | None = None,
+        way: Way | None = None, pressures: Any = None,
     ) -> tuple[Array, Array]:  # fmt: skip
         """Bounds [N] and viscous resistances [N s/m] of all these points.
 
@@ -45,41 +61,43 @@ class Contacts(ContactSearch):
             ground: under them.
             x: places of the points, (C,) [m].
             speeds: of their slips, (C,) or one for all [m/s].
-            way: of the motion that is resisted, where the ground has a nap.
+            way: of the motion that is resisted, where the ground or a foot has a nap.
+            pressures: of the chambers, of no matter without feet that are switched, (S,) [Pa].
         """
         points = [contact for contact in contacts for _ in contact.at]
         speeds = np.broadcast_to(speeds, len(points))
         pairs = [
             self.resistance(
-                contact, ground.at(place).against(way) if way else ground.at(place), speed
+                contact, ground.at(place).against(way) if way else ground.at(place), speed,
+                way or "ahead", pressures,
             )
             for contact, place, speed in zip(points, x.tolist(), speeds.tolist(), strict=True)
-        ]
+        ]  # fmt: skip
         bounds, viscous = np.array(pairs).reshape(-1, 2).T * shares(contacts)
         return bounds, viscous
 
     def friction(
         self, contacts: list[Contact], ground: Ground, x: Array, robot: float, along: float,
-        speeds: Array | float = 0.0,
+        speeds: Array | float = 0.0, pressures: Any = None,
     ) -> tuple[Array, Array, Nap | None]:  # fmt: skip
         """Bounds, viscous resistances and directions of all these points, see resistances.
 
         Args:
-            contacts, ground, x: see resistances.
+            contacts, ground, x, pressures: see resistances.
             robot, along: directions of the robot and of the ground's +x, in the frame of the slips
                 [rad].
             speeds: see resistances.
 
         Returns:
-            No directions where the ground resists alike in all of them.
+            No directions where ground and feet resist alike in all of them.
         """
-        if is_round(ground):
-            return *self.resistances(contacts, ground, x, speeds), None
+        if self.is_round(ground):
+            return *self.resistances(contacts, ground, x, speeds, None, pressures), None
         ahead, back, across = (
-            self.resistances(contacts, ground, x, speeds, way)
+            self.resistances(contacts, ground, x, speeds, way, pressures)
             for way in ("ahead", "back", "across")
         )
-        of_robot = [ground.at(place).nap == "robot" for place in x.tolist()]
+        of_robot = [ground.at(place).ahead_is_the_robots for place in x.tolist()]
         angle = np.where(np.array(of_robot, dtype=bool), robot, along)
         axes = np.stack([np.cos(angle), np.sin(angle)], axis=1)
         bounds, nap = nap_of(ahead[0], back[0], across[0], axes)
@@ -94,30 +112,48 @@ class Contacts(ContactSearch):
         ]
         return max(
             sum(
-                max(
-                    self.resistance(Contact(i, "end", length, (0.0,), (0.0,), load), surface)[0]
+                self._grips[i].most[0] * max(
+                    self._dry(Contact(i, "end", length, (0.0,), (0.0,), load), surface)
                     for length in (0.0, limb.strip.length)
-                )
+                ) + self._grips[i].most[1]
                 for i, (limb, load) in enumerate(zip(robot.limbs, loads, strict=True))
             )
             for surface in _all_ways(ground)
-        )
+        )  # fmt: skip
 
     def resistance(
-        self, contact: Contact, surface: Surface, speed: float = 0.0
-    ) -> tuple[float, float]:
-        """Bound of friction [N] and viscous resistance [N s/m] of a contact at a speed [m/s]."""
-        limb = self._limbs[contact.limb]
-        width = limb.width
-        if 0 < contact.length <= SHORT * limb.length and not self._law.needs_load:
-            # no area: what rounding leaves would be the only bound there is
-            return 0.0, 0.0
-        bound = self._law.bound(surface, width, contact.length, contact.load)
-        if not contact.length and not self._law.needs_load:
-            bound *= limb.share
+        self, contact: Contact, surface: Surface, speed: float = 0.0, way: Way = "ahead",
+        pressures: Any = None,
+    ) -> tuple[float, float]:  # fmt: skip
+        """Bound of friction [N] and viscous resistance [N s/m] of a contact.
+
+        Args:
+            contact: one.
+            surface: under it, alike in all directions.
+            speed: of its slip [m/s].
+            way: of the motion, which feet may resist otherwise.
+            pressures: see resistances.
+        """
+        width, grip = self._limbs[contact.limb].width, self._grips[contact.limb]
+        bound = self._dry(contact, surface)
+        if grip.feet:
+            half = 0.5 * contact.length
+            stretch = contact.middle - half, contact.middle + half
+            mean, hold = grip.over(way, stretch, pressures)
+            bound = mean * bound + hold
         if surface.static_ratio > 1:
             bound *= surface.at_speed(speed)
         return float(bound), float(surface.drag(width, contact.length))
+
+    def _dry(self, contact: Contact, surface: Surface) -> float:
+        """Bound of a contact by the ground alone [N]."""
+        limb = self._limbs[contact.limb]
+        if 0 < contact.length <= SHORT * limb.length and not self._law.needs_load:
+            return 0.0  # no area: what rounding leaves would be the only bound there is
+        bound = self._law.bound(surface, limb.width, contact.length, contact.load)
+        if not contact.length and not self._law.needs_load:
+            bound *= limb.share
+        return float(bound)
 
     def radius(self, contact: Contact) -> float:
         """Mean distance from its middle of what resists, 0 of a point [m]."""

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.friction.grip import check_feet_in_space
 from analytic.progress import counted
 from analytic.scene.ground import surfaces_of
 from analytic.scene.surface import Ground
@@ -64,6 +65,7 @@ def stick_slip_path(
         ValueError: see analytic.solvers.limbs.walk.follow.
     """
     spans = spans_of(ground, times, len(pressures))
+    check_feet_in_space(statics.tree.robot, ground)
     when = np.arange(float(len(pressures))) if times is None else times
     finder = Contacts(statics.tree, law, all_on_tips)
     return _StickSlip(statics, ground, finder).along(pressures, when.tolist(), spans.tolist())
@@ -137,7 +139,13 @@ class _Increment:
             self.speeds = np.zeros(len(holds))
         heading = 0.5 * float(before.rest.q[_YAW] + rest.q[_YAW])
         bounds, viscous, nap = self._finder.friction(
-            self.contacts, self._ground, self.weights @ rest.nodes[:, 0], heading, 0.0, self.speeds
+            self.contacts,
+            self._ground,
+            self.weights @ rest.nodes[:, 0],
+            heading,
+            0.0,
+            self.speeds,
+            self._row,
         )
         self.viscous, film = viscous, viscous / self._span
         least = min(self._viscosity, _WEAK * float(film.sum())) if film.any() else self._viscosity
@@ -167,7 +175,7 @@ class _StickSlip:
         contacts = self._finder.find(first, pressures[0])
         weights = self._finder.weights(contacts)
         bounds, viscous, _ = self._finder.friction(
-            contacts, self._ground, weights @ first.nodes[:, 0], 0.0, 0.0
+            contacts, self._ground, weights @ first.nodes[:, 0], 0.0, 0.0, pressures[0]
         )
         self._states.append(
             _State(pressures[0], times[0], first, contacts, weights, bounds,

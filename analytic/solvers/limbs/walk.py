@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from analytic.checks import one_of, times_of, whole
 from analytic.friction.contact_length import flat_pressures
 from analytic.friction.dissipation_in_plane import least_dissipation_in_plane
+from analytic.friction.grip import check_feet_in_space
 from analytic.friction.laws import LAWS
 from analytic.progress import counted
 from analytic.scene.gait import Gait
@@ -76,22 +77,24 @@ def follow(
         times: of the shapes, (B,) [s], which viscous ground asks for.
 
     Raises:
-        ValueError: see analytic.solvers.limbs.contacts.spans_of.
+        ValueError: see analytic.solvers.limbs.contacts.spans_of and
+            analytic.friction.grip.check_feet_in_space.
     """
     spans = spans_of(ground, times, len(rests))
+    check_feet_in_space(tree.robot, ground)
     finder = Contacts(tree, law)
     contacts = [finder.find(rest, row) for rest, row in zip(rests, pressures, strict=True)]
     place, heading = np.zeros((len(rests), 2)), np.zeros(len(rests))
     for i, (begin, end) in enumerate(pairwise(rests)):
         shift, turn = np.zeros(2), 0.0
         turned = rotation(heading[i])
-        for state in (contacts[i], contacts[i + 1]):
+        for state, row in zip(contacts[i : i + 2], pressures[i : i + 2], strict=True):
             if not state:
                 continue
             weights = finder.weights(state)
             before, after = weights @ begin.nodes[:, :2], weights @ end.nodes[:, :2]
             x = place[i, 0] + before @ turned[0]
-            bounds, viscous, nap = finder.friction(state, ground, x, 0.0, -heading[i])
+            bounds, viscous, nap = finder.friction(state, ground, x, 0.0, -heading[i], row)
             motion = least_dissipation_in_plane(
                 bounds, before, after - before, viscous / spans[i], shares(state), nap
             )

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mjsim.friction.in_plane import rigid_motion
+from mjsim.friction.rigid_motion import rigid_motion
 
 
 @pytest.mark.parametrize("seed", range(5))

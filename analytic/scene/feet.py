@@ -1,0 +1,113 @@
+"""Feet: stretches of a strip or limb that resist otherwise than its skin does."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields
+from itertools import pairwise
+from typing import Any
+
+from analytic.checks import is_number, not_negative, one_of
+from analytic.fields import in_si
+from analytic.scene.surface import Way
+
+
+@dataclass(frozen=True)
+class Foot:
+    """Pad, bristles, claw or suction cup on the underside.
+
+    It changes dry friction alone: a viscous film resists as without it. Dry friction that is
+    stronger at rest is so under a foot too, its hold included.
+
+    A number may be a text with its unit, as in hold="20 mN", and is in SI then.
+
+    Raises:
+        ValueError: a value is negative or not finite; it ends before it begins or beyond the strip;
+            or it has no length and is not at an end.
+    """
+
+    begin: float
+    """where it begins, over the length of the strip from its left, or of the limb from where that
+    begins [1]"""
+    end: float
+    """where it ends [1]; a foot without length is a point at an end, 0 or 1"""
+    grip: float = 1.0
+    """its dry friction over that of the skin at its place [1]"""
+    grip_back: float | None = None
+    """the same against motion back; as ahead if not given [1]"""
+    grip_across: float | None = None
+    """the same against motion across; the mean of ahead and back if not given [1]"""
+    hold: float = 0.0
+    """bound by which it resists besides, in all directions: all of it where a tip stands on the
+    foot, and of a side the part of the foot that it covers [N]"""
+    chamber: str | None = None
+    """name of a chamber that switches it on: by its pressure over the peak it is between bare skin
+    and foot; always on if not given"""
+
+    def __post_init__(self) -> None:
+        in_si(self)
+        for name in ("begin", "end"):
+            value = getattr(self, name)
+            if not (is_number(value) and 0 <= value <= 1):
+                raise ValueError(f"{name} of a foot must lie in [0, 1], got {value!r}")
+        if self.end < self.begin:
+            raise ValueError(
+                f"end of a foot must not lie before its begin {self.begin!r}, got {self.end!r}"
+            )
+        if self.begin == self.end and self.begin not in (0, 1):
+            raise ValueError(
+                "end of a foot must lie beyond its begin, but of a point at an end, 0 or 1; got "
+                f"{self.end!r}"
+            )
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if field.name != "chamber" and value is not None:
+                not_negative(f"{field.name} of a foot", value)
+                object.__setattr__(self, field.name, float(value))
+
+    @property
+    def is_round(self) -> bool:
+        """True if its grip is alike in all directions."""
+        return {self.grip_back, self.grip_across} <= {None, self.grip}
+
+    def grip_against(self, way: Way) -> float:
+        """Grip against motion one way [1]."""
+        back = self.grip if self.grip_back is None else self.grip_back
+        across = 0.5 * (self.grip + back) if self.grip_across is None else self.grip_across
+        return {"ahead": self.grip, "back": back, "across": across}[way]
+
+
+def in_order(feet: Iterable[Foot | Mapping[str, Any]]) -> tuple[Foot, ...]:
+    """Feet of a strip, left first; each may be a table of a foot's fields.
+
+    Raises:
+        ValueError: one is no foot, two of them overlap, or a point is at the end of another.
+    """
+    ordered = tuple(sorted(map(_foot, feet), key=lambda foot: (foot.begin, foot.end)))
+    for foot, after in pairwise(ordered):
+        point = foot.begin == foot.end or after.begin == after.end
+        if after.begin < foot.end or (point and after.begin == foot.end):
+            raise ValueError(
+                f"feet must not overlap, got one from {foot.begin:g} to {foot.end:g} and one from "
+                f"{after.begin:g} to {after.end:g}"
+            )
+    return ordered
+
+
+def _foot(given: Foot | Mapping[str, Any]) -> Foot:
+    if isinstance(given, Foot):
+        return given
+    if not isinstance(given, Mapping):
+        raise ValueError(f"feet must be Foot, or tables of its fields, got {given!r}")
+    names = [field.name for field in fields(Foot)]
+    for key in given:
+        one_of("key of a foot", key, names)
+    for name in ("begin", "end"):
+        if name not in given:
+            raise ValueError(f"{name} of a foot is missing, got {dict(given)!r}")
+    return Foot(**given)
+
+
+def check_chambers(feet: Sequence[Foot], chambers: Sequence[str]) -> None:
+    """Raise ValueError for feet that are switched by a chamber which the robot does not have."""
+    for foot in feet:
+        if foot.chamber is not None:
+            one_of("chamber of a foot", foot.chamber, chambers)
