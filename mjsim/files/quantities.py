@@ -87,5 +87,5 @@ def spelled_out(ground: Table, suffix: str) -> Table:
     surface = SURFACES.get(ground.get("surface", ""))
     if surface is None:
         return ground
-    values = {key: getattr(surface, key) for key in SURFACE_FIELDS}
+    values = {k: v for k in SURFACE_FIELDS if (v := getattr(surface, k)) is not None}
     return {**values, **ground, "surface": f"{surface.name}-{suffix}"}

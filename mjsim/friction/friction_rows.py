@@ -139,10 +139,12 @@ class FrictionRows:
             # of their origins, and of the first columns of their rotations
             self._indices = 3 * links + np.arange(3), 9 * links + np.arange(0, 9, 3)
             self._look()
-        self._points[:count] = places = [
+        places = [
             (x + offset * a, y + offset * b, z + offset * c)
             for offset, ((x, y, z), (a, b, c)) in zip(offsets, self._links, strict=True)
         ]
+        if places:
+            self._points[:count] = places
         self.places = [complex(x, y) for x, y, _ in places]
         for (rotation, move), point, body in zip(self._spaces, self._point_of_each, bodies,
                                                  strict=False):  # fmt: skip

@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from analytic.friction.dissipation_in_plane import nap_of
 from analytic.scene.chain import link_lengths
 from analytic.scene.surface import Surface, Way
-from analytic.solvers.limbs.contact_search import Contact, parts_of
+from analytic.solvers.limbs.contact_search import parts_of
+from analytic.solvers.limbs.contact_state import Contact
 from analytic.solvers.limbs.contacts import Contacts
 from analytic.solvers.limbs.kinematics import Tree
 from mjsim.friction.ceiling import CeilingPush

@@ -9,8 +9,6 @@ carry. Each vertex that pushes loads one contact alone: a tip carries what pushe
 else the limb rests the rest.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,7 +16,7 @@ from analytic.friction.contact_length import flat_length, flat_pressures, length
 from analytic.friction.contacts import POINT, runs_without_gaps
 from analytic.friction.laws import LAWS
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb
-from analytic.solvers.limbs.contact_state import ContactState
+from analytic.solvers.limbs.contact_state import Contact, ContactState
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.rest import Rest
 from analytic.solvers.limbs.resting_limb import resting_limbs
@@ -33,31 +31,6 @@ _FLAT = 1e-3  # rad; a gap between vertices that push is air if steeper, as of a
 _TOUCHES = 1e-6  # of the weight: a node that pushes less hovers
 # of the step that a twist makes in the edges' difference of height: how high the lower one may be
 _BY_TWIST = 0.25  # where a limb lies on it; a sixth, as every other link twists, and room; chosen
-
-
-class Contact(NamedTuple):
-    """Contact of one limb with the ground.
-
-    Attributes:
-        limb: its place.
-        part: of the limb, "begin", "end" or "between" them.
-        length: of side contact, 0 for a tip [m].
-        at, aside: arclengths of the points that it resists at, and how far to the left of the
-            middle line each is [m].
-        load: normal force on the whole [N].
-    """
-
-    limb: int
-    part: str
-    length: float
-    at: tuple[float, ...]
-    aside: tuple[float, ...]
-    load: float
-
-    @property
-    def middle(self) -> float:
-        """Arclength of its middle [m]."""
-        return 0.5 * (self.at[0] + self.at[-1])
 
 
 class ContactSearch:

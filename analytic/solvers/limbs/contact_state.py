@@ -1,6 +1,31 @@
-"""Limbs on the ground as the search for their contacts sees them."""
+"""Contacts of limbs, and limbs on the ground as the search for them sees these."""
 
 from typing import NamedTuple
+
+
+class Contact(NamedTuple):
+    """Contact of one limb with the ground.
+
+    Attributes:
+        limb: its place.
+        part: of the limb, "begin", "end" or "between" them.
+        length: of side contact, 0 for a tip [m].
+        at, aside: arclengths of the points that it resists at, and how far to the left of the
+            middle line each is [m].
+        load: normal force on the whole [N].
+    """
+
+    limb: int
+    part: str
+    length: float
+    at: tuple[float, ...]
+    aside: tuple[float, ...]
+    load: float
+
+    @property
+    def middle(self) -> float:
+        """Arclength of its middle [m]."""
+        return 0.5 * (self.at[0] + self.at[-1])
 
 
 class ContactState(NamedTuple):

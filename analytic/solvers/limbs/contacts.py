@@ -22,7 +22,8 @@ from analytic.scene.ground import (
     surfaces_of,
 )
 from analytic.scene.surface import Ground, Surface, Way
-from analytic.solvers.limbs.contact_search import SHORT, Contact, ContactSearch
+from analytic.solvers.limbs.contact_search import SHORT, ContactSearch
+from analytic.solvers.limbs.contact_state import Contact
 from analytic.solvers.limbs.kinematics import Tree
 
 Array = NDArray[np.float64]

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.limbs import LimbedRobot, rotation
-from analytic.solvers.limbs.contact_search import Contact
+from analytic.solvers.limbs.contact_state import Contact
 from analytic.solvers.limbs.rest import Rest
 
 Array = NDArray[np.float64]

@@ -18,7 +18,7 @@ from analytic.friction.grip import check_feet_in_space
 from analytic.progress import counted
 from analytic.scene.ground import surfaces_of
 from analytic.scene.surface import Ground
-from analytic.solvers.limbs.contact_search import Contact
+from analytic.solvers.limbs.contact_state import Contact
 from analytic.solvers.limbs.contacts import Contacts, shares, spans_of
 from analytic.solvers.limbs.friction import ContactFriction
 from analytic.solvers.limbs.path import Path
@@ -175,7 +175,7 @@ class _StickSlip:
         contacts = self._finder.find(first, pressures[0])
         weights = self._finder.weights(contacts)
         bounds, viscous, _ = self._finder.friction(
-            contacts, self._ground, weights @ first.nodes[:, 0], 0.0, 0.0, pressures[0]
+            contacts, self._ground, weights @ first.nodes[:, 0], 0.0, 0.0, pressures=pressures[0]
         )
         self._states.append(
             _State(pressures[0], times[0], first, contacts, weights, bounds,

@@ -94,7 +94,9 @@ def follow(
             weights = finder.weights(state)
             before, after = weights @ begin.nodes[:, :2], weights @ end.nodes[:, :2]
             x = place[i, 0] + before @ turned[0]
-            bounds, viscous, nap = finder.friction(state, ground, x, 0.0, -heading[i], row)
+            bounds, viscous, nap = finder.friction(
+                state, ground, x, 0.0, -heading[i], pressures=row
+            )
             motion = least_dissipation_in_plane(
                 bounds, before, after - before, viscous / spans[i], shares(state), nap
             )

@@ -10,7 +10,7 @@ from analytic.scene.feet import Foot
 from analytic.scene.limbs import LimbedRobot, as_strip, quadruped
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import SURFACES, Surface
-from analytic.solvers.limbs.contact_search import Contact
+from analytic.solvers.limbs.contact_state import Contact
 from analytic.solvers.limbs.contacts import Contacts
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.walk import walk
