@@ -80,9 +80,10 @@ def compiled(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> mujoco.Mj
             f"length {scene.robot.length:g} m is too small for {numerics.links} links: MuJoCo "
             "takes no link whose inertia is below 1e-15 kg m^2; take fewer links"
         ) from error
-    # friction that sticks creeps by its force times this estimate of the inverse mass, times 1 - d
-    # of its impedance d, of which MuJoCo takes 0.9999 at most
-    model.tendon_invweight0[:] *= _CREEP
+    if numerics.integrator == "discrete":
+        # friction that sticks creeps by its force times this estimate of the inverse mass, times
+        # 1 - d of its impedance d, of which MuJoCo takes 0.9999 at most
+        model.tendon_invweight0[:] *= _CREEP
     if scene.in_space:
         # what hangs together is one island, which MuJoCo need not look for
         model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_ISLAND)
