@@ -2,9 +2,9 @@
 
 A row is a reading. `angle [deg]` is that of a board at which a sample begins to slide, `force [mN]`
 what a level pull is then. `mass [g]` or `load [mN]` is of all that rests on the ground. `width
-[mm]` and `length [mm]`, or `area [cm2]`, are of a side that lies flat; `tips` is the number
-of tips that a sample stands on instead. `way` is the direction in which it slides (ahead, back or across) and
-`state` whether it only begins to or slides on. What all rows share may be options.
+[mm]` and `length [mm]`, or `area [cm2]`, are of a side that lies flat; `tips` is the number of tips
+that a sample stands on instead. `way` is the direction in which it slides (ahead, back or across)
+and `state` whether it only begins to or slides on. What all rows share may be options.
 """
 
 import math
