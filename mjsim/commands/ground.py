@@ -67,7 +67,7 @@ class Options:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv, EXAMPLES)
-    from mjsim.files.tables import build
+    from mjsim.files.tables import build_ground
     from mjsim.files.written import as_toml
     from mjsim.fitting import sliding_report as report
     from mjsim.fitting.sliding_bounds import BOTH, quantities, samples
@@ -93,7 +93,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         ground = report.ground_of(tested, found, options.name, options.nap, options.state or "")
         numerics = {"friction": ground.law} if ground.law else {}
         tables = {"ground": ground.table, "numerics": numerics}
-        build(tables)
+        build_ground(
+            ground.table
+        )  # refuses what no surface is; a robot, which has a say, is not here
         check_folder(options.out.parent)
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))

@@ -33,8 +33,7 @@ BOTH = "both"
 NAMES = {("side", "constant"): "shear_strength", ("side", "coulomb"): "friction",
          ("tip", "constant"): "tip_force", ("tip", "coulomb"): "tip_friction"}  # fmt: skip
 """Field of a surface by contact and law."""
-_CHANCE = 0.01  # below which a law is said to miss the data; chosen
-_APART = 0.05  # below which two tests are said to differ
+_CHANCE = 0.01  # below which data are said to refuse a law, or two tests to differ; chosen
 _SPREAD = 1.2  # of the load over the size, from which on it tells the laws apart; chosen
 _LEAST = 2  # degrees of freedom of a fit of both laws
 
@@ -120,10 +119,12 @@ def samples(readings: Iterable[Reading]) -> list[Sample]:
         return (("side", "tip").index(reading.contact), WAYS.index(reading.way),
                 STATES.index(reading.state), TESTS.index(reading.test))  # fmt: skip
 
-    return [_sample(tuple(group)) for _, group in groupby(sorted(readings, key=kind), key=kind)]
+    groups = [tuple(group) for _, group in groupby(sorted(readings, key=kind), key=kind)]
+    # of several samples each is less likely to refuse by chance, so that all together are as one
+    return [_sample(group, _CHANCE / len(groups)) for group in groups]
 
 
-def _sample(readings: tuple[Reading, ...]) -> Sample:
+def _sample(readings: tuple[Reading, ...], chance: float) -> Sample:
     first = readings[0]
     terms = np.array([reading.terms for reading in readings])
     whole = np.isfinite(terms).all(axis=1)
@@ -135,7 +136,7 @@ def _sample(readings: tuple[Reading, ...]) -> Sample:
         if len(rows):
             own = sizes if sizes and len(rows) == whole.sum() else scatters(rows[:, 1:], rows[:, 0])
             (estimates[law],) = best(rows[:, 1:], rows[:, 0], own)
-    verdict = _verdict(terms[whole], sizes) if several else None
+    verdict = _verdict(terms[whole], sizes, chance) if several else None
     return Sample(first.contact, first.way, first.state, first.test, readings, estimates, verdict)
 
 
@@ -145,12 +146,13 @@ def _tell_apart(readings: Sequence[Reading]) -> bool:
     return len(ratios) >= 2 + _LEAST and max(ratios) >= _SPREAD * min(ratios)
 
 
-def _verdict(terms: Array, sizes: Sequence[Array]) -> Verdict | None:
+def _verdict(terms: Array, sizes: Sequence[Array], chance: float) -> Verdict | None:
     """Law that readings support; None where nothing resists.
 
     Args:
         terms: resistance, size and load of each, (n, 3).
         sizes: of their scatter that are likely, the likeliest first.
+        chance: of data like these below which a law is refused.
     """
     weighed = terms / sizes[0][:, None]
     resistance, columns = weighed[:, 0], weighed[:, 1:]
@@ -163,7 +165,7 @@ def _verdict(terms: Array, sizes: Sequence[Array]) -> Verdict | None:
     alone = {law: max(slopes(columns[:, [i]], resistance)[1], least(resistance))
              for i, law in enumerate(LAWS)}  # fmt: skip
     kept = [law for law in LAWS
-            if fdtrc(1, freedom, freedom * (alone[law] / rest - 1)) >= _CHANCE]  # fmt: skip
+            if fdtrc(1, freedom, freedom * (alone[law] / rest - 1)) >= chance]  # fmt: skip
     law = BOTH if not kept else kept[0] if len(kept) == 1 else ""
     misses = {law: math.sqrt(rest / (freedom + 1) / square) for law, rest in alone.items()}
     misses[BOTH] = math.sqrt(rest / freedom / square)
@@ -224,12 +226,12 @@ def _freedom(tests: Sequence[Estimate]) -> float:
 
 
 def differ(tests: Sequence[Estimate]) -> bool:
-    """Tell whether two tests differ beyond chance, 5 %, by Welch's t test."""
+    """Tell whether two tests differ beyond chance, 1 %, by Welch's t test."""
     if len(tests) < 2 or any(math.isnan(test.error) for test in tests):
         return False
     one, two = tests
     error = math.hypot(one.error, two.error)
     if not error:
-        return one.value != two.value
+        return not math.isclose(one.value, two.value)
     p = 2 * stdtr(_freedom(tests), -abs(one.value - two.value) / error)
-    return bool(p < _APART)
+    return bool(p < _CHANCE)

@@ -13,6 +13,7 @@ from mjsim.fitting.sliding_slopes import Estimate
 from mjsim.fitting.sliding_tests import STATES, WAYS
 
 _UNITS = {"constant": {"side": "Pa", "tip": "N"}, "coulomb": {"side": "", "tip": ""}}
+_ALIKE = 1e-6  # of a number: half of an interval that is of no width
 _DIGITS = ".6g"  # of numbers in files
 _LAWS = {"constant": "a constant bound", "coulomb": "mu N", BOTH: "the sum of both"}
 
@@ -70,6 +71,8 @@ def ground_of(
     law = _law(tested, used)
     kept = tuple(quantity for quantity in used if not law or quantity.law == law)
     fields = {q.name: float(format(q.estimate.value, _DIGITS)) for q in kept}
+    if not any(fields.values()):
+        raise ValueError("angle or force must be above 0 in some readings, got 0 in all of them")
     directed = any(quantity.way != "ahead" for quantity in kept)
     told = {"nap": nap} if directed else {}
     return Ground(law, fields, kept, {"surface": name, **fields, **told})
@@ -148,7 +151,7 @@ def notes(tested: Sequence[Sample], found: Sequence[Quantity], ground: Ground) -
             )
         if all(math.isnan(test.error) for test in quantity.tests.values()):
             lines.append(f"{name}: one reading has no interval; repeat it")
-        elif not quantity.estimate.error:
+        elif quantity.estimate.half_width <= _ALIKE * quantity.estimate.value:
             lines.append(f"{name}: repeats are all alike: the interval is of no width, the "
                          "resolution is not in it")  # fmt: skip
     return [*lines, *_missing(found, ground), *_at_rest(found)]
@@ -159,7 +162,7 @@ def _verdict(sample: Sample) -> list[str]:
     if verdict is None:
         return []
     where = f"{sample.contact}, {sample.way}, {sample.state}, {sample.test}"
-    misses = ", ".join(f"{_LAWS[law]} by {100 * miss:.2g} %"
+    misses = ", ".join(f"{_LAWS[law]} by {f'{100 * miss:.2g}' if miss > _ALIKE else '0'} %"
                        for law, miss in verdict.misses.items())  # fmt: skip
     words = {"": "either law may hold", BOTH: f"neither law alone, but {_sum(sample, verdict)}"}
     said = words.get(verdict.law) or f"the data support {_LAWS[verdict.law]}"

@@ -105,6 +105,11 @@ def test_a_law_that_neither_is_and_tests_that_differ_end_with_code_3(here, capsy
     assert any("tests differ" in note for note in record["notes"])
 
 
+def test_a_heavy_robot_has_a_ground_too(here, capsys):
+    assert words_of(capsys, ["--force", "31,33,32N", "--tips", "2"])["ground"] == {
+        "tip_force": pytest.approx(16.0)}  # fmt: skip
+
+
 def test_a_file_that_is_there_is_not_written_over_in_silence(here, capsys):
     words = ["--force", "33,35,34mN", "--tips", "1"]
     (here / "ground.toml").write_text("mine")
@@ -137,7 +142,7 @@ def test_a_file_that_is_there_is_not_written_over_in_silence(here, capsys):
         (["--force", "3mN", "--tips", "1", "--way", "up"], "ahead, back; got 'up'"),
         (["--force", "3mN", "--tips", "1", "--name", "felt"], "--name must be none of felt"),
         (["--force", "3mN", "--tips", "1", "--out", "x.txt"], "--out must end in .toml"),
-        (["--force", "0mN", "--tips", "1"], "resists by nothing"),
+        (["--force", "0mN", "--tips", "1"], "must be above 0 in some readings"),
     ],
 )
 def test_bad_input_is_one_clear_line(here, capsys, words, said):
