@@ -4,12 +4,17 @@ import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import tyro
 
 from mjsim.files.cli import FAILED, fail, parse, say, strict_json
 from mjsim.files.files import check_folder, whole
+
+if TYPE_CHECKING:
+    from analytic.scene.robot import Robot
+    from mjsim.files.tables import Tables
+    from mjsim.fitting.sliding_report import Ground
 
 PROGRAM = "undulator ground"
 EXAMPLES = (
@@ -52,6 +57,8 @@ class Options:
     state: Literal["begins", "slides"] | None = None
     """what rows are that do not say whether the sample begins to slide or slides on, and which of
     both the file has; begins if not given"""
+    scene: Path | None = None
+    """scene of a robot and a gait, which the file has beside the ground"""
     nap: Literal["robot", "ground"] = "robot"
     """whose ahead it is: of bristles under the sample, or of a nap of the ground"""
     name: str = "measured"
@@ -67,48 +74,35 @@ class Options:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv, EXAMPLES)
-    from mjsim.files.tables import build_ground
     from mjsim.files.written import as_toml
     from mjsim.fitting import sliding_report as report
     from mjsim.fitting.sliding_bounds import BOTH, quantities, samples
     from mjsim.fitting.sliding_tests import SHARED, read_tests
+    from mjsim.scene import Scene
 
     try:
-        if options.out.suffix != ".toml":
-            raise ValueError(f"out must end in .toml, got {str(options.out)!r}")
-        if options.out.exists() and not options.overwrite:
-            raise ValueError(
-                f"out must be a file that is not there, got {str(options.out)!r}; --overwrite "
-                "writes over it"
-            )
+        _check_out(options)
         shared = {name: getattr(options, name) or "" for name in (*SHARED, "way", "state")}
         tests = read_tests(options.data, shared, {"angle": options.angle, "force": options.force})
         tested = samples(tests.readings)
         found = quantities(tested)
-        if not found:
-            raise ValueError(
-                "mass, area or tips must be given: without them a force tells neither a "
-                "coefficient nor a bound"
-            )
         ground = report.ground_of(tested, found, options.name, options.nap, options.state or "")
-        numerics = {"friction": ground.law} if ground.law else {}
-        tables = {"ground": ground.table, "numerics": numerics}
-        build_ground(
-            ground.table
-        )  # refuses what no surface is; a robot, which has a say, is not here
+        tables, strip = _scene(options.scene, ground)
         check_folder(options.out.parent)
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
     lines = report.notes(tested, found, ground)
+    if strip is not None:
+        lines += report.loads(strip, ground)
     if tests.ignored:
         lines.append(f"columns that are not read: {', '.join(tests.ignored)}")
-    film = report.film_command(ground, options.out)
+    law = tables["numerics"].get("friction", Scene.friction)
+    film = report.film_command(ground, options.out, law)
     rows = report.table(found)
     if options.json:
         record = report.record_of(tested, found)
-        say(strict_json(record | {"law": ground.law or None, "ground": ground.fields,
-                                  "notes": lines, "film": film,
-                                  "file": str(options.out)}))  # fmt: skip
+        told = {"law": ground.law or None, "ground": ground.fields, "notes": lines, "film": film}
+        say(strict_json(record | told | {"file": str(options.out)}))
     else:
         say("\n".join([rows, *lines, f"two cycles on film tell more: {film}"]))
     try:
@@ -116,11 +110,40 @@ def main(argv: Sequence[str] | None = None) -> int:
             comments = ["Measured; 95 % intervals:", *rows.splitlines(), *lines]
             part.write_text(as_toml(tables, comments), "utf-8")
     except OSError as error:
-        sys.stdout.flush()
+        sys.stdout.flush()  # after the numbers, which are not lost
         fail(PROGRAM, f"out cannot be written: {error}")
     if not options.json:
         print(options.out)
-    doubtful = any(q.apart for q in ground.used) or any(
-        sample.verdict and sample.verdict.law == BOTH for sample in tested
-    )
-    return FAILED if doubtful else 0
+    neither = any(sample.verdict and sample.verdict.law == BOTH for sample in tested)
+    return FAILED if neither or any(quantity.apart for quantity in ground.used) else 0
+
+
+def _check_out(options: Options) -> None:
+    if options.out.suffix != ".toml":
+        raise ValueError(f"out must end in .toml, got {str(options.out)!r}")
+    if options.out.exists() and not options.overwrite:
+        raise ValueError(
+            f"out must be a file that is not there, got {str(options.out)!r}; --overwrite writes "
+            "over it"
+        )
+
+
+def _scene(path: Path | None, ground: "Ground") -> "tuple[Tables, Robot | None]":
+    """Tables of the file to write, and the strip of the scene that was given, if there is one.
+
+    Raises:
+        ValueError: what was measured is no surface, or the scene cannot be read or cannot have it.
+    """
+    from mjsim.files.keys import WITH_ANY_SURFACE
+    from mjsim.files.tables import build, build_ground, merged, read_tables
+    from mjsim.files.written import as_tables
+
+    build_ground(ground.table)  # alone: how heavy a robot it may be of is not known here
+    numerics = {"friction": ground.law} if ground.law else {}
+    if path is None:
+        return {"ground": ground.table, "numerics": numerics}, None
+    base = read_tables(path)
+    kept = {k: v for k, v in base.get("ground", {}).items() if k in WITH_ANY_SURFACE}
+    tables = merged({**base, "ground": {**kept, **ground.table}}, {"numerics": numerics})
+    scene, settings = build(tables)
+    return as_tables(scene, settings), None if scene.in_space else scene.strip

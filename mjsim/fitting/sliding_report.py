@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
 from mjsim.files.text_table import Column, text_table
 from mjsim.files.typed import Table
@@ -13,6 +14,8 @@ from mjsim.fitting.sliding_slopes import Estimate
 from mjsim.fitting.sliding_tests import STATES, WAYS
 
 _UNITS = {"constant": {"side": "Pa", "tip": "N"}, "coulomb": {"side": "", "tip": ""}}
+_PRESSED = {"side": (1.0, "Pa"), "tip": (1e3, "mN a tip")}
+_OTHER_LOAD = 1.5  # from which factor on a load is another than that of the readings; chosen
 _ALIKE = 1e-6  # of a number: half of an interval that is of no width
 _DIGITS = ".6g"  # of numbers in files
 _LAWS = {"constant": "a constant bound", "coulomb": "mu N", BOTH: "the sum of both"}
@@ -48,9 +51,14 @@ def ground_of(
             tested.
 
     Raises:
-        ValueError: a contact was tested back or across and not ahead, the state was not tested,
-            or the name is a known surface's.
+        ValueError: there is no quantity, a contact was tested back or across and not ahead, the
+            state was not tested, or the name is a known surface's.
     """
+    if not found:
+        raise ValueError(
+            "mass, area or tips must be given: without them a force tells neither a coefficient "
+            "nor a bound"
+        )
     if name in SURFACES:
         raise ValueError(f"name must be none of {', '.join(SURFACES)}, which are known surfaces")
     contacts = dict.fromkeys(quantity.contact for quantity in found)
@@ -127,7 +135,7 @@ def _load(quantity: Quantity) -> str:
     low, high = quantity.pressed
     if not math.isfinite(low + high):
         return ""
-    factor, unit = (1.0, "Pa") if quantity.contact == "side" else (1e3, "mN a tip")
+    factor, unit = _PRESSED[quantity.contact]
     ends = dict.fromkeys(f"{factor * end:.3g}" for end in (low, high))
     return f"{' .. '.join(ends)} {unit}"
 
@@ -155,6 +163,23 @@ def notes(tested: Sequence[Sample], found: Sequence[Quantity], ground: Ground) -
             lines.append(f"{name}: repeats are all alike: the interval is of no width, the "
                          "resolution is not in it")  # fmt: skip
     return [*lines, *_missing(found, ground), *_at_rest(found)]
+
+
+def loads(robot: Robot, ground: Ground) -> list[str]:
+    """Lines on bounds that were measured at other loads than a strip's, where that may matter."""
+    if ground.law:
+        return []
+    own = {"side": robot.weight_per_length / robot.width, "tip": 0.5 * robot.weight}
+    lines = []
+    for quantity in ground.used:
+        low, high = quantity.pressed
+        load = own[quantity.contact]
+        if quantity.law == "constant" and not low / _OTHER_LOAD < load < high * _OTHER_LOAD:
+            told = "" if math.isnan(low) else f", readings are at {_load(quantity)}"
+            factor, unit = _PRESSED[quantity.contact]
+            lines.append(f"{quantity.name}: the robot presses {factor * load:.3g} {unit}{told}: a "
+                         "bound at its load is not known")  # fmt: skip
+    return lines
 
 
 def _verdict(sample: Sample) -> list[str]:
@@ -213,15 +238,19 @@ def _at_rest(found: Sequence[Quantity]) -> list[str]:
     ]
 
 
-def film_command(ground: Ground, path: Path) -> str:
-    """The command that fits a film of two cycles, beside what these tests say."""
+def film_command(ground: Ground, path: Path, law: str) -> str:
+    """The command that fits a film of two cycles, beside what these tests say.
+
+    Args:
+        ground: of the tests.
+        path: of its file.
+        law: of friction in the file.
+    """
     known = [
         quantity
         for quantity in ground.used
-        if quantity.estimate.value > 0 and quantity.way != "across"
-    ]  # which no film shows
-    if not ground.law:  # bounds act by default
-        known = [quantity for quantity in known if quantity.law == "constant"]
+        if quantity.law == law and quantity.estimate.value > 0 and quantity.way != "across"
+    ]  # which no film of a strip shows
     free = ["robot.modulus", *(f"surface.{quantity.name}" for quantity in known)]
     priors = [f"surface.{q.name}={q.estimate.value:.4g}+-{q.estimate.error:.2g}" for q in known
               if q.estimate.error > 0 and not (q.apart or q.missed)]  # fmt: skip

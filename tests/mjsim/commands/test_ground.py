@@ -1,6 +1,7 @@
 """`undulator ground`: from a file of readings to a scene that walks."""
 
 import json
+import math
 import tomllib
 from pathlib import Path
 
@@ -110,6 +111,22 @@ def test_a_heavy_robot_has_a_ground_too(here, capsys):
         "tip_force": pytest.approx(16.0)}  # fmt: skip
 
 
+def test_a_scene_keeps_its_robot_and_its_slope_and_is_told_of_other_loads(here, capsys):
+    (here / "my.toml").write_text(
+        '[robot]\nmass = "12 g"\n[ground]\nsurface = "felt"\nslope_deg = 2\n'
+        '[numerics]\nlinks = 12\nfriction = "coulomb"\n'
+    )
+    words = ["--force", "31,33,32mN", "--tips", "1", "--mass", "40g", "--scene", "my.toml"]
+    record = words_of(capsys, words)
+    scene, numerics = build(read_tables(here / "ground.toml"))
+    assert (scene.robot.weight, numerics.links) == (pytest.approx(0.012 * 9.81), 12)
+    assert math.degrees(scene.slope) == pytest.approx(2)
+    assert (scene.ground.tip_force, scene.ground.shear_strength) == (pytest.approx(0.032), 0)
+    assert any("58.9 mN a tip, readings are at 392 mN a tip" in note for note in record["notes"])
+    assert "surface.tip_friction=" in record["film"]
+    assert "tip_force" not in record["film"]
+
+
 def test_a_file_that_is_there_is_not_written_over_in_silence(here, capsys):
     words = ["--force", "33,35,34mN", "--tips", "1"]
     (here / "ground.toml").write_text("mine")
@@ -142,6 +159,7 @@ def test_a_file_that_is_there_is_not_written_over_in_silence(here, capsys):
         (["--force", "3mN", "--tips", "1", "--way", "up"], "ahead, back; got 'up'"),
         (["--force", "3mN", "--tips", "1", "--name", "felt"], "--name must be none of felt"),
         (["--force", "3mN", "--tips", "1", "--out", "x.txt"], "--out must end in .toml"),
+        (["--force", "3mN", "--tips", "1", "--scene", "no.toml"], "scene 'no.toml' cannot be read"),
         (["--force", "0mN", "--tips", "1"], "must be above 0 in some readings"),
     ],
 )
