@@ -9,11 +9,12 @@ from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
 from mjsim.files.text_table import Column, text_table
 from mjsim.files.typed import Table
-from mjsim.fitting.sliding_bounds import BOTH, NAMES, Quantity, Sample, Verdict
+from mjsim.fitting.sliding_bounds import BOTH, LAWS, NAMES, Quantity, Sample, Verdict
 from mjsim.fitting.sliding_slopes import Estimate
 from mjsim.fitting.sliding_tests import STATES, WAYS
 
 _UNITS = {"constant": {"side": "Pa", "tip": "N"}, "coulomb": {"side": "", "tip": ""}}
+_SHORT = {"constant": "bound", "coulomb": "coefficient"}
 _PRESSED = {"side": (1.0, "Pa"), "tip": (1e3, "mN a tip")}
 _OTHER_LOAD = 1.5  # from which factor on a load is another than that of the readings; chosen
 _ALIKE = 1e-6  # of a number: half of an interval that is of no width
@@ -207,19 +208,20 @@ def _plus_minus(estimate: Estimate) -> str:
 
 
 def _missing(found: Sequence[Quantity], ground: Ground) -> list[str]:
-    contacts = {quantity.contact for quantity in ground.used}
-    lines = [f"{each}s were tested, but give no {_LAWS[ground.law]}: their mass is needed"
-             if ground.law == "coulomb" else
-             f"{each}s were tested, but give no {_LAWS[ground.law]}: mass and area are needed"
-             for each in ("side", "tip")
-             if ground.law and each in {q.contact for q in found} - contacts]  # fmt: skip
+    known = {(quantity.contact, quantity.law) for quantity in ground.used}
+    contacts = {quantity.contact for quantity in found}
+    needed = {"constant": "mass and area are", "coulomb": "their mass is"}
+    lines = [f"{each}s give no {_SHORT[law]}, for which {needed[law]} needed: the file does not say "
+             f"what holds them under --friction {law}"
+             for each in ("side", "tip") for law in ([ground.law] if ground.law else LAWS)
+             if each in contacts and (each, law) not in known]  # fmt: skip
     if "tip" not in contacts and ground.law != "coulomb":
         lines.append("tips were not tested: they resist by nothing in the file, as on felt")
     if "tip" not in contacts and ground.law == "coulomb":
         lines.append("tips were not tested: they have the coefficient of sides in the file")
     if "side" not in contacts:
         lines.append("sides were not tested: they resist by nothing in the file, as on gelatin")
-    ways = {each: {q.way for q in ground.used if q.contact == each} for each in contacts}
+    ways = {contact: {q.way for q in ground.used if q.contact == contact} for contact, _ in known}
     for each, tried in ways.items():
         if others := [way for way in WAYS if way in set().union(*ways.values()) - tried]:
             lines.append(f"{each}s were not tested {' and '.join(others)}: what the file says of "
@@ -246,11 +248,8 @@ def film_command(ground: Ground, path: Path, law: str) -> str:
         path: of its file.
         law: of friction in the file.
     """
-    known = [
-        quantity
-        for quantity in ground.used
-        if quantity.law == law and quantity.estimate.value > 0 and quantity.way != "across"
-    ]  # which no film of a strip shows
+    along = [quantity for quantity in ground.used if quantity.way != "across"]  # as a film shows
+    known = [q for q in along if q.law == law and q.estimate.value > 0]
     free = ["robot.modulus", *(f"surface.{quantity.name}" for quantity in known)]
     priors = [f"surface.{q.name}={q.estimate.value:.4g}+-{q.estimate.error:.2g}" for q in known
               if q.estimate.error > 0 and not (q.apart or q.missed)]  # fmt: skip

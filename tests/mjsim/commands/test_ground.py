@@ -82,6 +82,16 @@ def test_a_bound_either_way_and_across_is_written_as_such(here, capsys):
     assert bounds == pytest.approx([8.39, 12.26, 10.36], rel=2e-3)
 
 
+def test_what_a_law_needs_and_the_readings_lack_is_said(here, capsys):
+    path = here / "tests.csv"
+    path.write_text("angle [deg],force [mN],tips\n30,,\n31,,\n,33,1\n,34,1\n")
+    record = words_of(capsys, [str(path)])
+    assert record["law"] is None
+    assert record["ground"].keys() == {"friction", "tip_force"}
+    for said in ("sides give no bound", "tips give no coefficient"):
+        assert any(said in note for note in record["notes"])
+
+
 def test_slides_and_begins_are_told_apart_and_one_of_them_is_written(here, capsys):
     path = here / "tests.csv"
     path.write_text("force [mN],state\n30,begins\n32,begins\n31,begins\n20,slides\n21,slides\n")
