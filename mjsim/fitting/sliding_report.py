@@ -211,8 +211,8 @@ def _missing(found: Sequence[Quantity], ground: Ground) -> list[str]:
     known = {(quantity.contact, quantity.law) for quantity in ground.used}
     contacts = {quantity.contact for quantity in found}
     needed = {"constant": "mass and area are", "coulomb": "their mass is"}
-    lines = [f"{each}s give no {_SHORT[law]}, for which {needed[law]} needed: the file does not say "
-             f"what holds them under --friction {law}"
+    lines = [f"{each}s give no {_SHORT[law]}, for which {needed[law]} needed: the file does not "
+             f"say what holds them under --friction {law}"
              for each in ("side", "tip") for law in ([ground.law] if ground.law else LAWS)
              if each in contacts and (each, law) not in known]  # fmt: skip
     if "tip" not in contacts and ground.law != "coulomb":
@@ -221,7 +221,10 @@ def _missing(found: Sequence[Quantity], ground: Ground) -> list[str]:
         lines.append("tips were not tested: they have the coefficient of sides in the file")
     if "side" not in contacts:
         lines.append("sides were not tested: they resist by nothing in the file, as on gelatin")
-    ways = {contact: {q.way for q in ground.used if q.contact == contact} for contact, _ in known}
+    ways = {
+        contact: {q.way for q in ground.used if q.contact == contact}
+        for contact, _ in sorted(known)
+    }
     for each, tried in ways.items():
         if others := [way for way in WAYS if way in set().union(*ways.values()) - tried]:
             lines.append(f"{each}s were not tested {' and '.join(others)}: what the file says of "
