@@ -10,6 +10,7 @@ COMMANDS = {  # module of mjsim.commands, and the line of the help
     "run": ("run", "walk in MuJoCo, beside the theory, with a video"),
     "compare": ("compare", "every model on the same scenes in one table"),
     "fit": ("fit", "fit unknown parameters of a scene to measurements"),
+    "ground": ("ground", "numbers of one's own ground from tilt and pull tests"),
     "view": ("view", "play a scene live in MuJoCo's viewer"),
     "report": ("report", "one self-contained page about saved walks"),
     "replay": ("replay", "a video of a saved walk"),
