@@ -5,7 +5,7 @@ MUJOCO_4 := 4.0.0
 # the oldest that reads models/
 MUJOCO_OLD := 3.13.0
 
-.PHONY: run test check check-mujoco4 check-mujoco-old numbers scenes reach auto promises fast quadruped loop price startup \
+.PHONY: run test check check-mujoco4 check-mujoco-old numbers scenes reach auto promises fast quadruped trees loop price startup \
 	bench regression \
 	identify models gallery figures charts chart maps reference architecture clean
 
@@ -55,6 +55,10 @@ fast: .venv/ready
 # the quadruped against its reference on random scenes
 quadruped: .venv/ready
 	$(PY) benchmarks/quadruped.py
+
+# trees of limbs at random against finer numerics and a finer reference
+trees: .venv/ready
+	$(PY) benchmarks/trees.py
 
 loop: .venv/ready
 	$(PY) benchmarks/loop.py

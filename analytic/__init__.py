@@ -13,13 +13,17 @@ from analytic.lazy import lazily
 __getattr__, __dir__, __all__ = lazily(
     __name__,
     {
+        "analytic.fitting.actuator": ("fit_actuator",),
+        "analytic.fitting.bench": ("Bench",),
         "analytic.friction.laws": ("LAWS", "Friction", "TractionLaw"),
         "analytic.locomotion": ("Direction", "Locomotion", "direction", "displacements"),
         "analytic.prediction": ("Prediction", "predict"),
+        "analytic.scene.actuator": ("Actuator",),
         "analytic.scene.feet": ("Foot",),
         "analytic.scene.gait": ("GAITS", "Gait"),
         "analytic.scene.ground": ("Patches",),
         "analytic.scene.limbs": ("Limb", "LimbedRobot", "quadruped"),
+        "analytic.scene.materials": ("MATERIALS",),
         "analytic.scene.quadruped_gaits": ("QUADRUPED_GAITS", "undulation"),
         "analytic.scene.robot": ("Robot",),
         "analytic.scene.surface": ("SURFACES", "Ground", "Surface"),

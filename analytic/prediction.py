@@ -12,6 +12,7 @@ from analytic.friction.laws import Friction
 from analytic.locomotion import WEAK, Locomotion, displacements, left_end
 from analytic.scene.gait import Gait
 from analytic.scene.ground import depends_on_speed
+from analytic.scene.limbs import acting_pressures
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground, Surface
 from analytic.shapes import ContactShapes, Flag, Shapes
@@ -27,7 +28,8 @@ class Prediction(NamedTuple):
     """One cycle, or several, by one solver.
 
     Attributes:
-        pressures: states along the path, shape (B, S) [Pa], denser where the anchor changes.
+        pressures: that act along the path, shape (B, S) [Pa], denser where the anchor changes;
+            the chambers' own but of actuators with hysteresis.
         times: of those states, shape (B,) [s]; places along the path in rows where it has no times.
         shapes: their equilibria.
         locomotion: displacements along them.
@@ -100,7 +102,7 @@ def predict(
         else:
             fractions, times = gait.path(states_per_ramp, cycles)
         path = robot.peak_pressure * fractions
-    path = np.asarray(path, dtype=float)
+    path = acting_pressures(robot, np.asarray(path, dtype=float))
     if times is not None:
         times_of(times, len(path))
     clock = np.asarray(np.arange(len(path)) if times is None else times, dtype=float)
@@ -132,7 +134,7 @@ def predict_grounds(
         ValueError: see predict.
     """
     friction = replace(friction, tension=0.0)
-    path = robot.peak_pressure * gait.path(states_per_ramp)[0]
+    path = acting_pressures(robot, robot.peak_pressure * gait.path(states_per_ramp)[0])
     walk = _Walk(robot, solver, friction, cycles=1, timed=False)
     return walk.on(grounds, path, np.arange(float(len(path))))
 

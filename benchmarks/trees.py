@@ -1,31 +1,73 @@
 """Random trees of limbs: MuJoCo by default against finer MuJoCo and against a finer reference.
 
-    python benchmarks/trees.py [TREES] [FIRST]
+    python benchmarks/trees.py [count] [processes]
 
 Trees of 2 to 8 limbs, with angles, lengths, widths, weights, gaits, both friction laws and four
-grounds at random: by default numerics, by a quarter of the step and twice the links, and by the
-reference with twice the links and states. Prints a line a tree and how many agree within 5 % or
-0.003 L and within 5 % or 0.3 degrees; a walk or a reference that fails is a miss.
+grounds at random, each a function of its seed alone: by default numerics; by twice the links at
+half and at a quarter of the step; by the reference, the coarser one of its error bar, and by the
+reference of twice the links and states. Rows are added to trees.csv beside this file as they come,
+and those there are kept. Prints how many agree within 5 % or 0.003 L and within 5 % or 0.3 degrees,
+a walk or a reference that fails being a miss, and how many error bars cover what the finer one
+changes. A tree takes 5 to 120 s of CPU time.
 """
 
+import csv
+import itertools
 import sys
-from concurrent.futures import ProcessPoolExecutor
+import time
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from analytic.scene.gait import Gait
 from analytic.scene.limbs import Limb, LimbedRobot
 from analytic.scene.robot import Robot
 from analytic.scene.surface import FRICTION, SHEAR_STRENGTH, SURFACES, TIP_FORCE, Surface
+from mjsim.files.files import whole
 from mjsim.results.measures import measure
-from mjsim.results.prediction import HALF, error_bars, reference
+from mjsim.results.prediction import HALF, Reference, error_bars, reference
+from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Scene, resolved
+from mjsim.simulation.second_walks import changes
 from mjsim.simulation.simulation import simulate
 
+Array = NDArray[np.float64]
+
+ROWS = Path(__file__).with_name("trees.csv")
+COUNT = 60
 MIXED = Surface("mixed", 0.7 * TIP_FORCE, 0.5 * SHEAR_STRENGTH, 0.5 * FRICTION, 0.7 * FRICTION)
 GROUNDS = (*SURFACES.values(), MIXED)
 WITHIN, WITHIN_LENGTH, WITHIN_TURN = 0.05, 0.003, 0.3  # relative, L, degrees
 RAMP = 4.0  # s
+MOVES = ("walk", "half", "quarter", "theory", "coarse", "fine")
+PARTS = ("ahead", "aside", "turn")
+BARS = ("walk_bar", "theory_bar")
+
+
+class Row(NamedTuple):
+    """A tree: moves, and error bars of a walk and of its reference; NaN of what failed.
+
+    Moves are ahead and aside over L and a turn in degrees, (3,); bars over L and in degrees, (2,).
+    """
+
+    seed: int
+    limbs: int
+    ground: str
+    friction: str
+    walk: Array
+    half: Array
+    quarter: Array
+    walk_bar: Array
+    theory: Array
+    coarse: Array
+    fine: Array
+    theory_bar: Array
+    flags: str
+    seconds: float
 
 
 def draw(seed: int) -> Scene:
@@ -55,53 +97,113 @@ def draw(seed: int) -> Scene:
     return Scene(LimbedRobot(tuple(limbs)), Gait("random", stages, RAMP), ground, friction=law)
 
 
-def walked(scene: Scene, numerics: Numerics) -> np.ndarray:
-    """Displacement over L, (2,), and turn in degrees; NaN if it failed."""
-    numbers = measure(simulate(scene, numerics))
+def moved(walk: Trajectory) -> Array:
+    """Move of a walk in MuJoCo, (3,); NaN if it failed."""
+    numbers = measure(walk)
     if numbers is None:
         return np.full(3, np.nan)
     return np.array([numbers.displacement, numbers.aside, np.degrees(numbers.turn)])
 
 
-def agrees(one: np.ndarray, other: np.ndarray) -> bool:
-    """Tell whether both displacement and turn do."""
-    off, far = np.hypot(*(one - other)[:2]), np.hypot(*other[:2])
-    near = off <= max(WITHIN * far, WITHIN_LENGTH)
-    return bool(near and abs(one[2] - other[2]) <= max(WITHIN * abs(other[2]), WITHIN_TURN))
+def predicted(theory: Reference) -> Array:
+    """Move by a reference, (3,)."""
+    return np.array([*theory.displacement, np.degrees(theory.turn)])
 
 
-def compare(seed: int) -> tuple[str, list[bool]]:
-    """A line on a tree; whether finer MuJoCo and theory agree, and whether the bar covers."""
-    scene = draw(seed)
+def row_of(seed: int) -> Row:
+    scene, begin = draw(seed), time.process_time()
     usual = resolved(scene)
-    fine = Numerics(links=2 * usual.links, timestep=usual.timestep / 4)
-    walk, finer = walked(scene, Numerics()), walked(scene, fine)
-    theory, coarse = reference(scene), reference(scene, finer=HALF)
-    best = reference(scene, Numerics(links=2 * usual.links), finer=2)
+    walk, half, quarter = (
+        simulate(scene, Numerics(links=links * usual.links, timestep=usual.timestep / part))
+        for links, part in ((1, 1), (2, 2), (2, 4))
+    )
+    moves = [moved(each) for each in (walk, half, quarter)]
+    ended = not np.isnan(moves[:2]).any()
+    walk_bar = np.array(changes(walk, half) if ended else (np.nan, np.nan))
+    theory, coarse, fine = (reference(scene, finer=finer) for finer in (1, HALF, 2))
     bar, turn_bar = error_bars(scene, theory, coarse)
-    rows = [np.array([*each.displacement, np.degrees(each.turn)]) for each in (theory, best)]
-    error = np.abs(rows[0] - rows[1])
-    covers = (float(np.hypot(*error[:2])) <= (bar or 0.0) + 1e-4
-              and error[2] <= np.degrees(turn_bar) + 0.02)  # fmt: skip
-    good = [agrees(walk, finer), agrees(walk, rows[1]), bool(covers)]
-    name = f"{seed:3d} {len(scene.robot.limbs)} limbs {scene.ground.name:12s} {scene.friction:8s}"
-    numbers = (np.array2string(row, precision=4, suppress_small=True, sign="+")
-               for row in (walk, finer, *rows))  # fmt: skip
-    marks = "".join("." if ok else "X" for ok in good)
-    return f"{name} {' '.join(numbers)} ±{bar or np.nan:.4f} {' '.join(best.flags)} {marks}", good
+    theory_bar = np.array([np.nan if bar is None else bar, np.degrees(turn_bar)])
+    flags = [f"{name} {flag}" for name, each in (("theory", theory), ("fine", fine))
+             for flag in each.flags]  # fmt: skip
+    return Row(seed, len(scene.robot.limbs), scene.ground.name, scene.friction, *moves, walk_bar,
+               *map(predicted, (theory, coarse, fine)), theory_bar, "; ".join(flags),
+               time.process_time() - begin)  # fmt: skip
 
 
-def main(count: int, first: int) -> None:
-    """Print the table."""
-    outcomes = []
-    with ProcessPoolExecutor(2) as pool:
-        for line, good in pool.map(compare, range(first, first + count)):
-            outcomes.append(good)
-            print(line, flush=True)
-    finer, theory, covered = np.mean(outcomes, axis=0)
-    print(f"of {count}: as finer MuJoCo {finer:.0%}, as the finer reference {theory:.0%}, "
-          f"error bar covers {covered:.0%}")  # fmt: skip
+def apart(one: Array, other: Array) -> Array:
+    """How far apart two moves are, over L and in degrees, (2,)."""
+    return np.array([np.hypot(*(one - other)[:2]), abs(one[2] - other[2])])
+
+
+def agrees(one: Array, other: Array) -> bool:
+    """Tell whether both displacement and turn do, by the size of the other."""
+    size = np.array([np.hypot(*other[:2]), abs(other[2])])
+    allowed = np.maximum(WITHIN * size, (WITHIN_LENGTH, WITHIN_TURN))
+    return bool((apart(one, other) <= allowed).all())
+
+
+def covers(bar: Array, one: Array, other: Array) -> bool:
+    return bool((apart(one, other) <= bar).all())
+
+
+CLAIMS: dict[str, Callable[[Row], bool]] = {
+    "MuJoCo as by twice the links and a quarter of the step": lambda r: agrees(r.walk, r.quarter),
+    "MuJoCo as the reference by twice the links and states": lambda r: agrees(r.walk, r.fine),
+    "reference as by twice the links and states": lambda r: agrees(r.theory, r.fine),
+    "finest MuJoCo as the finest reference": lambda r: agrees(r.quarter, r.fine),
+    "bar of MuJoCo covers a quarter of the step": lambda r: covers(r.walk_bar, r.walk, r.quarter),
+    "bar of the reference covers the finest": lambda r: covers(r.theory_bar, r.theory, r.fine),
+    "both bars cover MuJoCo and the finest reference": lambda r: covers(
+        r.walk_bar + r.theory_bar, r.walk, r.fine
+    ),
+}
+
+
+def columns(name: str) -> list[str]:
+    """Columns of a field of a row."""
+    parts = PARTS if name in MOVES else ("over_L", "deg") if name in BARS else ()
+    return [f"{name}_{part}" for part in parts] or [name]
+
+
+def read() -> list[Row]:
+    if not ROWS.is_file():
+        return []
+    with ROWS.open(newline="", encoding="utf-8") as file:
+        return [
+            Row(*(
+                np.array([float(row[column]) for column in columns(name)])
+                if name in MOVES + BARS else kind(row[name])
+                for name, kind in Row.__annotations__.items()
+            )) for row in csv.DictReader(file)
+        ]  # fmt: skip
+
+
+def write(rows: list[Row]) -> None:
+    with whole(ROWS) as part, part.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow([column for name in Row._fields for column in columns(name)])
+        for row in sorted(rows, key=lambda row: row.seed):
+            values = (v.tolist() if isinstance(v, np.ndarray) else [v] for v in row)
+            cells = itertools.chain.from_iterable(values)
+            table.writerow([f"{cell:.6g}" if isinstance(cell, float) else cell for cell in cells])
+
+
+def main() -> None:
+    count = int(sys.argv[1]) if sys.argv[1:] else COUNT
+    rows = read()
+    todo = set(range(count)) - {row.seed for row in rows}
+    with ProcessPoolExecutor(int(sys.argv[2]) if sys.argv[2:] else 2) as pool:
+        for work in as_completed([pool.submit(row_of, seed) for seed in sorted(todo)]):
+            rows.append(work.result())
+            write(rows)
+    for name, claim in CLAIMS.items():
+        missed = [row for row in rows if not claim(row)]
+        print(f"{len(rows) - len(missed)} of {len(rows)}: {name}")
+        for row in missed:
+            print(f"  {row.seed}, {row.limbs} limbs, {row.ground}, {row.friction} {row.flags}")
+            for part in (*MOVES, *BARS):
+                print(f"    {part:10}", *(f"{number:+.4f}" for number in getattr(row, part)))
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 60, int(sys.argv[2]) if sys.argv[2:] else 0)
+    main()

@@ -22,6 +22,7 @@ _attribute, __dir__, __all__ = lazily(
     {
         "analytic.friction.laws": ("Friction",),
         "analytic.prediction": ("predict",),
+        "analytic.scene.actuator": ("Actuator",),
         "analytic.scene.feet": ("Foot",),
         "analytic.scene.gait": ("GAITS", "Gait"),
         "analytic.scene.ground": ("Patches",),

@@ -32,6 +32,13 @@ def test_a_robot_of_ones_own_walks_forward_on_felt():
     assert example("own_robot")() > 0.005
 
 
+@pytest.mark.slow
+def test_measured_actuators_walk_alike_in_theory_and_mujoco():
+    found = example("measured_actuators")()
+    assert found["MuJoCo"] == pytest.approx(found["theory"], rel=0.02)
+    assert abs(found["affine law, theory"] / found["theory"] - 1) > 0.05
+
+
 def test_a_ground_of_ones_own_lies_between_felt_and_gelatin():
     shifts = example("own_ground")()
     assert shifts["gelatin"] < shifts["table"] < shifts["felt"]

@@ -1,17 +1,22 @@
 """Contact lengths that follow from the contact forces on nodes, for one or many states."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene import pneunet
+from analytic.scene.actuator import Actuator
+from analytic.scene.limbs import AnyRobot, limbs_of
 from analytic.scene.robot import Robot
 
 Array = NDArray[np.float64]
 
 PASSIVE = 0.01  # of the peak pressure: an end with less may lie on its side, if it does; chosen
+_ROBOTS = 256  # whose bending peaks are remembered; sweeps have many
+_HALVINGS = 50  # of an interval that a pressure lies in; to rounding
 _RIPPLE = 0.2  # of w L h^3 / D0: how high a flat stretch ripples between nodes, bounded; measured
 
 
@@ -41,16 +46,18 @@ def side_contact(
         a force is.
     """
     lifted = ripple(robot, nodes)
+    flat = may_lie_flat(pressures, bending_peaks(robot))
     lengths = [
-        [end_contact(robot, nodes[::order], f[::order], y[::order] > lifted, p[::order][0], press)
-         for f, y, p in zip(force, height, pressures, strict=True)]
+        [end_contact(robot, nodes[::order], f[::order], y[::order] > lifted, lies[::order][0],
+                     press)
+         for f, y, lies in zip(force, height, flat, strict=True)]
         for order in (1, -1)
     ]  # fmt: skip
     return np.array(lengths[0]), np.array(lengths[1])
 
 
 def end_contact(
-    robot: Robot, nodes: Array, push: Array, air: NDArray[np.bool_], pressure: float, press: float
+    robot: Robot, nodes: Array, push: Array, air: NDArray[np.bool_], flat: bool, press: float
 ) -> float:
     """Length of side contact at the end that comes first, of one state; see side_contact [m].
 
@@ -59,12 +66,12 @@ def end_contact(
         nodes: arclength, from that end or towards it, (S,) [m].
         push: force on each, (S,) [N].
         air: whether it is higher than a flat stretch ripples, (S,).
-        pressure: of the segment at that end [Pa].
+        flat: whether the segment at that end may lie flat, see may_lie_flat.
         press: pull of adhesion, see side_contact [N/m].
     """
     if not np.isfinite(push[0]):
         return np.nan
-    if not press and not may_lie_flat(pressure, robot.peak_pressure):
+    if not press and not flat:
         return 0.0
     first = int((push > 0).argmax())  # the outermost node may hover by a rounding of h
     end = first + int(air[first:].argmax())
@@ -117,8 +124,37 @@ def length_between(weight: float, places: Sequence[float], push: Sequence[float]
 
 
 def may_lie_flat(pressure: Any, peak_pressure: Any) -> Any:
-    """Tell whether an end segment at this pressure [Pa] may lie on its side: with next to none."""
+    """Tell whether an end segment at this pressure [Pa] may lie on its side: with next to none.
+
+    Args:
+        pressure: that acts.
+        peak_pressure: of the segment, see bending_peaks.
+    """
     return abs(pressure) <= PASSIVE * peak_pressure
+
+
+@lru_cache(_ROBOTS)
+def bending_peaks(robot: AnyRobot) -> Array:
+    """Pressures of which the part PASSIVE bends chambers by that part of the peak's curvature.
+
+    They are the peak by the affine law (3), and more of a chamber that bends late, (S,) [Pa].
+    """
+    peak = robot.peak_pressure
+    peaks = np.array([
+        _onset(curve, peak) / PASSIVE if curve else peak
+        for limb in limbs_of(robot) for curve in limb.strip.actuators
+    ])  # fmt: skip
+    peaks.flags.writeable = False
+    return peaks
+
+
+def _onset(actuator: Actuator, peak: float) -> float:
+    """Pressure at which an actuator bends by the part PASSIVE of its curvature at the peak [Pa]."""
+    goal, low, high = PASSIVE * float(actuator.curvature_at(peak)), 0.0, peak
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if actuator.curvature_at(middle) <= goal else (low, middle)
+    return low
 
 
 def end_loads(force: Array, height: Array) -> tuple[Array, Array]:

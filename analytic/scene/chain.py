@@ -48,10 +48,10 @@ def check_chamber(robot: Robot, links: int, chamber: str) -> None:
         raise ValueError(
             f"links must make every segment whole elements for sealed chambers, got {links}"
         )
-    if robot.curvature_per_pressure or robot.rigidity_per_pressure:
+    if robot.curvature_per_pressure or robot.rigidity_per_pressure or robot.actuator:
         raise ValueError(
             "sealed chambers must be given by chamber_height and chamber_fraction, "
-            "not by curvature_per_pressure or rigidity_per_pressure"
+            "not by curvature_per_pressure, rigidity_per_pressure or actuator"
         )
 
 

@@ -13,12 +13,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.checks import file_word, is_number, one_of, positive
+from analytic.scene import pneunet
+from analytic.scene.actuator import Memory
+from analytic.scene.gait import Gait
 from analytic.scene.ground import LEVEL, Incline
 from analytic.scene.robot import GRAVITY, Robot
 
 Array = NDArray[np.float64]
 End = Literal["begin", "end"]
 
+_DIGITS = 9  # of such bends, so that rounding makes none larger than another
+_STATES = 10  # of a ramp, to see a gait by how much it bends
 _IN_LINE = 1e-9  # of its length, that a robot in one line is wide
 
 
@@ -137,6 +142,35 @@ def chambers_by_limb(robot: AnyRobot) -> list[slice]:
     counts = [len(limb.strip.segments) for limb in limbs_of(robot)]
     ends = list(accumulate(counts))
     return [slice(end - count, end) for count, end in zip(counts, ends, strict=True)]
+
+
+def memory(robot: AnyRobot) -> Memory:
+    """Hysteresis of a robot's chambers, which are without pressure."""
+    return Memory([actuator for limb in limbs_of(robot) for actuator in limb.strip.actuators])
+
+
+def acting_pressures(robot: AnyRobot, path: Array) -> Array:
+    """Pressures that act along a path of the chambers', (B, S) [Pa]; it rises from none at first.
+
+    They are the path's own but where a robot's actuators have hysteresis.
+    """
+    return memory(robot).follow(path)
+
+
+def as_bent(robot: Robot, gait: Gait) -> Gait:
+    """A gait of how much segments bend, over what a rise to the peak does, in place of pressures.
+
+    It is the gait itself by the affine law. Else its stages are many, and their times are none.
+    """
+    if robot.actuator is None:
+        return gait
+    rest, fractions = np.zeros((1, gait.segments)), gait.pressures(_STATES)
+    bends, most = (
+        pneunet.natural_curvature(robot, acting_pressures(robot, robot.peak_pressure * path))[1:]
+        for path in (np.concatenate([rest, fractions]), np.concatenate([rest, rest + 1.0]))
+    )
+    parts = np.clip(np.round(bends / most, _DIGITS), -1.0, 1.0)
+    return Gait(gait.name, tuple(map(tuple, parts.tolist())), 1.0, False)
 
 
 def depth_first(robot: LimbedRobot, name: str | None = None) -> list[str]:

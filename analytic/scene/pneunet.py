@@ -3,13 +3,17 @@
 Pressures p and curvatures k may be scalars or arrays of any one shape; results have that shape.
 Lengths along the strip enter only as the ratio c/x, so energies and volumes are given per unit
 arclength: multiply by x for the paper's values of one chamber.
+
+Of a robot whose segments have actuators of their own the last axis of p is that of the segments.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from analytic.scene.actuator import Actuator
 from analytic.scene.robot import Robot
 
 Array = NDArray[np.float64]
@@ -50,7 +54,16 @@ def with_load(robot: Robot, load: float) -> Robot:
 
 def turn_number(robot: Robot) -> float:
     """alpha p L, the angle that the whole strip at peak pressure turns by [rad] (3)."""
-    return curvature_per_pressure(robot) * robot.peak_pressure * robot.length
+    if robot.actuator is None:
+        return curvature_per_pressure(robot) * robot.peak_pressure * robot.length
+    curvature = natural_curvature(robot, np.full(len(robot.segments), robot.peak_pressure))
+    return float(curvature @ np.diff(robot.borders)) * robot.length
+
+
+def steepest_curvature(robot: Robot, most: float) -> float:
+    """Largest change of kappa_p with pressure up to a pressure, alpha of (3) [1/(m Pa)]."""
+    curves = [curve for curve in robot.actuators if curve]
+    return max((c.steepest(most) for c in curves), default=curvature_per_pressure(robot))
 
 
 def curvature_per_pressure(robot: Robot) -> float:
@@ -70,13 +83,37 @@ def rigidity_per_pressure(robot: Robot) -> float:
 
 
 def natural_curvature(robot: Robot, pressure: ArrayLike) -> Array:
-    """kappa_p = alpha p, curvature free of moment [1/m] (3)."""
-    return curvature_per_pressure(robot) * np.asarray(pressure, dtype=float)
+    """kappa_p = alpha p, curvature free of moment [1/m] (3), or as it was measured."""
+    p = np.asarray(pressure, dtype=float)
+    if robot.actuator is None:
+        return curvature_per_pressure(robot) * p
+    return _measured(robot.actuator, p, Actuator.curvature_at)
 
 
 def rigidity(robot: Robot, pressure: ArrayLike) -> Array:
-    """D_p = D0 + eta p, the affine law the locomotion model uses [N m^2] (9)."""
+    """D_p = D0 + eta p, the affine law the locomotion model uses [N m^2] (9), or as measured."""
+    curve = robot.actuators[0]
+    if robot.actuator is not None and curve and curve.rigidity:
+        return _measured(robot.actuator, np.asarray(pressure, dtype=float), _rigidity_at)
     return base_rigidity(robot) + rigidity_per_pressure(robot) * np.abs(pressure)
+
+
+def _rigidity_at(actuator: Actuator, pressure: Array) -> Array:
+    """Rigidity of an actuator of which it was measured [N m^2]."""
+    rigidity = actuator.rigidity_at(pressure)
+    assert rigidity is not None
+    return rigidity
+
+
+def _measured(
+    actuator: Actuator | tuple[Actuator, ...], pressure: Array,
+    law: Callable[[Actuator, Array], Array],
+) -> Array:  # fmt: skip
+    """A measured law at pressures, of the segments along the last axis where they differ."""
+    if isinstance(actuator, Actuator):
+        return law(actuator, pressure)
+    columns = np.moveaxis(pressure, -1, 0)
+    return np.stack([law(a, p) for a, p in zip(actuator, columns, strict=True)], axis=-1)
 
 
 def tangent_rigidity(robot: Robot, pressure: ArrayLike) -> Array:

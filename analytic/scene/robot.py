@@ -3,9 +3,11 @@
 from dataclasses import dataclass, fields
 from itertools import accumulate
 
-from analytic.checks import positive
+from analytic.checks import one_of, positive
 from analytic.fields import in_si
+from analytic.scene.actuator import Actuator
 from analytic.scene.feet import Foot, in_order
+from analytic.scene.materials import MATERIALS
 
 PSI = 6894.757293168  # Pa in a pound-force per square inch (NIST SP 811)
 GRAVITY = 9.81  # m/s^2
@@ -13,6 +15,8 @@ THREE_EQUAL = (1.0, 1.0, 1.0)  # [Majidi13], section 2.3
 
 _THREE = ("left", "middle", "right")
 _OPTIONAL = ("mass", "rigidity", "curvature_per_pressure", "rigidity_per_pressure", "torsion")
+_OTHERS = ("segments", "material", "actuator", "feet")  # fields that are no number
+_SAME = 1e-9  # of a modulus that is given and follows from the actuator too
 
 
 @dataclass(frozen=True)
@@ -25,9 +29,9 @@ class Robot:
     A number may be a text with its unit, as in length="110 mm", and is in SI then.
 
     What was measured may be given in place of what it follows from: mass for weight_per_length,
-    rigidity for modulus (both are turned into the other at once), curvature_per_pressure and
-    rigidity_per_pressure for what the chambers' geometry gives, torsion for what modulus and
-    section give.
+    rigidity or material for modulus (all are turned into the other at once), curvature_per_pressure
+    and rigidity_per_pressure for what the chambers' geometry gives, torsion for what modulus and
+    section give, and an actuator for the affine laws themselves.
 
     Raises:
         ValueError: a value is not a positive finite number, there is no segment, chamber_fraction
@@ -62,6 +66,12 @@ class Robot:
     """eta of (9), in place of what the chambers give [N m^2/Pa]"""
     torsion: float | None = None
     """GJ, torsional rigidity of a limb, in place of that of its solid section [N m^2]"""
+    material: str | None = None
+    """of the strain-limiting layer, in place of modulus: ecoflex-00-30, dragon-skin-10-medium,
+    ..."""
+    actuator: Actuator | tuple[Actuator, ...] | None = None
+    """curvature, and rigidity where it was measured, over pressure, in place of what the chambers
+    give: files of pressure and angle or curvature, one for all segments or one per segment"""
     feet: tuple[Foot, ...] = ()
     """stretches of its underside that resist otherwise than its skin: tables of begin, end, grip,
     grip_back, grip_across, hold and chamber; as an option 0..0.1 grip_back=2, 1..1 hold=50mN"""
@@ -81,7 +91,7 @@ class Robot:
         object.__setattr__(self, "feet", in_order(self.feet))
         for field in fields(self):
             value = getattr(self, field.name)
-            if field.name in ("segments", "feet") or (value is None and field.name in _OPTIONAL):
+            if field.name in _OTHERS or (value is None and field.name in _OPTIONAL):
                 continue
             positive(field.name, value)
             object.__setattr__(self, field.name, float(value))
@@ -95,6 +105,11 @@ class Robot:
         if self.rigidity is not None:
             layer = self.width * self.thickness**3 / 12
             self._replace_default("modulus", "rigidity", self.rigidity / layer)
+        if self.material is not None:
+            one_of("material", self.material, MATERIALS)
+            self._replace_default("modulus", "material", MATERIALS[self.material])
+        if self.actuator is not None:
+            self._take_actuator()
 
     def _replace_default(self, name: str, given: str, value: float) -> None:
         """Put what was given in other terms into the field that the theory uses."""
@@ -103,6 +118,37 @@ class Robot:
                              f"{getattr(self, given)!r} and {getattr(self, name)!r}")  # fmt: skip
         object.__setattr__(self, name, value)
         object.__setattr__(self, given, None)
+
+    def _take_actuator(self) -> None:
+        """Check the measured curves, and take from them the rigidity that they begin with."""
+        if not isinstance(self.actuator, Actuator):
+            object.__setattr__(self, "actuator", tuple(self.actuator or ()))
+        curves = [curve for curve in self.actuators if curve]
+        if len(curves) != len(self.segments):
+            raise ValueError(f"actuator must be one, or {len(self.segments)}, one per segment, got "
+                             f"{len(curves)}")  # fmt: skip
+        stiff = {curve.rigidity[0] for curve in curves if curve.rigidity}
+        measured = sum(curve.rigidity is not None for curve in curves)
+        for name, given in (("curvature_per_pressure", True), ("rigidity_per_pressure", measured)):
+            if given and getattr(self, name) is not None:
+                raise ValueError(f"actuator or {name} must be given, not both; got {name} "
+                                 f"{getattr(self, name)!r}")  # fmt: skip
+        if measured and (measured < len(curves) or len(stiff) > 1):
+            raise ValueError("actuator must have one rigidity at no pressure in all segments, got "
+                             f"{sorted(stiff)} in {measured} of {len(curves)}")  # fmt: skip
+        if measured:
+            modulus = stiff.pop() / (self.width * self.thickness**3 / 12)
+            if self.modulus != Robot.modulus and abs(self.modulus / modulus - 1) > _SAME:
+                raise ValueError("the rigidity of the actuator or modulus must be given, not both; "
+                                 f"got a modulus of {self.modulus:g} Pa")  # fmt: skip
+            object.__setattr__(self, "modulus", modulus)
+
+    @property
+    def actuators(self) -> tuple[Actuator | None, ...]:
+        """Measured curve of each segment, None of those by the affine laws."""
+        if isinstance(self.actuator, tuple):
+            return self.actuator
+        return (self.actuator,) * len(self.segments)
 
     @property
     def borders(self) -> tuple[float, ...]:

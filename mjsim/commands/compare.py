@@ -15,6 +15,7 @@ from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
 from analytic.solvers.models import SOLVERS
 from analytic.uncertainty import modes_error
+from mjsim.files.actuator_files import make_robot
 from mjsim.files.cli import ALL, bar, choose, fail, parse, say, strict_json
 from mjsim.files.dataclass_options import given
 from mjsim.files.gait_files import is_file
@@ -23,7 +24,7 @@ from mjsim.files.limb_tables import build_robot, of_limbs
 from mjsim.files.options import SceneOptions, tables_of
 from mjsim.files.tables import Tables, build, merged, read_tables
 from mjsim.files.text_table import Column, text_table
-from mjsim.files.typed import Table, make
+from mjsim.files.typed import Table
 from mjsim.pictures import gl
 from mjsim.results.prediction import (
     HALF,
@@ -221,7 +222,7 @@ def _tables(options: Options) -> list[Tables]:
     shared |= {"surface": None, "gait": options.gait if from_file else None, "reverse": False}
     (base,) = tables_of(SceneOptions(**shared))
     table = base["robot"]
-    chambers = (build_robot(table) if of_limbs(table) else make(Robot, table)).chambers
+    chambers = (build_robot(table) if of_limbs(table) else make_robot(table)).chambers
     gaits = {**GAITS, **QUADRUPED_GAITS} if chambers == ORDER else GAITS
     named = gaits if chambers in (ORDER, Robot().chambers) else {}
     scene = read_tables(options.scene) if options.scene else {}

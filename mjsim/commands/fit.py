@@ -26,7 +26,9 @@ PROGRAM = "undulator fit"
 EXAMPLES = (
     "track.csv --scene my.toml --free robot.modulus,surface.tip_force,surface.shear_strength",
     "runs.csv --robot quadruped --free surface.tip_force,robot.modulus --model quasi-static",
+    "bench.csv --free robot.actuator --zero angle",
 )
+_ACTUATOR = "robot.actuator"
 _OF_THE_SCENE = ("robot.", "valves.", "surface.")  # parameters that fit.toml has as keys
 
 
@@ -44,7 +46,10 @@ class Options(SceneOptions):
     """files of measurements"""
     free: str = ""
     """fields to fit, with commas between: of robot, valves, surface (the scene's ground) or of a
-    surface by its name, as felt.shear_strength"""
+    surface by its name, as felt.shear_strength; or robot.actuator alone, the curve and hysteresis
+    of an actuator from a bench's files of pressure and angle or curvature"""
+    by_chamber: bool = False
+    """with robot.actuator: each file is of an actuator of its own, in the order of the segments"""
     start: str = ""
     """where they begin, if not at the scene's values: robot.modulus=2MPa,..."""
     bounds: str = ""
@@ -76,6 +81,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         if more:
             raise ValueError("surface must be one: runs on others say so in a column")
         check_folder(options.out)
+        if options.free.strip() == _ACTUATOR:
+            return _of_actuators(options, base)
+        if options.by_chamber:
+            raise ValueError(f"by_chamber is for free {_ACTUATOR} alone, got free {options.free!r}")
         fit, record = _fit(options, base)
         doubts = doubts_of(fit, base)
         tables, refusal = _scene(fit, base)
@@ -99,6 +108,41 @@ def main(argv: Sequence[str] | None = None) -> int:
         sys.stdout.flush()
         fail(PROGRAM, str(end))
     return FAILED if doubts.notes else 0
+
+
+def _of_actuators(options: Options, base: Tables) -> int:
+    """Fit actuators alone, whose segments need not walk; returns the exit code.
+
+    Raises:
+        ValueError, OSError: what was given is not what it should be, or cannot be written.
+    """
+    from mjsim.fitting.actuator import (
+        estimate_actuators,
+        record,
+        summary,
+        table,
+        with_actuators,
+    )
+    from mjsim.fitting.actuator_picture import draw
+
+    for name in ("start", "bounds", "prior"):
+        if getattr(options, name):
+            raise ValueError(f"{name} is for fields that are numbers, not for {_ACTUATOR}, got "
+                             f"{getattr(options, name)!r}")  # fmt: skip
+    fitted = estimate_actuators(base, options.data, options.zero or "", options.by_chamber)
+    tables, notes = with_actuators(base, fitted)
+    tables, refusal = _whole(tables)
+    lines, notes = table(fitted), [*summary(fitted), *notes, *refusal]
+    files = [options.out / "fit.toml", options.out / "fit.png"]
+    _write_toml(files[0], tables, ["Fitted; 95 % intervals:", *lines.splitlines(), *notes])
+    draw(fitted, files[1])
+    if options.json:
+        paths = [str(path) for path in files]
+        say(strict_json(record(fitted, notes) | {"files": paths}))
+    else:
+        say("\n".join([lines, *notes]))
+        print(*files)
+    return 0
 
 
 def _fit(options: Options, base: Tables) -> "tuple[Estimate, dict[str, Any]]":
@@ -141,11 +185,16 @@ def _apart(fit: "Estimate", second: "Predictor") -> float | None:
 
 def _scene(fit: "Estimate", base: Tables) -> tuple[Tables, list[str]]:
     """Tables of the fitted scene, and a note if it cannot walk as it is."""
-    from mjsim.files.tables import build
-    from mjsim.files.written import as_tables
     from mjsim.fitting.parameters import with_values
 
-    tables = with_values(base, fit.values)
+    return _whole(with_values(base, fit.values))
+
+
+def _whole(tables: Tables) -> tuple[Tables, list[str]]:
+    """Tables with every default, and a note if they are of no scene that walks."""
+    from mjsim.files.tables import build
+    from mjsim.files.written import as_tables
+
     try:
         return as_tables(*build(tables)), []
     except ValueError as error:
@@ -156,7 +205,6 @@ def _write(
     folder: Path, fit: "Estimate", tables: Tables, doubts: "Doubts", notes: list[str]
 ) -> Iterator[Path]:
     """Paths of the scene's file and its picture, each once it is written."""
-    from mjsim.files.written import as_toml
     from mjsim.fitting.picture import draw
     from mjsim.fitting.report import table, zeros
 
@@ -166,11 +214,17 @@ def _write(
     if others:
         comments.append("of surfaces beside the scene's ground: " + ", ".join(
             f"{name} = {fit.values[name]:.6g}" for name in others))  # fmt: skip
-    with whole(folder / "fit.toml") as part:
-        part.write_text(as_toml(tables, comments), "utf-8")
+    _write_toml(folder / "fit.toml", tables, comments)
     yield folder / "fit.toml"
     draw(fit, folder / "fit.png")
     yield folder / "fit.png"
+
+
+def _write_toml(path: Path, tables: Tables, comments: list[str]) -> None:
+    from mjsim.files.written import as_toml
+
+    with whole(path) as part:
+        part.write_text(as_toml(tables, comments), "utf-8")
 
 
 def _summary(fit: "Estimate", record: dict[str, Any]) -> str:

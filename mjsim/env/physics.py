@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import may_lie_flat
+from analytic.friction.contact_length import bending_peaks, may_lie_flat
 from mjsim.env.dm_binding import mujoco as dm_mujoco
 from mjsim.env.dm_binding import wrapper
 from mjsim.friction.contact_length import ContactForces
@@ -62,8 +62,8 @@ class Physics(dm_mujoco.Physics):  # type: ignore[misc]
         model, data = self.model.ptr, self.data.ptr
         mujoco.mj_forward(model, data)  # dm_control leaves the forces of the step before
         forces = ContactForces(self._scene, self._numerics, model, data)
-        ends = may_lie_flat(self.pressures()[[0, -1]], self._scene.robot.peak_pressure)
-        return forces.lengths(*ends.tolist())
+        flat = may_lie_flat(self.pressures(), bending_peaks(self._scene.robot))
+        return forces.lengths(bool(flat[0]), bool(flat[-1]))
 
     def pressures(self) -> Array:
         """Pressures that the segments are commanded, left first, (S,) [Pa]."""

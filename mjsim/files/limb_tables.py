@@ -17,6 +17,7 @@ from typing import Any
 from analytic.checks import one_of
 from analytic.scene.limbs import AnyRobot, Limb, LimbedRobot, quadruped
 from analytic.scene.robot import Robot
+from mjsim.files.actuator_files import make_robot
 from mjsim.files.typed import Table, as_number, make
 
 ROBOTS = ("quadruped",)
@@ -28,8 +29,8 @@ _FIXED = {  # fields that the quadruped gives, and what to give in their place
     **dict.fromkeys(("rigidity", "rigidity_per_pressure"),
                     "modulus, which torso and legs share, or this in each of [[robot.limbs]]"),
 }  # fmt: skip
-_INSTEAD = {"mass": "weight_per_length", "weight_per_length": "mass",
-            "rigidity": "modulus", "modulus": "rigidity"}  # fmt: skip
+_SAME = (("mass", "weight_per_length"), ("rigidity", "modulus", "material"))
+_INSTEAD = {key: {*keys} - {key} for keys in _SAME for key in keys}
 PEAK = "peak_pressure"
 
 
@@ -46,7 +47,7 @@ def build_robot(table: Table, where: str = "") -> AnyRobot:
         for key in _FIXED:
             if key in shared:
                 raise ValueError(f"{where}{key} is the {table['name']}'s own; give {_FIXED[key]}")
-        base = make(Robot, shared, where)
+        base = make_robot(shared, where, of_segments=False)
         return replace(quadruped(base), peak_pressure=base.peak_pressure)
     if "segments" in shared:
         raise ValueError(f"{where}segments are each limb's own, in [[robot.limbs]]")
@@ -70,7 +71,7 @@ def build_robot(table: Table, where: str = "") -> AnyRobot:
 def _refuse_idle(shared: Table, limbs: list[Table], where: str) -> None:
     """Raise ValueError for a shared field that every limb has itself, so that it does nothing."""
     for key in shared.keys() - {PEAK}:
-        names = {key, _INSTEAD.get(key, key)}
+        names = {key, *_INSTEAD.get(key, ())}
         if all(names & limb.keys() for limb in limbs):
             raise ValueError(
                 f"{where}{key} would do nothing, as each limb has its own; got {shared[key]!r}"
@@ -91,8 +92,8 @@ def _limb(table: Mapping[str, Any], shared: Table, where: str) -> Limb:
             raise ValueError(f"{where}{key} is missing")
     for key, replaced in _INSTEAD.items():
         if key in of_strip:
-            shared = {name: value for name, value in shared.items() if name != replaced}
-    strip = make(Robot, {"segments": (1.0,), **shared, **of_strip}, where)
+            shared = {name: value for name, value in shared.items() if name not in replaced}
+    strip = make_robot({"segments": (1.0,), **shared, **of_strip}, where)
     for key in ("at", "offset"):
         if key in table and "on" not in table:
             raise ValueError(f"{where}{key} needs `on`, a limb that carries it; got {table[key]!r}")

@@ -127,6 +127,8 @@ def tables_of(options: SceneOptions) -> list[Tables]:
         robot["segments"] = words if isinstance(words, tuple) else (words,)
     if "feet" in robot:
         robot["feet"] = _feet(robot["feet"])
+    if "actuator" in robot:
+        robot["actuator"] = parts(robot["actuator"])
     if "ramp_time" in gait:
         gait["ramp_time"] = parts(gait["ramp_time"])
     if "columns" in gait:

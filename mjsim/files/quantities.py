@@ -12,6 +12,8 @@ from mjsim.files.typed import Table
 from mjsim.files.units import in_unit
 from mjsim.scene.scene import Scene
 
+_FILES = ("robot.actuator",)  # fields whose words are no quantities
+
 
 def check_field(name: str) -> None:
     """Raise ValueError for what is no field of a scene."""
@@ -54,7 +56,7 @@ def field_value(name: str, value: Any) -> Any:
     Raises:
         ValueError: it is a number with a unit of another kind.
     """
-    if isinstance(value, str) and value[:1] in "+-.0123456789":
+    if isinstance(value, str) and value[:1] in "+-.0123456789" and name not in _FILES:
         return in_unit(name, value, field_unit(name))
     return value
 

@@ -29,6 +29,7 @@ from analytic.scene.quadruped_gaits import QUADRUPED_GAITS, undulation
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES, Ground, Surface, spread
 from analytic.scene.trapezoid import trapezoid
+from mjsim.files.actuator_files import make_robot
 from mjsim.files.gait_files import is_log, shortest_ramp
 from mjsim.files.keys import (
     CEILING,
@@ -100,7 +101,7 @@ def build(tables: Tables, where: str = "") -> tuple[Scene, Numerics]:
     table = tables.get("robot", {})
     robot: AnyRobot = (
         build_robot(table, f"{where}[robot] ") if of_limbs(table)
-        else make(Robot, table, f"{where}[robot] ")
+        else make_robot(table, f"{where}[robot] ")
     )  # fmt: skip
     values = tables.get("numerics", {})
     check_keys("numerics", values, where)

@@ -33,7 +33,7 @@ def as_tables(scene: Scene, numerics: Numerics) -> Tables:
         field.name: getattr(numerics, field.name) for field in fields(numerics)
         if field.name not in idle
     }  # fmt: skip
-    table = _strip(asdict(robot))
+    table = _plain(asdict(robot))
     if scene.in_space:
         table["limbs"] = [_limb(limb) for limb in limbs_of(robot)]
     return {
@@ -50,13 +50,7 @@ def _limb(limb: Limb) -> Table:
     """The table of a limb, without what is the whole robot's."""
     strip = {key: value for key, value in asdict(limb.strip).items() if key != PEAK}
     placed = {"on": limb.on, "at": limb.at if limb.on else None, "offset": limb.offset or None}
-    return _strip({"name": limb.name, **placed, "angle_deg": math.degrees(limb.angle), **strip})
-
-
-def _strip(table: Table) -> Table:
-    """The table of a strip or limb, its feet as tables if it has any."""
-    feet = [_plain(foot) for foot in table.pop("feet", ())]
-    return _plain(table) | ({"feet": feet} if feet else {})
+    return _plain({"name": limb.name, **placed, "angle_deg": math.degrees(limb.angle), **strip})
 
 
 def as_toml(tables: Tables, comments: Sequence[str] = ()) -> str:
@@ -92,8 +86,15 @@ def _surface(surface: Surface) -> Table:
 
 def _plain(table: Table) -> Table:
     """The table without what is not given; tuples as lists, which TOML has."""
-    return {key: _listed(value) for key, value in table.items() if value is not None}
+    return {key: _listed(value) for key, value in table.items() if value not in (None, ())}
+
+
+def plain(record: Any) -> Table:
+    """The table of a dataclass."""
+    return _plain(asdict(record))
 
 
 def _listed(value: Any) -> Any:
+    if isinstance(value, dict):
+        return _plain(value)
     return [_listed(item) for item in value] if isinstance(value, tuple) else value

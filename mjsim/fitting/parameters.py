@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from analytic.scene.limbs import AnyRobot, limbs_of
-from analytic.scene.robot import GRAVITY, Robot
+from analytic.scene.robot import GRAVITY
 from analytic.scene.surface import SURFACES, Ground
+from mjsim.files.actuator_files import make_robot
 from mjsim.files.keys import NAMES, SURFACE_FIELDS, WITH_ANY_SURFACE, check_keys
 from mjsim.files.limb_tables import build_robot, of_limbs
 from mjsim.files.quantities import field_unit, spelled_out, with_fields
@@ -119,7 +120,7 @@ def nominal(base: Tables, name: str) -> float:
 def robot_of(tables: Tables) -> AnyRobot:
     """The robot of a scene's tables, whether or not it can walk the scene's gait."""
     table = tables.get("robot", {})
-    return build_robot(table, "[robot] ") if of_limbs(table) else make(Robot, table, "[robot] ")
+    return build_robot(table, "[robot] ") if of_limbs(table) else make_robot(table, "[robot] ")
 
 
 def ground_of(tables: Tables) -> Ground:
@@ -176,7 +177,9 @@ def _check(name: str) -> None:
         raise ValueError(
             f"key {key!r} of {name!r} is unknown; known are {', '.join(SURFACE_FIELDS)}"
         )
-    if key in ("segments", "feet"):
+    if name == "robot.actuator":
+        raise ValueError("robot.actuator must be fitted alone, from a bench's files")
+    if key in ("segments", "material", "feet"):
         raise ValueError(f"robot.{key} cannot be fitted")
 
 

@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import may_lie_flat
+from analytic.friction.contact_length import bending_peaks, may_lie_flat
 from mjsim.friction.between_ends import BoundedContacts, ContactFrictionEverywhere
 from mjsim.friction.ceiling import CeilingPush
 from mjsim.friction.in_plane import LimbFooting
@@ -78,7 +78,7 @@ class StripFooting:
         self.columns = (*_COLUMNS, *self._ceiling.columns)
         self._slopes, self._shift, self._dt = joints.slopes, joints.shift, numerics.timestep
         self._before, self._after = self._law.before_step, self._law.after_step
-        self._peak = scene.robot.peak_pressure
+        self._peaks = bending_peaks(scene.robot)[[0, -1]]
         self._sticky = scene.ground.at(0.0).adhesion > 0  # which may keep an inflated end flat
         self._lengths = data.ten_length
         pads = pads_by_node(model)
@@ -89,7 +89,7 @@ class StripFooting:
 
     def prepare(self, pressures: Array) -> Sequence[Any]:
         """Tell whether each end may lie on its side at each step, and what switches feet then."""
-        flat = self._sticky | may_lie_flat(pressures[:, [0, -1]], self._peak)
+        flat = self._sticky | may_lie_flat(pressures[:, [0, -1]], self._peaks)
         if not self._law.grip.switched:
             return list(flat.tolist())
         return list(zip(*flat.T.tolist(), pressures.tolist(), strict=True))

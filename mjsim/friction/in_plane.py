@@ -58,7 +58,7 @@ class LimbFooting:
         self._ground, self._length = scene.ground, robot.length
         self._ceiling = CeilingPush(model, data)
         self.columns = ("contacts", *self._ceiling.columns)
-        self._tree = Tree(robot, numerics.links, incline=scene.incline)
+        self._tree = Tree(robot, numerics.links, numerics.twists, scene.incline)
         self._finder = Contacts(self._tree, scene.friction)
         self._round = self._finder.is_round(scene.ground)
         self.contacts: list[Contact] = []
@@ -83,7 +83,7 @@ class LimbFooting:
         vertices = len(self._pads) // 2  # of which each has a pad at either edge
         node = node_of_geom(model, self._pads, other=-1)
         self._vertex_of_geom = np.where(node < 0, node, node % vertices)
-        self._heights_of_geoms, self._lower = data.geom_xpos[:, 2], np.zeros(vertices)
+        self._heights_of_geoms = data.geom_xpos[:, 2]
         mass = robot.weight / scene.gravity
         self._viscosity = mass / numerics.tie_time  # of all points together [N s/m]
         self._look()
@@ -195,10 +195,8 @@ class LimbFooting:
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_comPos(self._model, self._data)
         heights = self._heights_of_geoms[self._pads]
-        vertices, lowest = len(self._lower), self._lower
-        # a limb that leans lies on one of its edges
-        np.minimum(heights[:vertices], heights[vertices:], out=lowest)
-        np.subtract(lowest, self._numerics.pad_radius, out=lowest)
+        half = len(heights) // 2
+        lowest = self._finder.heights(heights[:half], heights[half:]) - self._numerics.pad_radius
         self._heights: list[float] = lowest.tolist()
 
     def _pushes(self) -> list[float]:

@@ -42,6 +42,9 @@ class Chain:
             return
         if scene.chamber == "sealed":
             raise ValueError("chamber sealed needs actuation rest-angles, got actuators")
+        if scene.strip.actuator is not None:
+            raise ValueError("actuation must be rest-angles where an actuator was measured, as "
+                             "MuJoCo's are by the affine law, got actuators")  # fmt: skip
         if not whole_elements(scene.strip, numerics.links):
             raise ValueError(
                 f"links must make every segment whole elements for actuators, got {numerics.links}"

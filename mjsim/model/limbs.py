@@ -53,7 +53,7 @@ def softness(scene: Scene, numerics: Resolved) -> float:
         strip = limb.strip
         # how fast its end turns as all its segments change [rad/s]
         change = float((rates[:, part] @ np.diff(strip.borders)).max())
-        turning = pneunet.curvature_per_pressure(strip) * strip.length * change
+        turning = pneunet.steepest_curvature(strip, robot.peak_pressure) * strip.length * change
         swift = max(swift, 0.5 * strip.length * float(turning) ** 2)
     return min(numerics.contact_softness + _TOWARDS * swift / scene.gravity,
                max(_SOFTEST, numerics.contact_softness))  # fmt: skip

@@ -82,6 +82,11 @@ def standalone_spec(scene: Scene, numerics: Numerics | None = None) -> mujoco.Mj
     limbs, of the joints for the cable. The rod has none: its pressure is a couple on each edge,
     which only mjsim applies.
     """
+    if any(limb.strip.actuator for limb in limbs_of(scene.robot)):
+        raise ValueError(
+            "actuator must not be given in a scene that is exported: MuJoCo's actuators are by the "
+            "affine law; give curvature_per_pressure and rigidity_per_pressure"
+        )
     if refusal(scene) is None:
         scene = replace(scene, actuation="actuators", chamber="constant-pressure")
         choice = resolved(scene, numerics)

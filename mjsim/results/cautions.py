@@ -12,7 +12,7 @@ from analytic.friction.laws import Friction
 from analytic.friction.motion import motion, undecided_motion
 from analytic.locomotion import undecided
 from analytic.prediction import Prediction
-from analytic.scene.limbs import limbs_of
+from analytic.scene.limbs import acting_pressures, limbs_of
 from analytic.scene.surface import Surface
 from analytic.shapes import ContactShapes, Flag
 from analytic.solvers.models import Elastica
@@ -99,7 +99,7 @@ def near_end(scene: Scene, prediction: Prediction) -> list[str]:
         return []
     robot = scene.strip
     inflated = replace(robot, peak_pressure=(1 + NEARLY) * robot.peak_pressure)
-    path = inflated.peak_pressure * scene.gait.pressures(_STATES)
+    path = acting_pressures(robot, inflated.peak_pressure * scene.gait.pressures(_STATES))
     links = max(_LINKS, 10 * len(robot.segments))
     shapes = Elastica(links, scene.chamber).solve(inflated, path, scene.ground, Friction(), None)
     flags = Flag(int(np.bitwise_or.reduce(shapes.status)))
@@ -112,7 +112,7 @@ def near_end(scene: Scene, prediction: Prediction) -> list[str]:
 
 def between_ends(scene: Scene) -> list[str]:
     """A note on friction where a long robot touches the ground between its ends."""
-    if scene.contacts != "ends" or not scene.gait.between():
+    if scene.contacts != "ends" or not scene.lies_between:
         return []
     everywhere = replace(scene, contacts="all", ceiling=None)
     shift = displacement(everywhere, prediction(everywhere))

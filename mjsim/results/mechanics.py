@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.chain import element_lengths, joint_springs, link_lengths, sealed_springs
+from analytic.scene.limbs import acting_pressures
 
 if TYPE_CHECKING:
     from mjsim.results.trajectory import Trajectory
@@ -118,7 +119,7 @@ def turns(walk: "Trajectory") -> Array:
 def _springs(walk: "Trajectory", turn: Array) -> tuple[Array, Array]:
     robot, links, chamber = walk.scene.strip, walk.numerics.links, walk.scene.chamber
     if chamber != "sealed":
-        return joint_springs(robot, links, walk.pressure, chamber)
+        return joint_springs(robot, links, acting_pressures(robot, walk.pressure), chamber)
     pairs = [sealed_springs(robot, links, p, t) for p, t in zip(walk.pressure, turn, strict=True)]
     stiffness, rest = (np.array(part) for part in zip(*pairs, strict=True))
     return stiffness, rest

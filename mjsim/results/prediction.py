@@ -21,6 +21,7 @@ STATES = 12  # of the reference in a ramp from no pressure to the peak
 WEAK = "weak friction"  # which bends nothing and only decides which end slides
 _RESOLVED = 3e-5  # error over L that no halving shows; with it bars cover 56 of 56 scenes, measured
 _LINKS, _LINKS_A_SEGMENT = 60, 24  # of the reference: contacts between the ends need finer links
+PARTS = 2  # of a ramp, whose errors error bars of limbs add up; chosen
 HALF = 0.5  # of links and states, with which the error bar compares
 QUASI_STATIC = "quasi-static"  # the reference of robots of limbs
 CEILING = "touches_ceiling"  # flag of a reference whose robot would touch it
@@ -68,7 +69,8 @@ def reference(
     Args:
         scene: robot, gait, ground, friction and chambers; not what MuJoCo alone needs.
         numerics: of the walk beside it, whose links per limb a reference in space takes.
-        finer: multiplies links and states; an error bar compares with HALF of them.
+        finer: multiplies links and states; an error bar compares with HALF of them, where limbs
+            have two links fewer.
         bent: whether friction bends the robot, else it is WEAK.
         path, times: pressures in the chambers to follow in place of the gait's, (B, S) [Pa], and
             when, (B,) [s].
@@ -112,13 +114,14 @@ def _of_limbs(
     scene: Scene, robot: LimbedRobot, numerics: Resolved, finer: float, bent: bool,
     path: Array | None, times: Array | None,
 ) -> Reference:  # fmt: skip
-    links = numerics.links if finer == 1 else max(2, numerics.links - 2)
+    links = round(numerics.links * finer) if finer >= 1 else max(2, numerics.links - 2)
+    twists = min(round(numerics.twists * max(finer, 1)), links // 2)
     cycles = scene.cycles
     if cycles == 1 and path is None and scene.rise_time and scene.gait.repeats:
         cycles = 2  # of which the first begins without any friction
     walk = walk_of_limbs(
         robot, scene.gait, scene.ground, round(LIMB_STATES * finer), links, cycles, scene.friction,
-        bent, scene.chamber, path, times, scene.incline, min(numerics.twists, links // 2),
+        bent, scene.chamber, path, times, scene.incline, twists,
         all_on_tips=finer < 1,  # the other way to share a load: error bars show what it is worth
     )  # fmt: skip
     moves, turns = walk.by_cycle(cycles)
@@ -134,20 +137,30 @@ def _of_limbs(
 def error_bars(scene: Scene, fine: Reference, coarse: Reference) -> tuple[float | None, float]:
     """Changes by half the links and states: of the displacement over L, and of the turn [rad].
 
+    Of limbs, whose cycle is a small difference of large moves back and forth, the changes in halves
+    of ramps are summed: that they cancel in the whole cycle by chance does not make it surer.
+
     Args:
         scene: what is predicted.
         fine: its reference.
         coarse: the reference by HALF of everything.
     """
     change = float(np.hypot(*(fine.displacement - coarse.displacement)))
-    resolves = 0.0 if scene.in_space else _RESOLVED
-    bar = change + resolves if math.isfinite(change) else None
-    return bar, abs(fine.turn - coarse.turn)
+    if not math.isfinite(change):
+        return None, abs(fine.turn - coarse.turn)
+    if not (isinstance(fine.walk, Path) and isinstance(coarse.walk, Path)):
+        return change + _RESOLVED, abs(fine.turn - coarse.turn)
+    cycles, parts = len(fine.by_cycle), PARTS * scene.gait.ramps
+    paths = fine.walk.by_part(cycles, parts), coarse.walk.by_part(cycles, parts)
+    counted = slice(-1 if isinstance(scene.ground, Surface) else 0, None)
+    moves, turns = (np.subtract(*pair)[counted] for pair in zip(*paths, strict=True))
+    sizes = np.sqrt((moves**2).sum(axis=2)) / scene.robot.length
+    return float(sizes.sum() / len(sizes)), float(np.abs(turns[-1]).sum())
 
 
 def links(scene: Scene) -> int:
     """Links of the reference."""
-    return max(_LINKS, _LINKS_A_SEGMENT * len(scene.strip.segments) * scene.gait.between())
+    return max(_LINKS, _LINKS_A_SEGMENT * len(scene.strip.segments) * scene.lies_between)
 
 
 def prediction(

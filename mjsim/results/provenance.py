@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from analytic import Gait, Patches, Robot, Surface
+from analytic.scene.actuator import Actuator
 from analytic.scene.limbs import Limb, LimbedRobot
 from mjsim.scene import Numerics, Resolved, Scene, Valves, resolved
 
@@ -80,12 +81,12 @@ def configuration(described: dict[str, Any]) -> tuple[Scene, Resolved]:
     values["gait"] = _made(Gait, values["gait"], "gait")
     if "limbs" in values["robot"]:
         limbs = tuple(
-            _made(Limb, {**limb, "strip": _made(Robot, limb["strip"], "strip")}, "limb")
+            _made(Limb, {**limb, "strip": _strip(limb["strip"], "strip")}, "limb")
             for limb in values["robot"]["limbs"]
         )
         values["robot"] = LimbedRobot(limbs, values["robot"]["peak_pressure"])
     else:
-        values["robot"] = _made(Robot, values["robot"], "robot")
+        values["robot"] = _strip(values["robot"], "robot")
     values["valves"] = _made(Valves, values.get("valves", {}), "valves")
     scene = Scene(**values)
     return scene, resolved(scene, _made(Numerics, numbers, "numerics"))
@@ -99,6 +100,16 @@ def _made(kind: type[Kind], table: Any, name: str) -> Kind:
         if key not in names:
             raise ValueError(f"key {key!r} of {name} is unknown; known are {', '.join(names)}")
     return kind(**{key: _frozen(value) for key, value in table.items()})
+
+
+def _strip(table: Any, name: str) -> Robot:
+    """A strip with the curves of its actuators."""
+    given = table.get("actuator") if isinstance(table, dict) else None
+    if given is None:
+        return _made(Robot, table, name)
+    several = isinstance(given, list)
+    curves = tuple(_made(Actuator, curve, "actuator") for curve in (given if several else [given]))
+    return _made(Robot, {**table, "actuator": curves if several else curves[0]}, name)
 
 
 def _frozen(value: Any) -> Any:

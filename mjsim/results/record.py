@@ -60,6 +60,8 @@ def record(walk: Trajectory, without: str = "") -> dict[str, Any]:
         "aside_over_L": numbers and numbers.aside,
         "turn_deg": turn,
         "radius_over_L": _number(numbers and numbers.radius),
+        "numerics_uncertainty_over_L": None,  # of limbs, by mjsim.simulation.second_walks
+        "numerics_uncertainty_deg": None,
         "predicted_by": reference_name(scene),
         "predicted_displacement_over_L": _number(ahead),
         "predicted_by_cycle_over_L": predicted.by_cycle.tolist() if predicted else None,

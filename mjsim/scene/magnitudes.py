@@ -18,6 +18,7 @@ _DENSE = (10.0, 1e5)  # kg/m^3, mass over the volume of the strain-limiting laye
 _STIFF = (1e2, 1e12)  # Pa; gels to diamond
 _BENT = 5e-3  # rad, by which the whole strip bends at its peak pressure at least
 _STIFFENED = 100.0  # times its rigidity without pressure, at the peak
+_ROUNDING = 1e-6  # of a pressure in a file
 _DECADE = math.log(10.0)
 _BENDS = ("peak_pressure", "chamber_height")  # fields of which a meant one must bend the strip
 _BENDING = ("peak_pressure", "modulus", "thickness", "chamber_height", "chamber_fraction")
@@ -46,8 +47,17 @@ def check_robot(robot: AnyRobot, given: Collection[str] = (), gravity: float = G
         message = _wrong(limb.strip, given, gravity)
         if message:
             raise ValueError(f"{where}{message}")
+        _check_measured(limb.strip, robot.peak_pressure, where)
     if isinstance(robot, Robot) and pneunet.turn_number(robot) < _BENT:
         raise ValueError(_unbent(robot, given))
+
+
+def _check_measured(strip: Robot, peak_pressure: float, where: str) -> None:
+    """Refuse a peak pressure beyond those at which an actuator was measured."""
+    highest = min((curve.highest for curve in strip.actuators if curve), default=math.inf)
+    if peak_pressure > highest * (1 + _ROUNDING):
+        raise ValueError(f"{where}peak_pressure must be at most {highest:.6g} Pa, up to which the "
+                         f"actuator was measured, got {peak_pressure:g}")  # fmt: skip
 
 
 def check_turn(
@@ -65,6 +75,9 @@ def check_turn(
     Raises:
         ValueError: it does.
     """
+    if strip.actuator is not None:
+        _check_curves(strip, peak_pressure, fullest, gait, what)
+        return
     turn = pneunet.curvature_per_pressure(strip) * peak_pressure * strip.length * fullest
     if turn < 2 * math.pi:
         return
@@ -76,6 +89,17 @@ def check_turn(
         f"peak_pressure must be below {limit:.6g} Pa, where gait {gait} would close {what} into a "
         f"circle, got {peak_pressure:g}{hint}"
     )
+
+
+def _check_curves(strip: Robot, peak: float, fullest: float, gait: str, what: str) -> None:
+    """See check_turn, for measured curves; the widest of them counts where they differ."""
+    curvature = max(float(curve.curvature_at(peak)) for curve in strip.actuators if curve)
+    turn = curvature * strip.length * fullest
+    if turn >= 2 * math.pi:
+        raise ValueError(
+            f"peak_pressure must be less, as the actuator bends by {curvature:.4g} 1/m there and "
+            f"gait {gait} would close {what} into a circle, got {peak:g} Pa"
+        )
 
 
 def _wrong(strip: Robot, given: Collection[str], gravity: float) -> str | None:
@@ -110,6 +134,8 @@ def _wrong(strip: Robot, given: Collection[str], gravity: float) -> str | None:
 def _unbent(robot: Robot, given: Collection[str]) -> str:
     """Message about a strip that its pressure does not bend."""
     turn = f"bends all of it by {math.degrees(pneunet.turn_number(robot)):.2g} degrees"
+    if robot.actuator is not None:
+        return f"actuator must be such that the strip bends: {robot.peak_pressure:g} Pa {turn}"
     name = max(_BENDING, key=lambda field: _strange(robot, field))
     if robot.curvature_per_pressure is not None:  # in place of what follows from the others
         curved = robot.curvature_per_pressure / pneunet.curvature_per_pressure(Robot())

@@ -25,6 +25,7 @@ from analytic.scene.ground import (
 from analytic.scene.limbs import (
     AnyRobot,
     LimbedRobot,
+    as_bent,
     chambers_by_limb,
     limbs_of,
     quadruped,
@@ -236,7 +237,12 @@ class Scene:
         """Tell whether friction acts between the ends of a strip, or at all contacts of limbs."""
         if self.in_space:
             return True
-        return self.contacts == "all" or (self.contacts == "auto" and self.gait.between())
+        return self.contacts == "all" or (self.contacts == "auto" and self.lies_between)
+
+    @property
+    def lies_between(self) -> bool:
+        """Tell whether a strip may touch the ground between its ends, as its gait bends it."""
+        return as_bent(self.strip, self.gait).between()
 
     @property
     def incline(self) -> Incline:

@@ -6,8 +6,10 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import may_lie_flat
+from analytic.friction.contact_length import bending_peaks, may_lie_flat
+from analytic.scene.actuator import Memory
 from analytic.scene.chain import joint_springs
+from analytic.scene.limbs import memory
 from mjsim.friction.footing import feet_may_be, thrown
 from mjsim.model.chambers import ChamberPressures
 from mjsim.model.pads import pads_by_node
@@ -83,6 +85,7 @@ class StripBatch:
         self.pressure = np.zeros((len(scenes), len(scenes[0].strip.segments)))
         self.stopped = np.zeros(len(scenes), dtype=bool)
         self._chambers: list[ChamberPressures] = [self._at_rest(scene) for scene in scenes]
+        self._memories: list[Memory] = [memory(scene.strip) for scene in scenes]
         self._lay(every)
 
     def __getstate__(self) -> None:
@@ -95,6 +98,7 @@ class StripBatch:
         """Lay strips on the ground, without pressure."""
         for row in rows.tolist():
             self._chambers[row] = self._at_rest(self.scenes[row])
+            self._memories[row] = memory(self.scenes[row].strip)
         self.pressure[rows], self.stopped[rows] = 0.0, False
         self._stiffness[rows, _FIRST_HINGE:], self._rest[rows, _FIRST_HINGE:] = self._springs(
             rows, np.zeros((len(rows), 1, self.pressure.shape[1]))
@@ -138,9 +142,13 @@ class StripBatch:
         block = Block(rows, pressure, self.model.nq)
         if not valves.shape[1]:
             return block
-        springs = self._springs(rows, pressure)
-        peak = np.array([self.scenes[row].strip.peak_pressure for row in rows])
-        flat = may_lie_flat(pressure[:, :, [0, -1]], peak[:, None, None])
+        acting = np.array([
+            self._memories[row].follow(path)
+            for row, path in zip(rows.tolist(), pressure, strict=True)
+        ])  # fmt: skip
+        springs = self._springs(rows, acting)
+        peaks = np.array([bending_peaks(self.scenes[row].strip)[[0, -1]] for row in rows])
+        flat = may_lie_flat(acting[:, :, [0, -1]], peaks[:, None])
         dt, ends, hinges = self.numerics.timestep, self._ends, slice(_FIRST_HINGE, None)
         active = np.flatnonzero(~self.stopped[rows])
         block.steps[self.stopped[rows]] = 0

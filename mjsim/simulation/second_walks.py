@@ -9,17 +9,25 @@ that does not resist by speed.
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from analytic.scene import pneunet
 from analytic.scene.ground import depends_on_speed
-from analytic.scene.limbs import limbs_of
+from analytic.scene.limbs import limbs_of, rotation
+from analytic.scene.surface import Surface
 from mjsim.results.measures import measure
+from mjsim.results.prediction import PARTS
 from mjsim.results.status import Status
 from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Resolved, Scene, resolved
 from mjsim.scene.numerics import MAX_LINKS
 from mjsim.simulation.simulation import simulate
+
+Array = NDArray[np.float64]
 
 FAST = 0.02  # acceleration by the gait over gravity from which on steps are tested; measured
 SLOWER = 8.0  # times as slow, for a 64th of the inertia; chosen
@@ -54,7 +62,8 @@ def swiftness(scene: Scene) -> float:
     kappa is the curvature at the peak pressure, T the time to fill a chamber to it.
     """
     robot = scene.robot
-    bend = max(pneunet.curvature_per_pressure(limb.strip) for limb in limbs_of(robot))
+    strips = [limb.strip for limb in limbs_of(robot)]
+    bend = max(pneunet.steepest_curvature(strip, robot.peak_pressure) for strip in strips)
     reach = bend * robot.peak_pressure * robot.length**2
     return reach / (scene.gravity * scene.fill_time**2)
 
@@ -64,7 +73,8 @@ def doubts(walk: Trajectory, row: dict[str, Any]) -> list[str]:
 
     Args:
         walk: that ended well, or there are none.
-        row: its record, see mjsim.results.record.
+        row: its record, see mjsim.results.record, which gets the error bars of a walk of limbs:
+            what the finer walk changes.
     """
     moved, scene = _moved(walk), walk.scene
     if moved is None:
@@ -74,9 +84,13 @@ def doubts(walk: Trajectory, row: dict[str, Any]) -> list[str]:
     if not (scene.in_space or swiftness(scene) > FAST or off(moved)):
         return []
     finer = _finer(scene, walk.numerics)
-    fine = _walked(scene, finer)
-    if not isinstance(fine, Moved):
+    second = _simulated(scene, finer)
+    fine = _outcome(second) if second else None
+    if not second or not isinstance(fine, Moved):
         return [f"{fine} at {_words(finer)}"] if fine else []
+    if scene.in_space:
+        bar, turn_bar = changes(walk, second)
+        row |= {"numerics_uncertainty_over_L": bar, "numerics_uncertainty_deg": turn_bar}
     notes, numerics, before = [], walk.numerics, moved
     allowed = max(_PART_OF_STEPS * fine.size, _OF_STEPS[scene.in_space])
     if fine.away(moved) > allowed or (off(moved) and not off(fine)):
@@ -156,11 +170,49 @@ def _of_numerics(walk: Trajectory, moved: Moved, fine: Moved, finer: Resolved) -
 
 def _walked(scene: Scene, numerics: Resolved) -> Moved | Status | None:
     """How it moved, or how it failed; None if the scene cannot be walked so."""
+    walk = _simulated(scene, numerics)
+    return _outcome(walk) if walk else None
+
+
+def _simulated(scene: Scene, numerics: Resolved) -> Trajectory | None:
     try:
-        walk = simulate(scene, numerics)
+        return simulate(scene, numerics)
     except ValueError:
         return None
+
+
+def _outcome(walk: Trajectory) -> Moved | Status:
     return _moved(walk) or walk.status
+
+
+def changes(walk: Trajectory, finer: Trajectory) -> tuple[float, float]:
+    """Changes of the displacement over L and of the turn [degrees] by a finer walk.
+
+    Those in halves of ramps are summed, see mjsim.results.prediction.error_bars; in the last cycle,
+    or of all the mean, as a walk is measured.
+    """
+    counted = 1 if isinstance(walk.scene.ground, Surface) else walk.scene.cycles
+    moves, turns = (one - two for one, two in zip(by_part(walk), by_part(finer), strict=True))
+    bar = np.sqrt((moves[-counted:] ** 2).sum(axis=2)).sum() / (counted * walk.scene.robot.length)
+    return float(bar), math.degrees(np.abs(turns[-1]).sum())
+
+
+def by_part(walk: Trajectory) -> tuple[Array, Array]:
+    """Displacement and turn in each of P equal parts of each of C cycles, two a ramp.
+
+    Returns:
+        (C, P, 2), ahead and to the left of the trunk's direction when the cycle begins [m]; and
+        (C, P), to the left [rad].
+    """
+    parts, ends = PARTS * walk.scene.gait.ramps, walk.ends_of_cycles()
+    direction = limbs_of(walk.scene.robot)[0].angle
+    moves, turns = [], []
+    for begin, end in pairwise(ends.tolist()):
+        rows = np.rint(np.linspace(begin, end, parts + 1)).astype(int)
+        turned = rotation(direction + float(walk.heading[begin]))
+        moves.append(np.diff(walk.line[rows, 0, :2], axis=0) @ turned)
+        turns.append(np.diff(walk.heading[rows]))
+    return np.array(moves), np.array(turns)
 
 
 def _moved(walk: Trajectory) -> Moved | None:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from analytic.scene.gait import Gait
+from analytic.scene.limbs import memory
 from mjsim.friction.footing import footing
 from mjsim.friction.in_plane import LimbFooting
 from mjsim.friction.recorder import ContactRecorder
@@ -91,6 +92,7 @@ class Simulation(Copied):
             scene.valves, len(scene.robot.chambers), numerics.timestep
         )
         self._pressure = self._chambers.pressure
+        self._memory = memory(scene.robot)
         self._recorder = ContactRecorder(scene, model, self.data) if self._with_forces else None
         self._coordinates: list[Array] = []
         self._rows: list[tuple[float, ...]] = []
@@ -215,8 +217,9 @@ class Simulation(Copied):
         pressures = self._chambers.follow(valves)
         if not len(valves) or self._stopped:
             return
-        loads = self._joints.loads(valves, self._pressure, pressures)
-        prepared = ground.prepare(pressures)
+        acting = self._memory.follow(pressures)
+        loads = self._joints.loads(valves, self._pressure, acting)
+        prepared = ground.prepare(acting)
         coordinates = np.empty((len(valves), model.nq))
         rows: list[tuple[float, ...]] = []
         apply, before_step, after_step = self._joints.apply, ground.before_step, ground.after_step

@@ -11,7 +11,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import end_contact, end_loads, ripple
+from analytic.friction.contact_length import (
+    bending_peaks,
+    end_contact,
+    end_loads,
+    may_lie_flat,
+    ripple,
+)
 from analytic.friction.contacts import ContactFinder, StripContact
 from analytic.friction.grip import Grip
 from analytic.friction.laws import LAWS, Friction
@@ -283,10 +289,11 @@ class StickSlip:
         force = chain.ground_force(state) * chain.force_unit
         height = state.y * robot.length
         air = height > self._air
+        flat = may_lie_flat(chain.pressure, bending_peaks(robot))
         left, right = (
-            end_contact(robot, self._nodes[::order], force[::order], air[::order], pressure,
+            end_contact(robot, self._nodes[::order], force[::order], air[::order], lies,
                         self._press)
-            for order, pressure in ((1, chain.pressure[0]), (-1, chain.pressure[-1]))
+            for order, lies in ((1, flat[0]), (-1, flat[-1]))
         )  # fmt: skip
         if self._friction.contacts == "all":
             return self._finder.find(force.tolist(), height.tolist(), (left, right))

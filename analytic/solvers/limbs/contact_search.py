@@ -13,7 +13,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_length, length_between, may_lie_flat
+from analytic.friction.contact_length import (
+    bending_peaks,
+    flat_length,
+    length_between,
+    may_lie_flat,
+)
 from analytic.friction.contacts import POINT, runs_without_gaps
 from analytic.friction.laws import LAWS
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb
@@ -28,6 +33,8 @@ _WHOLE = 1e-9  # of a length: all of it
 SHORT = 1e-9  # of a length
 _FLAT = 1e-3  # rad; a gap between vertices that push is air if steeper, as of a strip; chosen
 _TOUCHES = 1e-6  # of the weight: a node that pushes less hovers
+# of the step that a twist makes in the edges' difference of height: how high the lower one may be
+_BY_TWIST = 0.25  # where a limb lies on it; a sixth, as every other link twists, and room; chosen
 
 
 class Contact(NamedTuple):
@@ -70,6 +77,7 @@ class ContactSearch:
         robot, self._limbs = tree.robot, resting_limbs(tree)
         self._least = _TOUCHES * robot.weight
         parts = chambers_by_limb(robot)
+        self._peaks = bending_peaks(robot)
         self._end_chambers = np.array([[part.start, part.stop - 1] for part in parts])
 
     def find(self, rest: Rest, pressures: Array) -> list[Contact]:
@@ -77,7 +85,7 @@ class ContactSearch:
         half = len(rest.force) // 2
         # both edges together; a limb that leans lies on one of its edges
         forces = (rest.force[:half] + rest.force[half:]).tolist()
-        heights = np.minimum(rest.nodes[:half, 2], rest.nodes[half:, 2]).tolist()
+        heights = self.heights(rest.nodes[:half, 2], rest.nodes[half:, 2]).tolist()
         return self.search(forces, heights, self.may_lie(pressures).tolist())
 
     def may_lie(self, pressures: Array) -> NDArray[np.bool_]:
@@ -86,8 +94,7 @@ class ContactSearch:
         Args:
             pressures: of the chambers, (..., S) [Pa].
         """
-        at_ends = pressures[..., self._end_chambers]
-        flat: NDArray[np.bool_] = may_lie_flat(at_ends, self._tree.robot.peak_pressure)
+        flat: NDArray[np.bool_] = may_lie_flat(pressures, self._peaks)[..., self._end_chambers]
         return flat
 
     def search(
@@ -110,6 +117,20 @@ class ContactSearch:
             if state.passed or max(state.force[i]) > 0.0:
                 contacts += self._of_limb(state, i)
         return contacts
+
+    def heights(self, right: Array, left: Array) -> Array:
+        """Heights of vertices, (P,), by those of their edges, less what their links lift [m].
+
+        A twisted limb lies on a straight edge; of plane links every other corner is in the air.
+        """
+        heights = np.minimum(right, left)
+        if not self._tree.twists:
+            return heights
+        across = (left - right).reshape(len(self._limbs), -1)
+        steps = np.zeros((len(across), across.shape[1] + 1))
+        steps[:, 1:-1] = np.abs(np.diff(across))
+        lifted: Array = _BY_TWIST * np.maximum(steps[:, 1:], steps[:, :-1])
+        return heights - lifted.ravel()
 
     def _of_limb(self, state: "_State", i: int) -> list[Contact]:
         """Contacts of one limb; notes the force that it leaves to its carrier."""

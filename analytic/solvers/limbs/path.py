@@ -54,12 +54,22 @@ class Path:
             (C, 2) [m], ahead and to the left of the trunk's direction when the cycle begins; and
             (C,) to the left [rad].
         """
-        ends = np.linspace(self.times[0], self.times[-1], cycles + 1)
+        moves, turns = self.by_part(cycles, 1)
+        return moves[:, 0], turns[:, 0]
+
+    def by_part(self, cycles: int, parts: int) -> tuple[Array, Array]:
+        """Displacement and turn in each of P equal parts of each of C cycles, as of `by_cycle`.
+
+        Returns:
+            (C, P, 2) [m] and (C, P) [rad].
+        """
+        ends = np.linspace(self.times[0], self.times[-1], cycles * parts + 1)
         places = np.stack([np.interp(ends, self.times, part) for part in self.place.T], axis=1)
         headings = np.interp(ends, self.times, self.heading)
         direction = self.robot.limbs[0].angle
-        moves = zip(np.diff(places, axis=0), headings, strict=False)
-        return np.array([move @ rotation(direction + at) for move, at in moves]), np.diff(headings)
+        moves = np.diff(places, axis=0).reshape(cycles, parts, 2)
+        turned = [rotation(direction + at) for at in headings[:-1:parts]]
+        return moves @ np.array(turned), np.diff(headings).reshape(cycles, parts)
 
     @property
     def converged(self) -> bool:

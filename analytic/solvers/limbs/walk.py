@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.checks import one_of, times_of, whole
-from analytic.friction.contact_length import PASSIVE
+from analytic.friction.contact_length import PASSIVE, bending_peaks
 from analytic.friction.dissipation_in_plane import least_dissipation_in_plane
 from analytic.friction.grip import check_feet_in_space
 from analytic.friction.laws import LAWS
 from analytic.progress import counted
 from analytic.scene.gait import Gait
 from analytic.scene.ground import LEVEL, Incline
-from analytic.scene.limbs import LimbedRobot, rotation, usual_twists
+from analytic.scene.limbs import LimbedRobot, acting_pressures, rotation, usual_twists
 from analytic.scene.surface import Ground
 from analytic.solvers.limbs.contacts import Contacts, shares, spans_of
 from analytic.solvers.limbs.kinematics import Tree
@@ -158,7 +158,7 @@ def walk(
         times_of(times, len(path))
     spans_of(ground, times, len(path))  # refuses what has no times and needs them
     clock = np.arange(float(len(path))) if times is None else np.asarray(times, dtype=float)
-    path, times = _with_thresholds(robot, path, clock)
+    path, times = _with_thresholds(robot, acting_pressures(robot, path), clock)
     if twists is None:
         twists = usual_twists(robot, elements, incline)
     if bent:
@@ -173,7 +173,7 @@ def _with_thresholds(robot: LimbedRobot, path: Array, times: Array) -> tuple[Arr
 
     What resists there jumps, and where it does is known: at a part of the peak pressure.
     """
-    level = PASSIVE * robot.peak_pressure
+    level = PASSIVE * bending_peaks(robot)
     begin, change = path[:-1], np.diff(path, axis=0)
     parts = np.divide(level - begin, change, out=np.full_like(change, -1.0), where=change != 0)
     rows, columns = np.nonzero((parts > _APART) & (parts < 1 - _APART))

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from mujoco.batch import MODEL_FIELDS
 
+from analytic.scene.actuator import Actuator
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
@@ -54,6 +55,14 @@ def test_side_by_side_every_scene_walks_as_it_does_alone(slope):
             one, two = measure(walk), measure(alone)
             assert one.displacement == pytest.approx(two.displacement, abs=1e-9)
             assert one.unexplained == pytest.approx(two.unexplained, abs=1e-9)
+
+
+def test_measured_actuators_remember_side_by_side_as_alone():
+    curve = Actuator((0, 50e3), (0, 25.0), play=(8e3,), share=(0.5,))
+    scenes = [Scene(Robot(actuator=curve), ground="gelatin"), Scene()]
+    together = simulate_batch(scenes, COARSE)
+    for scene, walk in zip(scenes, together, strict=True):
+        assert walk.line == pytest.approx(simulate(scene, COARSE).line, abs=1e-9 * 0.13)
 
 
 def test_models_of_one_layout_differ_in_the_fields_that_rows_have_and_in_no_other():

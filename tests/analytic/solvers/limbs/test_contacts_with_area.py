@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from analytic.scene.gait import Gait
-from analytic.scene.limbs import LENGTH, LimbedRobot, quadruped
+from analytic.scene.limbs import LENGTH, Limb, LimbedRobot, quadruped
 from analytic.scene.quadruped_gaits import undulation
+from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES, Surface
 from analytic.solvers.limbs.contact_search import SHORT
 from analytic.solvers.limbs.contacts import Contacts
@@ -20,9 +21,9 @@ from analytic.solvers.limbs.walk import walk
 FELT = SURFACES["felt"]
 
 
-def at_rest(robot, parts, elements=6):
+def at_rest(robot, parts, elements=6, twists=0):
     """Tree, state and pressures at parts of the peak, approached from none."""
-    statics = Statics(Tree(robot, elements))
+    statics = Statics(Tree(robot, elements, twists))
     rest, pressures = statics.flat(), robot.peak_pressure * np.array(parts, dtype=float)
     for part in np.linspace(0, 1, 5)[1:]:
         rest = statics.equilibrium(part * pressures, rest)
@@ -73,6 +74,32 @@ def test_a_torso_that_stands_on_its_ends_resists_by_nothing():
     finder = Contacts(tree)
     torso = [contact for contact in finder.find(rest, pressures) if contact.part == "between"]
     assert all(contact.length <= SHORT * LENGTH for contact in torso)
+
+
+@pytest.mark.parametrize("parts", [(0, 0, 0.8, 0.2), (0.5, 0, 0.8, 0), (0.6, 0, 0.9, 0.3)])
+def test_the_side_of_a_limb_that_twists_as_it_lies_on_an_edge_depends_little_on_its_links(parts):
+    """Two legs pressed unlike roll the trunk, and the limb ahead lies on its right edge."""
+
+    def limb(name, length, width, weight, *place):
+        strip = Robot(length=length, width=width, weight_per_length=weight, segments=(1.0,))
+        return Limb(name, strip, *place)
+
+    robot = LimbedRobot((
+        limb("trunk", 0.050, 0.026, 0.7),
+        limb("ahead", 0.035, 0.016, 1.9, "trunk", "end", np.radians(30)),
+        limb("left", 0.045, 0.014, 1.0, "trunk", "begin", np.radians(110)),
+        limb("right", 0.045, 0.014, 1.0, "trunk", "begin", np.radians(190)),
+    ))  # fmt: skip
+    sides = []
+    for links in (6, 12):
+        tree, rest, pressures = at_rest(robot, parts, links, links // 2)
+        edges = rest.force.reshape(2, -1)[:, tree.vertices[1]].sum(axis=1)
+        assert edges[0] > 0.9 * edges.sum()
+        (side,) = (contact for contact in Contacts(tree).find(rest, pressures) if contact.limb == 1)
+        assert side.load == pytest.approx(edges.sum())
+        sides.append(side.length)
+    assert sides[0] > 0.2 * 0.035
+    assert sides[0] == pytest.approx(sides[1], rel=0.1)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,1 @@
+"""Numbers of an actuator from what a bench measured."""
