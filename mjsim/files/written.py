@@ -33,7 +33,7 @@ def as_tables(scene: Scene, numerics: Numerics) -> Tables:
         field.name: getattr(numerics, field.name) for field in fields(numerics)
         if field.name not in idle
     }  # fmt: skip
-    table = _strip(asdict(robot))
+    table = _plain(asdict(robot))
     if scene.in_space:
         table["limbs"] = [_limb(limb) for limb in limbs_of(robot)]
     return {
@@ -50,13 +50,7 @@ def _limb(limb: Limb) -> Table:
     """The table of a limb, without what is the whole robot's."""
     strip = {key: value for key, value in asdict(limb.strip).items() if key != PEAK}
     placed = {"on": limb.on, "at": limb.at if limb.on else None, "offset": limb.offset or None}
-    return _strip({"name": limb.name, **placed, "angle_deg": math.degrees(limb.angle), **strip})
-
-
-def _strip(table: Table) -> Table:
-    """The table of a strip or limb, its feet as tables if it has any."""
-    feet = [_plain(foot) for foot in table.pop("feet", ())]
-    return _plain(table) | ({"feet": feet} if feet else {})
+    return _plain({"name": limb.name, **placed, "angle_deg": math.degrees(limb.angle), **strip})
 
 
 def as_toml(tables: Tables, comments: Sequence[str] = ()) -> str:
