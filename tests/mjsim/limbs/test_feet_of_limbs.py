@@ -83,7 +83,7 @@ def test_a_claw_on_one_leg_adds_its_hold_to_the_legs_share_by_its_chamber():
     for part in (0.0, 0.5, 1.0):
         pressures = np.zeros(5)
         pressures[limb] = part * robot.peak_pressure
-        bound, _ = finder.resistance(tip, GROUND, "ahead", pressures)
+        bound, _ = finder.resistance(tip, GROUND, pressures=pressures)
         assert bound == 0.5 * GROUND.tip_force + 0.05 * part
 
 
