@@ -204,6 +204,18 @@ def spread(table: Mapping[str, Any], where: str = "") -> dict[str, Any]:
     return result
 
 
+def without_ways(table: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
+    """Fields of a surface but for ways that other ones, laid over them, give; see spread."""
+    tables = [name for name in DIRECTED if isinstance(over.get(name), Mapping)]
+    hidden = {f"{name}_{way}" for name in tables for way in ("back", "across")}
+    result = {key: value for key, value in table.items() if key not in hidden}
+    for name in DIRECTED:
+        if isinstance(result.get(name), Mapping):
+            ways = result[name].items()
+            result[name] = {way: value for way, value in ways if f"{name}_{way}" not in over}
+    return result
+
+
 @lru_cache(maxsize=256)
 def _against(surface: Surface, way: Way) -> Surface:
     """See Surface.against."""

@@ -47,6 +47,12 @@ def build_robot(table: Table, where: str = "") -> AnyRobot:
         for key in _FIXED:
             if key in shared:
                 raise ValueError(f"{where}{key} is the {table['name']}'s own; give {_FIXED[key]}")
+        curves = shared.get("actuator")
+        if isinstance(curves, list | tuple):
+            raise ValueError(
+                f"{where}actuator must be one for all limbs of the {table['name']}, or in each of "
+                f"[[robot.limbs]], got {len(curves)}"
+            )
         base = make_robot(shared, where, of_segments=False)
         return replace(quadruped(base), peak_pressure=base.peak_pressure)
     if "segments" in shared:

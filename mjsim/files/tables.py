@@ -27,7 +27,7 @@ from analytic.scene.ground import Patches
 from analytic.scene.limbs import ORDER, AnyRobot, LimbedRobot
 from analytic.scene.quadruped_gaits import QUADRUPED_GAITS, undulation
 from analytic.scene.robot import Robot
-from analytic.scene.surface import SURFACES, Ground, Surface, spread
+from analytic.scene.surface import SURFACES, Ground, Surface, spread, without_ways
 from analytic.scene.trapezoid import trapezoid
 from mjsim.files.actuator_files import make_robot
 from mjsim.files.gait_files import is_log, shortest_ramp
@@ -75,7 +75,8 @@ def read_tables(path: Path) -> Tables:
 def merged(*layers: Tables) -> Tables:
     """Tables laid over each other, the later ones above.
 
-    A surface by name or a gait by name, stages, lag or file replaces what a lower layer says of it.
+    A surface by name, how one resists a way, or a gait by name, stages, lag or file replaces what a
+    lower layer says of it.
     """
     result: Tables = {name: {} for name in NAMES}
     for layer in layers:
@@ -88,7 +89,7 @@ def merged(*layers: Tables) -> Tables:
                 kept = (*TRAPEZOID, "period") if {*TRAPEZOID} & table.keys() else ("ramp_time",)
                 kept = (*kept, "reverse", *SIDES)
                 result[name] = {k: v for k, v in result[name].items() if k in kept}
-            result[name] = {**result[name], **table}
+            result[name] = {**without_ways(result[name], table), **table}
     return result
 
 

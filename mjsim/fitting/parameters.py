@@ -179,8 +179,8 @@ def _check(name: str) -> None:
         )
     if name == "robot.actuator":
         raise ValueError("robot.actuator must be fitted alone, from a bench's files")
-    if key in ("segments", "material", "feet"):
-        raise ValueError(f"robot.{key} cannot be fitted")
+    if key in ("segments", "material", "feet", "nap"):
+        raise ValueError(f"{name} cannot be fitted")
 
 
 def unit_of(name: str) -> str:

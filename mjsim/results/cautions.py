@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from analytic.friction.laws import Friction
+from analytic.friction.laws import LAWS, Friction
 from analytic.friction.motion import motion, undecided_motion
 from analytic.locomotion import undecided
 from analytic.prediction import Prediction
+from analytic.scene.ground import surfaces_of
 from analytic.scene.limbs import acting_pressures, limbs_of
 from analytic.scene.surface import Surface
 from analytic.shapes import ContactShapes, Flag
@@ -38,12 +39,13 @@ def cautions(walk: Trajectory, theory: Reference | None, row: dict[str, Any]) ->
     """
     above = _of_ceiling(row)
     if walk.scene.in_space:
-        return above + _of_limbs(walk, row)
+        return above + _coasting(walk.scene) + _of_limbs(walk, row)
     if theory is None or row["predicted_displacement_over_L"] is None:
         return above
     assert isinstance(theory.walk, Prediction)
     return [
         *above,
+        *_coasting(walk.scene),
         *between_ends(walk.scene),
         *_rough(walk.scene, theory.walk),
         *_later(walk.scene, theory.walk),
@@ -119,6 +121,19 @@ def between_ends(scene: Scene) -> list[str]:
     if not np.isfinite(shift):
         return []
     return [f"friction acts at the two ends alone; wherever it touches, {shift:+.4f} L"]
+
+
+def _coasting(scene: Scene) -> list[str]:
+    """A note where no tip resists one way: what a ramp set moving is not stopped, however slow."""
+    for surface in surfaces_of(scene.ground):
+        ahead, back = (
+            LAWS[scene.friction].bound(surface.against(way), 1.0, 0.0, 1.0)
+            for way in ("ahead", "back")
+        )  # of a tip under a unit load
+        if not (ahead and back) and (ahead or back):
+            way = "back" if ahead else "ahead"
+            return [f"nothing brakes tips that slide {way}: it coasts, at any speed"]
+    return []
 
 
 def _rough(scene: Scene, prediction: Prediction) -> list[str]:

@@ -33,7 +33,7 @@ from analytic.scene.limbs import (
 )
 from analytic.scene.quadruped_gaits import for_robot
 from analytic.scene.robot import GRAVITY, Robot
-from analytic.scene.surface import SURFACES, Ground
+from analytic.scene.surface import SURFACES, Ground, Way
 from mjsim.scene import registry
 from mjsim.scene.magnitudes import check_robot, check_turn
 from mjsim.scene.numerics import Numerics, Resolved, path_of, short_enough
@@ -161,7 +161,8 @@ class Scene:
         check_adhesion(self.ground)
         feet = self._check_feet()
         acts = LAWS[self.friction].acts_on
-        surfaces = surfaces_of(self.ground)
+        ways: tuple[Way, ...] = ("ahead", "back", "across") if self.in_space else ("ahead", "back")
+        surfaces = [s.against(way) for s in surfaces_of(self.ground) for way in ways]
         holds = any(foot.hold for foot in feet)
         if not holds and not any(acts(surface) or surface.viscosity for surface in surfaces):
             acting = [law for law in _LAWS if any(map(LAWS[law].acts_on, surfaces))]

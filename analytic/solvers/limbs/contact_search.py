@@ -239,8 +239,7 @@ class ContactSearch:
         total = load + state.passed.get((i, end), 0.0) if state.passed else load
         if total <= self._least:
             return None, 0.0, 0
-        length = limb.length
-        tip = 0.0 if at_begin else length
+        length, tip = limb.length, 0.0 if at_begin else limb.length
         bends = state.bends[i][END[end]]
         if bends < 0:
             if force[0] <= self._least:
@@ -252,21 +251,19 @@ class ContactSearch:
             if self._all_on_tips and limb.carrier is not None and limb.segments == 1:
                 return self._contact(i, end, tip, 0.0, sum(force)), 0.0, len(force)
             return self._contact(i, end, tip, 0.0, force[0]), 0.0, 1
-        whole, carrier = carried == len(force) and not at_begin, limb.carrier
-        if carrier is None:
-            whole = False
-        elif whole:
+        carrier = limb.carrier
+        whole = carrier is not None and carried == len(force) and not at_begin
+        if whole and carrier is not None:
             # limb and carrier share a joint, and which of them the ground pushes there is open
             whole = self._flat_at_joint(state, i)
             if not whole:
                 joint = limb.share * state.force[carrier][END[limb.at]]
                 total, moment = total + joint, moment + joint * length
-        weight = limb.weight
-        side = length if whole else min(float(flat_length(weight, total, moment)), length)
+        side = length if whole else min(float(flat_length(limb.weight, total, moment)), length)
         if side <= 0:
             return self._contact(i, end, tip, 0.0, load), 0.0, carried
         begin = tip if at_begin else tip - side
-        return self._contact(i, end, begin, side, load), total - weight * side, carried
+        return self._contact(i, end, begin, side, load), total - limb.weight * side, carried
 
     def _contact(self, i: int, part: str, begin: float, length: float, load: float) -> Contact:
         """A side that begins somewhere along a limb, or a tip there: all across the limb."""

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from analytic import GAITS, SURFACES, Friction, Robot, predict
-from analytic.scene.surface import from_ratios
+from analytic.scene.surface import Surface, from_ratios
 from analytic.scene.trapezoid import trapezoid
 from mjsim.commands import run
-from mjsim.results.cautions import near_end, tied
+from mjsim.results.cautions import _coasting, near_end, tied
 from mjsim.results.measures import measure
 from mjsim.results.record import record
 from mjsim.scene import Numerics, Scene
@@ -126,3 +126,23 @@ def test_the_reference_s_error_bar_holds_what_a_finer_one_says(surface):
     fine = predict(scene.robot, scene.gait, scene.ground, Elastica(180), 150, friction=BENT)
     off = abs(row["predicted_displacement_over_L"] - fine.locomotion.per_cycle / 0.13)
     assert off < row["prediction_uncertainty_over_L"] < 5e-4
+
+
+@pytest.mark.parametrize(("ahead", "back", "way"), [(0.02, 0.0, "back"), (0.0, 0.02, "ahead")])
+def test_a_robot_that_nothing_brakes_one_way_is_said_to_coast(ahead, back, way):
+    """Whose speed at the end of a cycle goes by that of its ramps: it goes as far however slow."""
+    one_way = Surface(tip_force=ahead, tip_force_back=back)
+    distances = []
+    for ramp in (1.0, 2.0):
+        gait = replace(GAITS["wave"], ramp_time=ramp)
+        walk = simulate(Scene(gait=gait, ground=one_way), Numerics(links=12, timestep=0.01))
+        assert any(f"slide {way}: it coasts" in n for n in record(walk)["prediction_notes"])
+        distances.append(measure(walk).displacement)
+    assert abs(distances[0]) > 0.3
+    assert distances[1] == pytest.approx(distances[0], rel=0.1)
+
+
+@pytest.mark.parametrize("name", SURFACES)
+def test_what_resists_both_ways_or_neither_is_not_said_to_coast(name):
+    assert _coasting(Scene(ground=SURFACES[name])) == []
+    assert _coasting(Scene(ground=replace(SURFACES["gelatin"], tip_force_back=0.01))) == []

@@ -12,7 +12,7 @@ from analytic.scene.trapezoid import trapezoid
 from mjsim import Scene
 from mjsim.files.dataclass_options import field_docs
 from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import build, read_tables
+from mjsim.files.tables import build, merged, read_tables
 from mjsim.scene import Numerics
 
 TOML = """
@@ -156,3 +156,43 @@ def test_classic_integrators_get_contacts_that_they_can_bear():
         assert coarse.contact_time == 2.0
     given = Numerics(integrator="Euler", contact_time=7.0).resolved("chain", "constant")
     assert given.contact_time == 7.0
+
+
+WAYS = {"ahead": "20 mN", "back": "30 mN", "across": "40 mN"}
+
+
+@pytest.mark.parametrize(("below", "above", "expected"), [
+    ({"tip_force": WAYS}, {"tip_force_back": "50 mN"}, (0.02, 0.05, 0.04)),
+    ({"tip_force": WAYS}, {"tip_force_back": 0.05, "tip_force_across": 0.01}, (0.02, 0.05, 0.01)),
+    ({"tip_force": "10 mN", "tip_force_back": "20 mN"}, {"tip_force": WAYS}, (0.02, 0.03, 0.04)),
+    ({"tip_force_across": "20 mN"}, {"tip_force": {"ahead": 0.1}}, (0.1, None, None)),
+    ({"tip_force": WAYS}, {"tip_force": "10 mN"}, (0.01, None, None)),
+])  # fmt: skip
+def test_an_option_takes_the_place_of_a_way_in_a_table_of_ways(below, above, expected):
+    ground = build(merged({"ground": below}, {"ground": above}))[0].ground
+    assert (ground.tip_force, ground.tip_force_back, ground.tip_force_across) == expected
+
+
+def test_a_way_that_one_layer_gives_twice_is_refused():
+    with pytest.raises(ValueError, match="tip_force_back is given twice"):
+        build(merged({"ground": {"tip_force": WAYS, "tip_force_back": 0.05}}))
+
+
+@pytest.mark.parametrize(("given", "robot", "walks"), [
+    ({"tip_force_back": 0.02}, "strip", True), ({"tip_force_across": 0.02}, "strip", False),
+    ({"tip_force_across": 0.02}, "quadruped", True), ({"shear_strength_back": 9}, "strip", True),
+])  # fmt: skip
+def test_ground_that_resists_one_way_is_ground_where_a_robot_goes_that_way(given, robot, walks):
+    surface = Surface(**given)
+    if walks:
+        assert Scene(robot, ground=surface).ground == surface
+    else:
+        with pytest.raises(ValueError, match="resists by nothing"):
+            Scene(robot, ground=surface)
+
+
+def test_the_named_quadruped_has_one_actuator_or_is_described_limb_by_limb():
+    curve = {"pressure": [0, 50e3], "curvature": [0, 20]}
+    robot = {"name": "quadruped", "actuator": [curve, curve, curve, curve, curve]}
+    with pytest.raises(ValueError, match="one for all limbs of the quadruped, or in each of"):
+        build({"robot": robot})
