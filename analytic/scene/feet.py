@@ -7,7 +7,7 @@ from typing import Any
 
 from analytic.checks import is_number, not_negative, one_of
 from analytic.fields import in_si
-from analytic.scene.surface import Way
+from analytic.scene.surface import Way, by_way
 
 
 @dataclass(frozen=True)
@@ -70,9 +70,7 @@ class Foot:
 
     def grip_against(self, way: Way) -> float:
         """Grip against motion one way [1]."""
-        back = self.grip if self.grip_back is None else self.grip_back
-        across = 0.5 * (self.grip + back) if self.grip_across is None else self.grip_across
-        return {"ahead": self.grip, "back": back, "across": across}[way]
+        return by_way(self.grip, self.grip_back, self.grip_across)[way]
 
 
 def in_order(feet: Iterable[Foot | Mapping[str, Any]]) -> tuple[Foot, ...]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any, Literal, Protocol
 
 import numpy as np
@@ -105,7 +105,7 @@ class Surface:
         for name, value in spread(given).items():
             object.__setattr__(self, name, value)
 
-    @property
+    @cached_property  # asked at every step
     def is_round(self) -> bool:
         """True if it resists alike in all directions."""
         return all(
@@ -216,15 +216,20 @@ def without_ways(table: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str,
     return result
 
 
+def by_way(ahead: float, back: float | None, across: float | None) -> dict[Way, float]:
+    """Values against motion each way: back as ahead, across their mean, where they are None."""
+    back = ahead if back is None else back
+    across = 0.5 * (ahead + back) if across is None else across
+    return {"ahead": ahead, "back": back, "across": across}
+
+
 @lru_cache(maxsize=256)
 def _against(surface: Surface, way: Way) -> Surface:
     """See Surface.against."""
     values: dict[str, float | None] = {}
     for name in DIRECTED:
         ahead, back, across = (getattr(surface, f"{name}{w}") for w in ("", "_back", "_across"))
-        back = ahead if back is None else back
-        across = 0.5 * (ahead + back) if across is None else across
-        values[name] = {"ahead": ahead, "back": back, "across": across}[way]
+        values[name] = by_way(ahead, back, across)[way]
         values |= {f"{name}_back": None, f"{name}_across": None}
     return replace(surface, **values)  # type: ignore[arg-type]
 

@@ -21,7 +21,7 @@ from analytic.scene.chain import link_lengths
 from analytic.scene.surface import Surface, Way
 from analytic.solvers.limbs.contact_search import parts_of
 from analytic.solvers.limbs.contact_state import Contact
-from analytic.solvers.limbs.contacts import Contacts
+from analytic.solvers.limbs.contacts import Contacts, axes_of
 from analytic.solvers.limbs.kinematics import Tree
 from mjsim.friction.ceiling import CeilingPush
 from mjsim.friction.friction_rows import STANDS, Directions, FrictionRows
@@ -138,10 +138,8 @@ class LimbFooting:
         ahead, back, across = (
             self._resistances(bodies, way) for way in ("ahead", "back", "across")
         )
-        heading = self._data.qpos.item(_YAW)
-        grounds = (self._ground.at(place.real) for place in self._rows.places)
-        angles = np.array([heading if at.ahead_is_the_robots else 0.0 for at in grounds])
-        axes = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        x = [place.real for place in self._rows.places]
+        axes = axes_of(self._ground, x, self._data.qpos.item(_YAW), 0.0)
         bounds, nap = nap_of(np.array(ahead[0]), np.array(back[0]), np.array(across[0]), axes)
         columns = np.concatenate([nap.scale.reshape(-1, 4), nap.lean], axis=1)
         return bounds.tolist(), ahead[1], list(map(tuple, columns.tolist()))

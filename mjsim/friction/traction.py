@@ -224,7 +224,7 @@ class ContactFriction(StripFriction):
             self._lean, self._sides = Lean(model), None
             names = tendon_names(numerics.links + 2)
             self._node_tendons = [model.tendon(PREFIX + name).id for name in names]
-            self._node_pads = pads_by_node(model)[:, 0].tolist()
+            self._node_pads = pads[:, 0].tolist()
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
         """See StripFriction.before_step."""

@@ -98,9 +98,7 @@ class Contacts(ContactSearch):
             self.resistances(contacts, ground, x, speeds, way, pressures)
             for way in ("ahead", "back", "across")
         )
-        of_robot = [ground.at(place).ahead_is_the_robots for place in x.tolist()]
-        angle = np.where(np.array(of_robot, dtype=bool), robot, along)
-        axes = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        axes = axes_of(ground, x.tolist(), robot, along)
         bounds, nap = nap_of(ahead[0], back[0], across[0], axes)
         return bounds, ahead[1], nap
 
@@ -166,6 +164,19 @@ class Contacts(ContactSearch):
         far = math.hypot(a, b)  # over a rectangle
         halves = a * a / b * math.log((b + far) / a) + b * b / a * math.log((a + far) / b)
         return (far + 0.5 * halves) / 3
+
+
+def axes_of(ground: Ground, x: list[float], robot: float, along: float) -> Array:
+    """Directions of ahead at places, (C, 2), of length 1.
+
+    Args:
+        ground: whose naps they are.
+        x: places [m].
+        robot, along: directions of the robot and of the ground's +x [rad].
+    """
+    of_robot = [ground.at(place).ahead_is_the_robots for place in x]
+    angle = np.where(np.array(of_robot, dtype=bool), robot, along)
+    return np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
 def _all_ways(ground: Ground) -> list[Surface]:
