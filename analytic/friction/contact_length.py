@@ -1,6 +1,6 @@
 """Contact lengths that follow from the contact forces on nodes, for one or many states."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -147,13 +147,21 @@ def flat_pressures(robot: AnyRobot, surface: Surface | None = None) -> Array:
 def _peeling_pressures(strip: Robot, adhesion: float, peak: float) -> Array:
     """Roots of D kappa^2 = 128/9 gamma q of the segments of a strip, (S,) [Pa]."""
     held = _PEELS * adhesion * strip.width
-    low = np.zeros(len(strip.segments))
-    high = np.full(len(strip.segments), _MOST * peak)
+
+    def holds(pressure: Array) -> Any:
+        curvature = pneunet.natural_curvature(strip, pressure)
+        return pneunet.rigidity(strip, pressure) * curvature**2 <= held
+
+    return _greatest(holds, np.full(len(strip.segments), _MOST * peak))
+
+
+def _greatest(holds: Callable[[Array], Any], most: Array) -> Array:
+    """Greatest pressures up to which something holds that fails from there to `most` [Pa]."""
+    low, high = np.zeros_like(most), most
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        curvature = pneunet.natural_curvature(strip, middle)
-        holds = pneunet.rigidity(strip, middle) * curvature**2 <= held
-        low, high = np.where(holds, middle, low), np.where(holds, high, middle)
+        held = holds(middle)
+        low, high = np.where(held, middle, low), np.where(held, high, middle)
     return low
 
 
@@ -174,11 +182,8 @@ def bending_peaks(robot: AnyRobot) -> Array:
 
 def _onset(actuator: Actuator, peak: float) -> float:
     """Pressure at which an actuator bends by the part PASSIVE of its curvature at the peak [Pa]."""
-    goal, low, high = PASSIVE * float(actuator.curvature_at(peak)), 0.0, peak
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if actuator.curvature_at(middle) <= goal else (low, middle)
-    return low
+    goal = PASSIVE * float(actuator.curvature_at(peak))
+    return float(_greatest(lambda p: actuator.curvature_at(p) <= goal, np.full(1, peak))[0])
 
 
 def end_loads(force: Array, height: Array) -> tuple[Array, Array]:
