@@ -93,8 +93,8 @@ def main() -> None:
     lines.axvline(1, color="0.7", linewidth=0.8, zorder=0)
     lines.set(xscale="log", xlabel="bound back over bound ahead",
               ylabel="distance per cycle over length")  # fmt: skip
-    lines.legend(title="lines: theory; dots: MuJoCo", frameon=False, fontsize=8,
-                 loc="lower right")  # fmt: skip
+    lines.legend(frameon=False, fontsize=8, loc="lower right")
+    lines.set_title("lines: theory; dots: MuJoCo", fontsize=9)
     levels = np.linspace(-0.25, 0.25, 21)
     heights = np.arange(len(KINDS))
     shown = plane.contourf(RATIOS, heights, theory, levels=levels, cmap="RdBu", extend="both")
