@@ -1,5 +1,6 @@
 """Fields of a scene that are not known, and how their values are spread."""
 
+import itertools
 import json
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
@@ -17,6 +18,7 @@ from mjsim.fitting.parameters import check_free, unit_of, value_of, with_values
 
 Array = NDArray[np.float64]
 
+MOST_AXES = 3  # of corners: eight; chosen
 _MOST = 0.9  # of a value, by which it may be off; chosen
 _EXAMPLE = "such as surface.tip_force=20%, robot.modulus=10%"
 _FIT = ".json"  # of what a fit printed
@@ -28,10 +30,12 @@ class Spread(ABC):
     Attributes:
         name: of the fields, as tables call it.
         axes: number of coordinates.
+        end: of a coordinate, either way: 95 % or all of what may be lies between.
     """
 
     name: str
     axes: int
+    end: float
 
     @property
     @abstractmethod
@@ -64,6 +68,7 @@ class Within(Spread):
     values: tuple[float, ...]
     part: float
     axes = 1
+    end = 1.0
 
     @property
     def name(self) -> str:  # type: ignore[override]
@@ -98,6 +103,7 @@ class Fitted(Spread):
     names: tuple[str, ...]
     values: tuple[float, ...]
     factor: tuple[tuple[float, ...], ...]
+    end = 1.96
 
     @property
     def axes(self) -> int:  # type: ignore[override]
@@ -206,6 +212,20 @@ def _fitted(path: Path) -> Fitted:
     lengths, directions = np.linalg.eigh(correlation * np.outer(errors, errors))
     factor = directions * np.sqrt(np.maximum(lengths, 0.0))
     return Fitted(names, values, tuple(map(tuple, factor.tolist())))
+
+
+def corners(spreads: Sequence[Spread]) -> list[dict[str, float]]:
+    """Values of all fields where every coordinate is at one of its ends.
+
+    Raises:
+        ValueError: there are more than MOST_AXES coordinates.
+    """
+    ends = [spread.end for spread in spreads for _ in range(spread.axes)]
+    if len(ends) > MOST_AXES:
+        raise ValueError(f"uncertain must be at most {MOST_AXES} fields where the worst case "
+                         f"counts, got {len(ends)}; fields with + between are one")  # fmt: skip
+    signs = itertools.product((-1.0, 1.0), repeat=len(ends))
+    return [values_at(spreads, np.multiply(sign, ends)) for sign in signs]
 
 
 def values_at(spreads: Sequence[Spread], place: Array) -> dict[str, float]:
