@@ -95,7 +95,7 @@ class Grip:
             on = self._part(column, pressures, low, high)
             stands = is_tip * (first <= begin) * (begin <= last) * (bare > 0.0)
             covered = is_side * low(0.0, high(end, last) - low(begin, first))
-            share = covered / length + stands if span else 0.0
+            share = stands + (covered / length if span else 0.0)
             if span:
                 caught = covered / span + stands
             else:  # a point at an end

@@ -13,6 +13,7 @@ from analytic.scene.surface import Surface
 from analytic.solvers.limbs.path import Path
 from analytic.solvers.limbs.walk import walk as walk_of_limbs
 from analytic.solvers.models import REFERENCE, SOLVERS, Elastica
+from mjsim.results.coasting import coasting
 from mjsim.scene import Numerics, Resolved, Scene, resolved
 
 Array = NDArray[np.float64]
@@ -25,6 +26,7 @@ PARTS = 2  # of a ramp, whose errors error bars of limbs add up; chosen
 HALF = 0.5  # of links and states, with which the error bar compares
 QUASI_STATIC = "quasi-static"  # the reference of robots of limbs
 CEILING = "touches_ceiling"  # flag of a reference whose robot would touch it
+COASTS = "coasts"  # flag of a reference in space that momentum alone would decide
 LIMB_STATES = 20  # of the quasi-static reference, in a change by the peak pressure
 
 
@@ -75,7 +77,8 @@ def reference(
         path, times: pressures in the chambers to follow in place of the gait's, (B, S) [Pa], and
             when, (B,) [s].
 
-    It knows no ceiling: of a robot that would touch it there is no displacement, and a flag.
+    It knows no ceiling: of a robot that would touch it there is no displacement, and a flag; nor is
+    there one of limbs that coast, of which it has the state at rest alone.
 
     Raises:
         ValueError: the reference does not know what the scene asks for.
@@ -116,8 +119,10 @@ def _of_limbs(
 ) -> Reference:  # fmt: skip
     links = round(numerics.links * finer) if finer >= 1 else max(2, numerics.links - 2)
     twists = min(round(numerics.twists * max(finer, 1)), links // 2)
-    cycles = scene.cycles
-    if cycles == 1 and path is None and scene.rise_time and scene.gait.repeats:
+    cycles, coasts = scene.cycles, coasting(scene)
+    if coasts:
+        path, times = np.zeros((2, len(robot.chambers))), np.array([0.0, 1.0])
+    elif cycles == 1 and path is None and scene.rise_time and scene.gait.repeats:
         cycles = 2  # of which the first begins without any friction
     walk = walk_of_limbs(
         robot, scene.gait, scene.ground, round(LIMB_STATES * finer), links, cycles, scene.friction,
@@ -127,7 +132,9 @@ def _of_limbs(
     moves, turns = walk.by_cycle(cycles)
     move = moves[-1] if isinstance(scene.ground, Surface) else moves.mean(axis=0)
     flags = () if walk.converged else ("not_converged",)
-    if flags and scene.slope:
+    if coasts:
+        flags, move = (COASTS,), np.full(2, math.nan)
+    elif flags and scene.slope:
         flags, move = ("slid",), np.full(2, math.nan)  # by viscosity alone, which is none
     length = robot.length
     return Reference(QUASI_STATIC, move / length, float(turns[-1]), moves[:, 0] / length, flags,

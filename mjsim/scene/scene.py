@@ -47,6 +47,7 @@ CONTACTS: tuple[str, ...] = ("auto", "ends", "all")
 ROBOTS: dict[str, Callable[[], AnyRobot]] = {"strip": Robot, "quadruped": quadruped}
 _LAWS = ("constant", "coulomb")
 _RISE = 2.0  # s; to the start of a gait that does not repeat; chosen
+_GENTLE = 1.0  # s; at least, so that no fast gait throws its robot before it begins; chosen
 ACTUATIONS: tuple[str, ...] = ("rest-angles", "actuators")
 
 
@@ -192,8 +193,7 @@ class Scene:
         holds = max((foot.hold for foot in feet), default=0.0)
         if holds and self.friction == "coulomb":
             raise ValueError(
-                f"feet that hold by a bound need friction constant, not coulomb, got a hold of "
-                f"{holds:g} N"
+                f"feet must have no hold under friction coulomb, by load alone, got {holds:g} N"
             )
         return feet
 
@@ -261,7 +261,7 @@ class Scene:
         """Time before the first cycle in which a gait that starts inflated is inflated [s]."""
         if not any(self.gait.stages[0]):
             return 0.0
-        return max(self.gait.ramp_times) if self.gait.repeats else _RISE
+        return max(*self.gait.ramp_times, _GENTLE) if self.gait.repeats else _RISE
 
     @property
     def fill_time(self) -> float:
