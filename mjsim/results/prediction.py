@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from analytic.friction.grip import Grip
+from analytic.friction.laws import LAWS
 from analytic.prediction import Prediction, predict
 from analytic.scene.limbs import LimbedRobot, limbs_of
 from analytic.scene.surface import Surface
@@ -23,6 +25,7 @@ WEAK = "weak friction"  # which bends nothing and only decides which end slides
 _RESOLVED = 3e-5  # error over L that no halving shows; with it bars cover 56 of 56 scenes, measured
 _LINKS, _LINKS_A_SEGMENT = 60, 24  # of the reference: contacts between the ends need finer links
 PARTS = 2  # of a ramp, whose errors error bars of limbs add up; chosen
+_COARSE = 0.4  # of links and states, of the elastica that tells what bending by friction changes
 HALF = 0.5  # of links and states, with which the error bar compares
 QUASI_STATIC = "quasi-static"  # the reference of robots of limbs
 CEILING = "touches_ceiling"  # flag of a reference whose robot would touch it
@@ -163,6 +166,26 @@ def error_bars(scene: Scene, fine: Reference, coarse: Reference) -> tuple[float 
     moves, turns = (np.subtract(*pair)[counted] for pair in zip(*paths, strict=True))
     sizes = np.sqrt((moves**2).sum(axis=2)) / scene.robot.length
     return float(sizes.sum() / len(sizes)), float(np.abs(turns[-1]).sum())
+
+
+def nap_error(scene: Scene, shift: float) -> float:
+    """Error of a distance by weak friction over a nap, over L; infinite where it is not known.
+
+    Over a nap, or on feet with a direction, a strip goes ahead at each turn of its separation, by
+    what its contacts pull at each other less: weak friction, which bends nothing, leaves that out.
+    On ground that is alike in all directions, where nothing of the kind adds up, it is 0.
+
+    Args:
+        scene: a strip's.
+        shift: the distance by weak friction, over L.
+    """
+    if Grip(scene.strip, LAWS[scene.friction]).is_round(scene.ground):
+        return 0.0
+    try:
+        bent = displacement(scene, prediction(scene, finer=_COARSE))
+    except ValueError:
+        return math.inf
+    return abs(shift - bent) if math.isfinite(bent) else math.inf
 
 
 def links(scene: Scene) -> int:

@@ -12,6 +12,7 @@ LONGEST_STEP = 0.1  # s
 FEWEST_STEPS = 4  # of a ramp; with fewer the gait is not seen; chosen
 
 SHORT_STEPS = (0.005, 0.0025, 0.001, 0.0005, 0.00025)  # s; of fast gaits
+STARTING_STEP = 0.001  # s; of a strip that starts on a nap: within 1 % of half of it, measured
 _SLOW = 1.0  # s; chambers that take as long to fill may have the usual time step; measured
 
 Integrator = Literal["discrete", "Euler", "implicitfast", "implicit", "RK4"]
@@ -46,7 +47,7 @@ class Numerics:
     accurate; 6 of each limb of a robot in space, even"""
     timestep: float | None = None
     """time step [s]; 0.005 of a strip, 0.01 of a robot in space; shorter where a chamber fills
-    faster than in 1 s, down to 0.00025; chosen"""
+    faster than in 1 s, down to 0.00025; 0.001 of a strip on a nap with a static_ratio; chosen"""
     integrator: Integrator = "discrete"
     """MuJoCo's integrator; all but discrete need softer contacts and smaller steps"""
     damping_time: float = 0.005
