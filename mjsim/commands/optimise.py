@@ -188,6 +188,7 @@ def _record(
     air = air_per_cycle(objective.scene.robot, gait)
     return {
         "aim": options.aim, "backward": options.backward, "model": objective.model,
+        "bent": objective.bent,
         "evaluations": generation.evaluations, "objective": generation.value,
         "searched_on": [surface.name for surface in objective.surfaces],
         "stages": gait.stages, "ramp_times_s": gait.ramp_times, "period_s": gait.period,
@@ -202,7 +203,8 @@ def _text(record: dict[str, Any]) -> str:
 
     unit = {"displacement": "L per cycle", "speed": "m/s", "air": "-l/m", "work": "-J/m"}
     where = ", ".join(record["searched_on"])
-    model = record["model"] + f", {WEAK}," * (record["model"] != "mujoco")
+    weak = record["model"] != "mujoco" and not record["bent"]
+    model = record["model"] + f", {WEAK}," * weak
     head = (
         f"{record['evaluations']} gaits by {model} in {record['wall_time_s']:.0f} s; "
         f"best on {where}: {record['objective']:+.4g} {unit[record['aim']]}, "

@@ -25,7 +25,7 @@ PATHS: tuple[str, ...] = get_args(Path)
 _WORDS = ("integrator", "cone", "contact_path")
 OF_SPACE = ("contact_softness", "tie_time", "twists")
 OF_THE_PLANE = ("integrator", "side_angle", "steep_contact_time", "steep_angle", "cone",
-                 "impratio", "contact_depth", "edge_time", "tie_bound")  # fmt: skip
+                 "impratio", "contact_depth", "edge_time", "tie_bound", "hop")  # fmt: skip
 
 # contact times that the classic integrators need: at least so many steps, and so long; measured
 _STIFF_STEPS, _STEEP_STEPS = 2.0, 4.0
@@ -80,6 +80,10 @@ class Numerics:
     tie_bound: float = 1.5
     """bound of the friction that anchors the mean position of two ends that resist alike [D0/L^2];
     chosen, about the strongest bound of the named surfaces"""
+    hop: float = 0.01
+    """height over the length up to which all of a strip may leave the ground before it counts as
+    thrown, and ten times as high an end; more needs friction coulomb, as constant bounds act in the
+    air; chosen"""
     contact_softness: float = 0.008
     """of a robot in space: part of an acceleration that contacts yield to, of slow gaits; chosen:
     with less, limbs that turn fast are thrown; faster gaits get more"""
@@ -115,6 +119,9 @@ class Numerics:
             ValueError: the links are not such as the robot can have.
         """
         _check_links(self.links, in_space)
+        if self.hop > Numerics.hop and friction != "coulomb":
+            raise ValueError(f"hop must be at most {Numerics.hop:g} under friction {friction}, whose "
+                             f"bounds act in the air, got {self.hop:g}")  # fmt: skip
         chosen_so = (body, self.integrator, self.cone)
         if self.contact_path == "curved" and chosen_so != ("chain", "discrete", "elliptic"):
             raise ValueError(
