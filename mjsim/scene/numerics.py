@@ -120,8 +120,8 @@ class Numerics:
         """
         _check_links(self.links, in_space)
         if self.hop > Numerics.hop and friction != "coulomb":
-            raise ValueError(f"hop must be at most {Numerics.hop:g} under friction {friction}, whose "
-                             f"bounds act in the air, got {self.hop:g}")  # fmt: skip
+            raise ValueError(f"hop must be at most {Numerics.hop:g} under friction {friction}, "
+                             f"whose bounds act in the air, got {self.hop:g}")  # fmt: skip
         chosen_so = (body, self.integrator, self.cone)
         if self.contact_path == "curved" and chosen_so != ("chain", "discrete", "elliptic"):
             raise ValueError(
