@@ -54,6 +54,11 @@ class Grip:
         """Tell whether contacts on a ground resist everywhere alike in all directions."""
         return self._round and is_round(ground)
 
+    def starts_on_a_nap(self, ground: Ground) -> bool:
+        """Tell whether contacts resist more at rest than in sliding, unlike in some directions."""
+        sticks = any(surface.static_ratio > 1 for surface in surfaces_of(ground))
+        return sticks and not self.is_round(ground)
+
     def both_ways(
         self, surface: Surface, contact: Number, load: Number, stretch: Stretch, pressures: Any
     ) -> tuple[Number, Number]:
@@ -95,7 +100,7 @@ class Grip:
             on = self._part(column, pressures, low, high)
             stands = is_tip * (first <= begin) * (begin <= last) * (bare > 0.0)
             covered = is_side * low(0.0, high(end, last) - low(begin, first))
-            share = covered / length + stands if span else 0.0
+            share = stands + (covered / length if span else 0.0)
             if span:
                 caught = covered / span + stands
             else:  # a point at an end

@@ -32,6 +32,7 @@ from mjsim.results.prediction import (
     WEAK,
     displacement,
     error_bars,
+    nap_error,
     prediction,
     reference,
     reference_name,
@@ -134,7 +135,8 @@ def _weak(scene: Scene, model: str) -> Row:
     """Row of a solver of strips for weak friction."""
     walk = prediction(scene, model)
     shift, length = displacement(scene, walk), scene.robot.length
-    finite, bar = bool(np.isfinite(shift)), modes_error(walk) / length
+    finite = bool(np.isfinite(shift))
+    bar = modes_error(walk) / length + (nap_error(scene, shift) if finite else 0.0)
     flags = "+".join(flag.name.lower() for flag in walk.flags if flag.name) or "ok"
     return _row(
         shift if finite else None,

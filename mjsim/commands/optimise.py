@@ -223,6 +223,7 @@ def _record(
     air = air_per_cycle(objective.scene.robot, gait)
     return {
         "aim": options.aim, "backward": options.backward, "model": objective.model,
+        "bent": objective.bent,
         "evaluations": generation.evaluations, "objective": generation.value,
         "searched_on": [surface.name for surface in objective.surfaces],
         "uncertain": options.uncertain,
@@ -240,7 +241,8 @@ def _text(record: dict[str, Any]) -> str:
     where = ", ".join(record["searched_on"])
     if record["uncertain"]:
         where += f" in the worst case of {record['uncertain']}"
-    model = record["model"] + f", {WEAK}," * (record["model"] != "mujoco")
+    weak = record["model"] != "mujoco" and not record["bent"]
+    model = record["model"] + f", {WEAK}," * weak
     head = (
         f"{record['evaluations']} gaits by {model} in {record['wall_time_s']:.0f} s; "
         f"best on {where}: {record['objective']:+.4g} {unit[record['aim']]}, "

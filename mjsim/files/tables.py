@@ -55,6 +55,7 @@ from mjsim.scene.valves import Valves
 LOG = logging.getLogger("mjsim")
 Tables = dict[str, Table]
 _STRIP = Robot()
+_TOGETHER = {"stribeck_speed": "static_ratio", "adhesion_reach": "adhesion"}  # do nothing without
 
 
 def read_tables(path: Path) -> Tables:
@@ -182,6 +183,10 @@ def build_ground(table: Table, where: str = "") -> Ground:
 def build_surface(table: Table, where: str = "") -> Surface:
     """A named surface, or one of given properties, which may start from a named one."""
     given = spread({k: v for k, v in table.items() if k in SURFACE_FIELDS}, where)
+    for key, other in _TOGETHER.items():
+        if key in given and other not in given:
+            raise ValueError(f"{where}{key} is for ground of a given {other} and does nothing "
+                             f"without, got {given[key]!r}")  # fmt: skip
     name = table.get("surface")
     if name is None:
         return make(Surface, given, where) if given else SURFACES["felt"]

@@ -48,7 +48,19 @@ class TypedOptions:
             if match["key"] in keys and (match["table"] is None or match["table"] in tables
                                          or not tables):  # fmt: skip
                 return f"{typed}{match['rest']}"
-        return message
+        beside = self._beside(match["table"], match["key"])
+        return f"{beside}{match['rest']}" if beside else message
+
+    def _beside(self, table: str | None, key: str) -> str | None:
+        """Option for a key of a table, where another of the table was typed, and no scene file."""
+        of_table = [
+            name for names in self._names() for name in names
+            if "." in name and _table_of(name) == table
+        ]  # fmt: skip
+        if "--scene" in self._typed or not set(self._typed) & set(of_table):
+            return None
+        wanted = key.replace("_", "-")
+        return next((name for name in of_table if name.partition(".")[2] == wanted), None)
 
     def as_typed(self, option: str) -> str:
         """Name of an option that was typed, of those that it has."""
@@ -85,6 +97,12 @@ class TypedOptions:
 
     def _names(self) -> list[tuple[str, ...]]:
         return list(_names_of(self._kind, ""))
+
+
+def _table_of(option: str) -> str:
+    """Table of a scene file that an option with a dot is of."""
+    name = option.lstrip("-").partition(".")[0]
+    return _TABLES.get(name, name)
 
 
 def _names_of(kind: Any, prefix: str) -> Iterator[tuple[str, ...]]:

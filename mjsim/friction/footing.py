@@ -14,7 +14,7 @@ from mjsim.friction.in_plane import LimbFooting
 from mjsim.friction.traction import BoundedEnds, ContactFriction
 from mjsim.model.body import Joints
 from mjsim.model.pads import pads_by_node
-from mjsim.results.status import FALLEN, THROWN
+from mjsim.results.status import END_HOPS
 from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
@@ -122,13 +122,13 @@ class StripFooting:
 
 def feet_may_be(scene: Scene, numerics: Resolved) -> tuple[float, float]:
     """Heights between which the pad of a strip's end is while it is still a foot [m]."""
-    reach = FALLEN * scene.robot.length
+    reach = END_HOPS * numerics.hop * scene.robot.length
     return numerics.pad_radius - reach, numerics.pad_radius + reach
 
 
 def thrown(scene: Scene, numerics: Resolved) -> float:
     """Height of the lowest pad from which on all of a strip has left the ground [m]."""
-    return numerics.pad_radius + THROWN * scene.robot.length
+    return numerics.pad_radius + numerics.hop * scene.robot.length
 
 
 def footing(

@@ -3,7 +3,7 @@
 import itertools
 import math
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from analytic.scene.gait import Gait
 from analytic.scene.surface import Surface
@@ -74,8 +74,8 @@ def _simulated(scene: Scene, given: Numerics | None) -> tuple[float, str]:
 def _perturbed(objective: Objective, scene: Scene, surface: Surface) -> list[float]:
     """Sure displacements the right way with pressure, tip and side 10 % off, all combinations."""
     grounds = [
-        replace(surface, name=f"{surface.name}-off", tip_force=tip * surface.tip_force,
-                shear_strength=side * surface.shear_strength)
+        replace(surface, name=f"{surface.name}-off", **_times(surface, "tip_force", tip),
+                **_times(surface, "shear_strength", side))
         for tip, side in itertools.product(_PARTS, _PARTS)
     ]  # fmt: skip
     shifts: list[float] = []
@@ -83,3 +83,9 @@ def _perturbed(objective: Objective, scene: Scene, surface: Surface) -> list[flo
         robot = replace(scene.robot, peak_pressure=part * scene.robot.peak_pressure)
         shifts += objective.sure_at(scene.contacts, robot, scene.gait, grounds)
     return [shift if math.isfinite(shift) else math.nan for shift in shifts]
+
+
+def _times(surface: Surface, name: str, factor: float) -> dict[str, Any]:
+    """Fields of a surface of how it resists, all ways, by a factor."""
+    given = {f"{name}{way}": getattr(surface, f"{name}{way}") for way in ("", "_back", "_across")}
+    return {key: factor * value for key, value in given.items() if value is not None}

@@ -8,16 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from analytic.friction.laws import LAWS, Friction
+from analytic.friction.laws import Friction
 from analytic.friction.motion import motion, undecided_motion
 from analytic.locomotion import undecided
 from analytic.prediction import Prediction
-from analytic.scene.ground import surfaces_of
 from analytic.scene.limbs import acting_pressures, limbs_of
 from analytic.scene.surface import Surface
 from analytic.shapes import ContactShapes, Flag
 from analytic.solvers.models import Elastica
 from mjsim.model.limbs import longest_step
+from mjsim.results.coasting import coasting
 from mjsim.results.prediction import Reference, displacement, prediction
 from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Scene
@@ -124,16 +124,14 @@ def between_ends(scene: Scene) -> list[str]:
 
 
 def _coasting(scene: Scene) -> list[str]:
-    """A note where no tip resists one way: what a ramp set moving is not stopped, however slow."""
-    for surface in surfaces_of(scene.ground):
-        ahead, back = (
-            LAWS[scene.friction].bound(surface.against(way), 1.0, 0.0, 1.0)
-            for way in ("ahead", "back")
-        )  # of a tip under a unit load
-        if not (ahead and back) and (ahead or back):
-            way = "back" if ahead else "ahead"
-            return [f"nothing brakes tips that slide {way}: it coasts, at any speed"]
-    return []
+    """A note where nothing stops what a ramp has set moving, however slow."""
+    found = coasting(scene)
+    if not found:
+        return []
+    if found.contacts == "tips":
+        return [f"nothing brakes tips that slide {found.way}: it coasts, at any speed"]
+    return [f"nothing brakes sides that slide {found.way}, nor tips: it coasts or stands still, at "
+            "any speed"]  # fmt: skip
 
 
 def _rough(scene: Scene, prediction: Prediction) -> list[str]:

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mjsim.results.status import FALLEN, THROWN, Status
+from mjsim.results.status import END_HOPS, Status
 from mjsim.results.trajectory import Trajectory
 
 _ASIDE = 0.02  # a vertex this far off the plane, over L, has left it; chosen
@@ -25,7 +25,8 @@ def judge(walk: Trajectory, stopped: bool = False, unsettled: bool = False) -> T
     length = walk.scene.robot.length
     height = walk.line[..., 2]
     ends, lowest = np.abs(height[:, [0, -1]]).max(axis=1), height.min(axis=1)
-    fallen = np.flatnonzero(~((ends < FALLEN * length) & (lowest < THROWN * length)))
+    hop = walk.numerics.hop * length
+    fallen = np.flatnonzero(~((ends < END_HOPS * hop) & (lowest < hop)))
     if len(fallen) and not stopped:
         walk = walk.up_to(int(fallen[0]) + 1)
     return replace(walk, status=_status(walk, stopped or len(fallen) > 0, unsettled))

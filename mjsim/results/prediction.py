@@ -7,12 +7,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from analytic.friction.grip import Grip
+from analytic.friction.laws import LAWS
 from analytic.prediction import Prediction, predict
 from analytic.scene.limbs import LimbedRobot, limbs_of
 from analytic.scene.surface import Surface
 from analytic.solvers.limbs.path import Path
 from analytic.solvers.limbs.walk import walk as walk_of_limbs
 from analytic.solvers.models import REFERENCE, SOLVERS, Elastica
+from mjsim.results.coasting import coasting
 from mjsim.scene import Numerics, Resolved, Scene, resolved
 
 Array = NDArray[np.float64]
@@ -22,9 +25,11 @@ WEAK = "weak friction"  # which bends nothing and only decides which end slides
 _RESOLVED = 3e-5  # error over L that no halving shows; with it bars cover 56 of 56 scenes, measured
 _LINKS, _LINKS_A_SEGMENT = 60, 24  # of the reference: contacts between the ends need finer links
 PARTS = 2  # of a ramp, whose errors error bars of limbs add up; chosen
+_COARSE = 0.4  # of links and states, of the elastica that tells what bending by friction changes
 HALF = 0.5  # of links and states, with which the error bar compares
 QUASI_STATIC = "quasi-static"  # the reference of robots of limbs
 CEILING = "touches_ceiling"  # flag of a reference whose robot would touch it
+COASTS = "coasts"  # flag of a reference in space that momentum alone would decide
 LIMB_STATES = 20  # of the quasi-static reference, in a change by the peak pressure
 
 
@@ -75,7 +80,8 @@ def reference(
         path, times: pressures in the chambers to follow in place of the gait's, (B, S) [Pa], and
             when, (B,) [s].
 
-    It knows no ceiling: of a robot that would touch it there is no displacement, and a flag.
+    It knows no ceiling: of a robot that would touch it there is no displacement, and a flag; nor is
+    there one of limbs that coast, of which it has the state at rest alone.
 
     Raises:
         ValueError: the reference does not know what the scene asks for.
@@ -116,8 +122,10 @@ def _of_limbs(
 ) -> Reference:  # fmt: skip
     links = round(numerics.links * finer) if finer >= 1 else max(2, numerics.links - 2)
     twists = min(round(numerics.twists * max(finer, 1)), links // 2)
-    cycles = scene.cycles
-    if cycles == 1 and path is None and scene.rise_time and scene.gait.repeats:
+    cycles, coasts = scene.cycles, coasting(scene)
+    if coasts:
+        path, times = np.zeros((2, len(robot.chambers))), np.array([0.0, 1.0])
+    elif cycles == 1 and path is None and scene.rise_time and scene.gait.repeats:
         cycles = 2  # of which the first begins without any friction
     walk = walk_of_limbs(
         robot, scene.gait, scene.ground, round(LIMB_STATES * finer), links, cycles, scene.friction,
@@ -127,7 +135,9 @@ def _of_limbs(
     moves, turns = walk.by_cycle(cycles)
     move = moves[-1] if isinstance(scene.ground, Surface) else moves.mean(axis=0)
     flags = () if walk.converged else ("not_converged",)
-    if flags and scene.slope:
+    if coasts:
+        flags, move = (COASTS,), np.full(2, math.nan)
+    elif flags and scene.slope:
         flags, move = ("slid",), np.full(2, math.nan)  # by viscosity alone, which is none
     length = robot.length
     return Reference(QUASI_STATIC, move / length, float(turns[-1]), moves[:, 0] / length, flags,
@@ -156,6 +166,26 @@ def error_bars(scene: Scene, fine: Reference, coarse: Reference) -> tuple[float 
     moves, turns = (np.subtract(*pair)[counted] for pair in zip(*paths, strict=True))
     sizes = np.sqrt((moves**2).sum(axis=2)) / scene.robot.length
     return float(sizes.sum() / len(sizes)), float(np.abs(turns[-1]).sum())
+
+
+def nap_error(scene: Scene, shift: float) -> float:
+    """Error of a distance by weak friction over a nap, over L; infinite where it is not known.
+
+    Over a nap, or on feet with a direction, a strip goes ahead at each turn of its separation, by
+    what its contacts pull at each other less: weak friction, which bends nothing, leaves that out.
+    On ground that is alike in all directions, where nothing of the kind adds up, it is 0.
+
+    Args:
+        scene: a strip's.
+        shift: the distance by weak friction, over L.
+    """
+    if Grip(scene.strip, LAWS[scene.friction]).is_round(scene.ground):
+        return 0.0
+    try:
+        bent = displacement(scene, prediction(scene, finer=_COARSE))
+    except ValueError:
+        return math.inf
+    return abs(shift - bent) if math.isfinite(bent) else math.inf
 
 
 def links(scene: Scene) -> int:

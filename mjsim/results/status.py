@@ -2,8 +2,8 @@
 
 from enum import StrEnum
 
-FALLEN = 0.1  # an end this far off the ground, over L, has left it; chosen
-THROWN = 0.01  # the lowest point this far off the ground, over L: all of it has left; chosen
+END_HOPS = 10.0  # an end so many times as high as all of a strip may hop has left; chosen
+THROWN = 0.01  # the lowest point of limbs this far off the ground, over L: all has left; chosen
 AT_REST = 1e-3  # speed of the ends below which the strip is at rest before time 0 [L/s]; chosen
 
 

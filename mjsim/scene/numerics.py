@@ -12,6 +12,7 @@ LONGEST_STEP = 0.1  # s
 FEWEST_STEPS = 4  # of a ramp; with fewer the gait is not seen; chosen
 
 SHORT_STEPS = (0.005, 0.0025, 0.001, 0.0005, 0.00025)  # s; of fast gaits
+STARTING_STEP = 0.001  # s; of a strip that starts on a nap: within 1 % of half of it, measured
 _SLOW = 1.0  # s; chambers that take as long to fill may have the usual time step; measured
 
 Integrator = Literal["discrete", "Euler", "implicitfast", "implicit", "RK4"]
@@ -24,7 +25,7 @@ PATHS: tuple[str, ...] = get_args(Path)
 _WORDS = ("integrator", "cone", "contact_path")
 OF_SPACE = ("contact_softness", "tie_time", "twists")
 OF_THE_PLANE = ("integrator", "side_angle", "steep_contact_time", "steep_angle", "cone",
-                 "impratio", "contact_depth", "edge_time", "tie_bound")  # fmt: skip
+                 "impratio", "contact_depth", "edge_time", "tie_bound", "hop")  # fmt: skip
 
 # contact times that the classic integrators need: at least so many steps, and so long; measured
 _STIFF_STEPS, _STEEP_STEPS = 2.0, 4.0
@@ -46,7 +47,7 @@ class Numerics:
     accurate; 6 of each limb of a robot in space, even"""
     timestep: float | None = None
     """time step [s]; 0.005 of a strip, 0.01 of a robot in space; shorter where a chamber fills
-    faster than in 1 s, down to 0.00025; chosen"""
+    faster than in 1 s, down to 0.00025; 0.001 of a strip on a nap with a static_ratio; chosen"""
     integrator: Integrator = "discrete"
     """MuJoCo's integrator; all but discrete need softer contacts and smaller steps"""
     damping_time: float = 0.005
@@ -79,6 +80,10 @@ class Numerics:
     tie_bound: float = 1.5
     """bound of the friction that anchors the mean position of two ends that resist alike [D0/L^2];
     chosen, about the strongest bound of the named surfaces"""
+    hop: float = 0.01
+    """height over the length up to which all of a strip may leave the ground before it counts as
+    thrown, and ten times as high an end; more needs friction coulomb, as constant bounds act in the
+    air; chosen"""
     contact_softness: float = 0.008
     """of a robot in space: part of an acceleration that contacts yield to, of slow gaits; chosen:
     with less, limbs that turn fast are thrown; faster gaits get more"""
@@ -114,6 +119,9 @@ class Numerics:
             ValueError: the links are not such as the robot can have.
         """
         _check_links(self.links, in_space)
+        if self.hop > Numerics.hop and friction != "coulomb":
+            raise ValueError(f"hop must be at most {Numerics.hop:g} under friction {friction}, "
+                             f"whose bounds act in the air, got {self.hop:g}")  # fmt: skip
         chosen_so = (body, self.integrator, self.cone)
         if self.contact_path == "curved" and chosen_so != ("chain", "discrete", "elliptic"):
             raise ValueError(

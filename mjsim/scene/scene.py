@@ -10,7 +10,7 @@ import numpy as np
 
 from analytic.checks import is_number, one_of, positive, slope, whole
 from analytic.fields import in_si
-from analytic.friction.grip import check_feet_in_space
+from analytic.friction.grip import Grip, check_feet_in_space
 from analytic.friction.laws import LAWS, ROUGHNESS, Friction
 from analytic.scene.chain import CHAMBER_LAWS
 from analytic.scene.feet import Foot, check_chambers
@@ -36,7 +36,7 @@ from analytic.scene.robot import GRAVITY, Robot
 from analytic.scene.surface import SURFACES, Ground, Way
 from mjsim.scene import registry
 from mjsim.scene.magnitudes import check_robot, check_turn
-from mjsim.scene.numerics import Numerics, Resolved, path_of, short_enough
+from mjsim.scene.numerics import STARTING_STEP, Numerics, Resolved, path_of, short_enough
 from mjsim.scene.surroundings import check_ceiling, check_ground, check_roughness, check_times
 from mjsim.scene.valves import Valves
 
@@ -47,6 +47,7 @@ CONTACTS: tuple[str, ...] = ("auto", "ends", "all")
 ROBOTS: dict[str, Callable[[], AnyRobot]] = {"strip": Robot, "quadruped": quadruped}
 _LAWS = ("constant", "coulomb")
 _RISE = 2.0  # s; to the start of a gait that does not repeat; chosen
+_GENTLE = 1.0  # s; at least, so that no fast gait throws its robot before it begins; chosen
 ACTUATIONS: tuple[str, ...] = ("rest-angles", "actuators")
 
 
@@ -192,8 +193,7 @@ class Scene:
         holds = max((foot.hold for foot in feet), default=0.0)
         if holds and self.friction == "coulomb":
             raise ValueError(
-                f"feet that hold by a bound need friction constant, not coulomb, got a hold of "
-                f"{holds:g} N"
+                f"feet must have no hold under friction coulomb, by load alone, got {holds:g} N"
             )
         return feet
 
@@ -261,7 +261,7 @@ class Scene:
         """Time before the first cycle in which a gait that starts inflated is inflated [s]."""
         if not any(self.gait.stages[0]):
             return 0.0
-        return max(self.gait.ramp_times) if self.gait.repeats else _RISE
+        return max(*self.gait.ramp_times, _GENTLE) if self.gait.repeats else _RISE
 
     @property
     def fill_time(self) -> float:
@@ -295,6 +295,9 @@ def resolved(scene: Scene, numerics: Numerics | None = None) -> Resolved:
         raise ValueError(f"torsion does nothing for {where}, got {torsion:g}")
     if given.timestep is None:
         usual = given.resolved(scene.body, scene.friction, scene.in_space).timestep
+        law = LAWS[scene.friction]
+        if not scene.in_space and Grip(scene.strip, law).starts_on_a_nap(scene.ground):
+            usual = min(usual, STARTING_STEP)
         given = replace(given, timestep=short_enough(usual, scene.fill_time))
     if given.contact_path is None:
         given = replace(given, contact_path=path_of(scene.in_space, scene.fill_time))

@@ -10,10 +10,17 @@ import numpy as np
 
 from analytic.locomotion import direction
 from analytic.shapes import Flag
+from analytic.solvers.models import REFERENCE
 from analytic.uncertainty import UNSOUND, modes_error
 from mjsim.files.quantities import with_fields
 from mjsim.files.tables import Tables, build
-from mjsim.results.prediction import QUASI_STATIC, displacement, prediction, reference
+from mjsim.results.prediction import (
+    QUASI_STATIC,
+    displacement,
+    nap_error,
+    prediction,
+    reference,
+)
 from mjsim.scene import Numerics, Scene
 
 _BOUNDED = 1e-3  # uncertainty over L up to which assumed contacts are no flag; chosen
@@ -148,12 +155,17 @@ def _predicted(job: Job, scene: Scene, numerics: Numerics) -> Row:
     walk = prediction(scene, job.model, states=job.states, bent=job.bent)
     length, shift = scene.robot.length, displacement(scene, walk)
     error = modes_error(walk) / length if job.model in ("modes", "lifted") else None
+    weak = not (job.bent and job.model == REFERENCE)
+    over_nap = nap_error(scene, shift) if weak and math.isfinite(shift) else 0.0
     unsure = walk.flags
     if error is not None and error <= _BOUNDED:  # what these flags may do is known, and little
         unsure &= ~(UNSOUND | Flag.SEVERAL_ROOTS)
     flags = "+".join(flag.name.lower() for flag in unsure if flag.name) or "ok"
     if not math.isfinite(shift):
         return {"status": flags}
+    if over_nap:
+        total = (error or 0.0) + over_nap
+        error = total if math.isfinite(total) else None
     return _row(scene, flags, shift, error, float(np.nanmax(walk.shapes.amplitude)) / length)
 
 

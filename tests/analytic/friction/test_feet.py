@@ -71,6 +71,19 @@ def test_a_tip_on_a_claw_resists_by_its_ground_and_all_of_the_claw(law, end):
         assert bounds == (plain + 0.02, plain + 0.02)
 
 
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("end", [0.0, 1.0])
+def test_a_tip_on_a_point_of_a_foot_resists_as_on_a_foot_of_any_length(law, end):
+    near = (0.9 * end, 0.9 * end + 0.1)
+    point, pad = (Foot(*where, grip=0.5, grip_back=3.0) for where in ((end, end), near))
+    bounds = [bounds_of(shod(foot), end, end, load=0.03, law=law) for foot in (point, pad)]
+    assert bounds[0] == bounds[1] != bounds_of(Robot(), end, end, load=0.03, law=law)
+    begin = min(end, 0.75)  # a side covers none of the point
+    sides = [bounds_of(strip, begin, begin + 0.25, load=0.03, law=law)
+             for strip in (shod(point), Robot())]  # fmt: skip
+    assert sides[0] == pytest.approx(sides[1], rel=1e-12)
+
+
 @given(eighths, eighths, st.integers(0, 7), st.integers(1, 8))
 def test_a_side_resists_by_the_sum_over_what_it_covers(grip, back, first, count):
     """Summed over short pieces, each bare or on the foot, which lies between 1/4 and 5/8."""

@@ -8,11 +8,13 @@ import numpy as np
 import pytest
 
 from analytic import GAITS, SURFACES, Friction, Robot, predict
+from analytic.scene.feet import Foot
 from analytic.scene.surface import Surface, from_ratios
 from analytic.scene.trapezoid import trapezoid
 from mjsim.commands import run
 from mjsim.results.cautions import _coasting, near_end, tied
 from mjsim.results.measures import measure
+from mjsim.results.prediction import reference
 from mjsim.results.record import record
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.second_walks import doubts
@@ -146,3 +148,23 @@ def test_a_robot_that_nothing_brakes_one_way_is_said_to_coast(ahead, back, way):
 def test_what_resists_both_ways_or_neither_is_not_said_to_coast(name):
     assert _coasting(Scene(ground=SURFACES[name])) == []
     assert _coasting(Scene(ground=replace(SURFACES["gelatin"], tip_force_back=0.01))) == []
+
+
+def test_sides_and_feet_that_hold_one_way_alone_are_told_of():
+    """One end alone on such a foot coasts not: the other brakes."""
+    sides = Surface(shear_strength=20.0, shear_strength_back=0.0)
+    (note,) = _coasting(Scene(ground=sides))
+    assert "nothing brakes sides that slide back" in note
+    assert _coasting(Scene(ground=replace(sides, tip_force=0.01))) == []
+    left, right = Foot(0, 0, grip_back=0.0), Foot(1, 1, grip_back=0.0)
+    assert _coasting(Scene(Robot(feet=(left,)), ground=SURFACES["gelatin"])) == []
+    (note,) = _coasting(Scene(Robot(feet=(left, right)), ground=SURFACES["gelatin"]))
+    assert "nothing brakes tips that slide back" in note
+
+
+def test_limbs_that_coast_have_no_quasi_static_number():
+    one_way = Surface(tip_force=0.02, tip_force_back=0.0, shear_strength=10.0)
+    found = reference(Scene("quadruped", ground=one_way))
+    assert found.flags == ("coasts",)
+    assert np.isnan(found.displacement).all()
+    assert found.height < 1e-6

@@ -8,6 +8,7 @@ import pytest
 from walks import coarsen
 
 from analytic import GAITS, SURFACES, Robot
+from analytic.scene.feet import Foot
 from mjsim.commands.compare import COLUMNS, compare, main, models
 from mjsim.files import cli
 from mjsim.scene import Scene
@@ -56,6 +57,23 @@ def test_a_model_without_an_answer_says_why(capsys):
     said = capsys.readouterr().out
     assert "branch_end" in said
     assert "toppled" in said
+
+
+@pytest.mark.parametrize("foot", [False, True])
+def test_bars_of_weak_friction_over_a_nap_hold_what_bending_by_friction_changes(foot):
+    """Two tips that pull at each other go less far than by the change of their separation."""
+    gelatin = SURFACES["gelatin"]
+    nap = replace(
+        gelatin, tip_force=0.8 * gelatin.tip_force, tip_force_back=1.2 * gelatin.tip_force
+    )
+    bristles = Robot(feet=(Foot(0, 0, 0.8, 1.2), Foot(1, 1, 0.8, 1.2)))
+    scene = Scene(bristles, ground=gelatin) if foot else Scene(ground=nap)
+    reference, *rows = compare(scene, ["elastica", "modes", "lifted", "obstacle"])
+    for row in rows:
+        off = abs(row["displacement_over_L"] - reference["displacement_over_L"])
+        assert 0.02 < off < row["uncertainty_over_L"] + 1e-3 < off + 0.01
+    felt = compare(Scene(), ["modes"])[0]
+    assert felt["uncertainty_over_L"] < 1e-4
 
 
 @pytest.mark.parametrize(

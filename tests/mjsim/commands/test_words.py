@@ -37,6 +37,24 @@ SLOW_PERIOD = [
 
 
 @pytest.mark.parametrize(
+    ("words", "option", "why"),
+    [
+        (["--surface.static-ratio", "2"], "--surface.stribeck-speed", "above 0"),
+        (["--surface.tip-force", "3mN", "--surface.stribeck-speed", "1mm/s"],
+         "--surface.stribeck-speed", "given static_ratio"),
+        (["--surface.tip-force", "3mN", "--surface.adhesion-reach", "1mm"],
+         "--surface.adhesion-reach", "given adhesion"),
+        (["--robot.feet", "0..1 hold=5mN", "--friction", "coulomb"], "--robot.feet", "hold"),
+    ],
+)  # fmt: skip
+def test_a_key_that_needs_another_is_refused_by_the_name_of_its_option(capsys, words, option, why):
+    error = message(capsys, words)
+    assert f" {option} " in error
+    assert why in error
+    assert "[" not in error
+
+
+@pytest.mark.parametrize(
     ("words", "meant"),
     [
         (["--robot.lenght", "0.1"], "--robot.length"),

@@ -74,7 +74,7 @@ def test_what_does_not_know_feet_says_so():
     assert "no feet" in refusal(scene)
     with pytest.raises(ValueError, match="without feet"):
         standalone_spec(scene, numerics)
-    with pytest.raises(ValueError, match="friction constant, not coulomb"):
+    with pytest.raises(ValueError, match="hold under friction coulomb"):
         replace(scene, ground=SURFACES["felt"], friction="coulomb")
     with pytest.raises(ValueError, match="chamber of a foot"):
         Scene(Robot(feet=(Foot(0, 1, chamber="4"),)))

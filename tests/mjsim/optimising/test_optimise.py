@@ -14,6 +14,7 @@ from analytic.locomotion import WEAK
 from analytic.prediction import predict, predict_grounds
 from analytic.scene import pneunet
 from analytic.scene.air import ATMOSPHERE, air_per_cycle
+from analytic.scene.feet import Foot
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
@@ -22,9 +23,11 @@ from analytic.solvers.models import Elastica, Lifted
 from analytic.uncertainty import flagged_change
 from mjsim.commands.optimise import main
 from mjsim.files.tables import build
+from mjsim.optimising.confirm import _times
 from mjsim.optimising.objective import Objective
 from mjsim.optimising.search import search
 from mjsim.optimising.space import GRID, Space
+from mjsim.results.prediction import reference
 from mjsim.scene import Scene
 
 THREE = tuple(SURFACES.values())
@@ -216,3 +219,20 @@ def test_bad_input_is_one_line_and_exit_code_2(arguments, words, tmp_path, capsy
     error = capsys.readouterr().err
     assert words in error
     assert error.count("\n") == 1
+
+
+def test_over_a_nap_a_search_counts_what_bending_by_friction_costs():
+    """A part of each turn, which weak friction leaves out; feet with a direction likewise."""
+    gelatin = SURFACES["gelatin"]
+    bounds = {"tip_force": 0.8 * gelatin.tip_force, "tip_force_back": 1.2 * gelatin.tip_force}
+    nap = replace(gelatin, **bounds)
+    feet = Robot(feet=(Foot(0, 0, 0.8, 1.2), Foot(1, 1, 0.8, 1.2)))
+    expected = reference(Scene(ground=nap)).displacement[0]
+    weak = predict(Robot(), GAITS["wave"], nap, Elastica(36), 10, friction=WEAK)
+    assert weak.locomotion.per_cycle / Robot().length > expected + 0.03
+    for scene, ground in ((Scene(), nap), (Scene(feet), gelatin)):
+        objective = Objective(replace(scene, contacts="ends"), (ground,))
+        assert objective.bent
+        assert objective(GAITS["wave"]) == pytest.approx(expected, abs=0.003)
+    assert not Objective(Scene(), (gelatin,)).bent
+    assert _times(nap, "tip_force", 1.1) == pytest.approx({k: 1.1 * v for k, v in bounds.items()})
