@@ -146,3 +146,19 @@ def test_rows_of_the_benchmark_are_what_it_finds(seed):
     assert again[:5] == kept[:5]
     assert kept.status != "ok" or near(again.distance, kept.distance, 0.2)
     assert bool(again.words) == bool(kept.words)
+
+
+@pytest.mark.parametrize(("slow", "told"), [(3.0, True), (-1.0, True), (1.2, False)])
+def test_a_gait_that_hurls_its_robot_is_asked_whether_it_agrees_by_chance(monkeypatch, slow, told):
+    """The finer walk is the same, the slow one goes otherwise; slower gaits are not asked."""
+    for ramp, asked in ((0.1, told), (1.0, False)):
+        scene = Scene(gait=replace(GAITS["wave"], ramp_time=ramp))
+        assert (swiftness(scene) > 1) == (ramp == 0.1)
+        walk = simulate(scene, Numerics(links=6, timestep=0.001))
+        goes = measure(walk).displacement
+        moved = second_walks.Moved(slow * goes, 0.0, 0.0)
+        monkeypatch.setattr(second_walks, "_simulated", lambda *_, walk=walk: walk)
+        monkeypatch.setattr(second_walks, "_walked", lambda *_, moved=moved: moved)
+        notes = doubts(walk, row(goes))
+        assert len(notes) == asked
+        assert all("inertia" in note and "by chance" in note for note in notes)
