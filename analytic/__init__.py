@@ -24,6 +24,7 @@ __getattr__, __dir__, __all__ = lazily(
         "analytic.scene.ground": ("Patches",),
         "analytic.scene.limbs": ("Limb", "LimbedRobot", "quadruped"),
         "analytic.scene.materials": ("MATERIALS",),
+        "analytic.scene.payload": ("Payload",),
         "analytic.scene.quadruped_gaits": ("QUADRUPED_GAITS", "undulation"),
         "analytic.scene.robot": ("Robot",),
         "analytic.scene.surface": ("SURFACES", "Ground", "Surface"),

@@ -27,6 +27,7 @@ _attribute, __dir__, __all__ = lazily(
         "analytic.scene.gait": ("GAITS", "Gait"),
         "analytic.scene.ground": ("Patches",),
         "analytic.scene.limbs": ("Limb", "LimbedRobot", "quadruped"),
+        "analytic.scene.payload": ("Payload",),
         "analytic.scene.quadruped_gaits": ("QUADRUPED_GAITS", "undulation"),
         "analytic.scene.robot": ("Robot",),
         "analytic.scene.surface": ("SURFACES", "Ground", "Surface"),

@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_length, length_between, ripple
+from analytic.friction.contact_length import ripple
+from analytic.friction.flat_load import FlatLoad
 from analytic.friction.laws import ROUGHNESS
 from analytic.scene.robot import Robot
 from analytic.shapes import ContactShapes
@@ -60,7 +61,7 @@ class ContactFinder:
     def __init__(
         self, robot: Robot, nodes: Array, roughness: float = ROUGHNESS, press: float = 0.0
     ) -> None:
-        self._weight, self._roughness = robot.weight_per_length + press, roughness
+        self._load, self._roughness = FlatLoad(robot, press), roughness
         self._place: list[float] = nodes.tolist()
         self._lifted = ripple(robot, nodes)
 
@@ -112,12 +113,13 @@ class ContactFinder:
     def _side(self, run: list[int], push: list[float], end: float) -> float:
         """Length of a flat stretch that begins at an end, from what its nodes carry [m]."""
         moment = sum(p * abs(self._place[node] - end) for node, p in zip(run, push, strict=True))
-        return float(flat_length(self._weight, sum(push), moment))
+        inwards = self._load.from_end if end else self._load.from_begin
+        return inwards.length(sum(push), moment)
 
     def _length_between(self, run: list[int], push: list[float]) -> float:
         if run[-1] - run[0] < POINT:
             return 0.0
-        return length_between(self._weight, [self._place[node] for node in run], push)
+        return self._load.length_between([self._place[node] for node in run], push)
 
 
 def runs_without_gaps(

@@ -6,7 +6,7 @@ from itertools import pairwise
 from typing import Any
 
 from analytic.checks import is_number, not_negative, one_of
-from analytic.fields import in_si
+from analytic.fields import in_si, records
 from analytic.scene.surface import Way, by_way
 
 
@@ -79,7 +79,7 @@ def in_order(feet: Iterable[Foot | Mapping[str, Any]]) -> tuple[Foot, ...]:
     Raises:
         ValueError: one is no foot, two of them overlap, or a point is at the end of another.
     """
-    ordered = tuple(sorted(map(_foot, feet), key=lambda foot: (foot.begin, foot.end)))
+    ordered = tuple(sorted(records(Foot, "foot", feet), key=lambda foot: (foot.begin, foot.end)))
     for foot, after in pairwise(ordered):
         point = foot.begin == foot.end or after.begin == after.end
         if after.begin < foot.end or (point and after.begin == foot.end):
@@ -88,20 +88,6 @@ def in_order(feet: Iterable[Foot | Mapping[str, Any]]) -> tuple[Foot, ...]:
                 f"{after.begin:g} to {after.end:g}"
             )
     return ordered
-
-
-def _foot(given: Foot | Mapping[str, Any]) -> Foot:
-    if isinstance(given, Foot):
-        return given
-    if not isinstance(given, Mapping):
-        raise ValueError(f"feet must be Foot, or tables of its fields, got {given!r}")
-    names = [field.name for field in fields(Foot)]
-    for key in given:
-        one_of("key of a foot", key, names)
-    for name in ("begin", "end"):
-        if name not in given:
-            raise ValueError(f"{name} of a foot is missing, got {dict(given)!r}")
-    return Foot(**given)
 
 
 def check_chambers(feet: Sequence[Foot], chambers: Sequence[str]) -> None:

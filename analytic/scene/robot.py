@@ -8,6 +8,7 @@ from analytic.fields import in_si
 from analytic.scene.actuator import Actuator
 from analytic.scene.feet import Foot, in_order
 from analytic.scene.materials import MATERIALS
+from analytic.scene.payload import Payload, payloads
 
 PSI = 6894.757293168  # Pa in a pound-force per square inch (NIST SP 811)
 GRAVITY = 9.81  # m/s^2
@@ -15,7 +16,7 @@ THREE_EQUAL = (1.0, 1.0, 1.0)  # [Majidi13], section 2.3
 
 _THREE = ("left", "middle", "right")
 _OPTIONAL = ("mass", "rigidity", "curvature_per_pressure", "rigidity_per_pressure", "torsion")
-_OTHERS = ("segments", "material", "actuator", "feet")  # fields that are no number
+_OTHERS = ("segments", "material", "actuator", "feet", "payload")  # fields that are no number
 _SAME = 1e-9  # of a modulus that is given and follows from the actuator too
 
 
@@ -75,6 +76,9 @@ class Robot:
     feet: tuple[Foot, ...] = ()
     """stretches of its underside that resist otherwise than its skin: tables of begin, end, grip,
     grip_back, grip_across, hold and chamber; as an option 0..0.1 grip_back=2, 1..1 hold=50mN"""
+    payload: tuple[Payload, ...] = ()
+    """masses that it carries besides its own: tables of mass, begin and end; as an option 0.5
+    mass=5g, 0.2..0.4 mass=3g"""
 
     def __post_init__(self) -> None:
         in_si(self)
@@ -86,9 +90,8 @@ class Robot:
         for length in self.segments:
             positive("segments' lengths", length)
         object.__setattr__(self, "segments", tuple(float(part) for part in self.segments))
-        if isinstance(self.feet, str) or not hasattr(self.feet, "__iter__"):
-            raise ValueError(f"feet must be Foot, or tables of its fields, got {self.feet!r}")
         object.__setattr__(self, "feet", in_order(self.feet))
+        object.__setattr__(self, "payload", payloads(self.payload))
         for field in fields(self):
             value = getattr(self, field.name)
             if field.name in _OTHERS or (value is None and field.name in _OPTIONAL):
@@ -170,5 +173,10 @@ class Robot:
 
     @property
     def weight(self) -> float:
-        """Of the whole robot [N]."""
-        return self.weight_per_length * self.length
+        """Of the whole robot and its payloads [N]."""
+        return self.weight_per_length * self.length + GRAVITY * self.payload_mass
+
+    @property
+    def payload_mass(self) -> float:
+        """Of all its payloads together [kg]."""
+        return sum(payload.mass for payload in self.payload)

@@ -5,6 +5,7 @@
                 it, `at`, its "begin" or "end", `angle_deg` of its direction in plan, from the
                 ground's x to the left, `offset` to the left [m]; and fields of analytic.Robot of
                 its own over the shared ones: length, width, mass, segments, feet, ...
+[[robot.payload]] of each `limb`, the trunk if it names none: mass, begin, end
 
 A robot of one limb that points along x is a strip.
 """
@@ -16,6 +17,7 @@ from typing import Any
 
 from analytic.checks import one_of
 from analytic.scene.limbs import AnyRobot, Limb, LimbedRobot, quadruped
+from analytic.scene.payload import Payload
 from analytic.scene.robot import Robot
 from mjsim.files.actuator_files import make_robot
 from mjsim.files.typed import Table, as_number, make
@@ -41,7 +43,8 @@ def of_limbs(table: Table) -> bool:
 
 def build_robot(table: Table, where: str = "") -> AnyRobot:
     """A robot by its name, or of limbs; of one that points along x, the strip that it is."""
-    shared = {key: value for key, value in table.items() if key not in ("name", "limbs")}
+    shared = {key: value for key, value in table.items() if key not in ("name", "limbs", "payload")}
+    payload = table.get("payload", ())
     if "limbs" not in table:
         one_of(f"{where}name", table["name"], ROBOTS)
         for key in _FIXED:
@@ -54,7 +57,7 @@ def build_robot(table: Table, where: str = "") -> AnyRobot:
                 f"[[robot.limbs]], got {len(curves)}"
             )
         base = make_robot(shared, where, of_segments=False)
-        return replace(quadruped(base), peak_pressure=base.peak_pressure)
+        return _loaded(replace(quadruped(base), peak_pressure=base.peak_pressure), payload, where)
     if "segments" in shared:
         raise ValueError(f"{where}segments are each limb's own, in [[robot.limbs]]")
     limbs = table["limbs"]
@@ -66,12 +69,33 @@ def build_robot(table: Table, where: str = "") -> AnyRobot:
         _limb(limb, shared, f"{where}limb {number}: ") for number, limb in enumerate(limbs, start=1)
     )
     try:
-        robot = LimbedRobot(built, peak)
+        robot = _loaded(LimbedRobot(built, peak), payload, where)
     except ValueError as error:
         raise ValueError(f"{where}{error}") from error
     if len(built) == 1 and built[0].angle == 0:
-        return replace(built[0].strip, peak_pressure=peak)
+        return replace(robot.limbs[0].strip, peak_pressure=peak)
     return robot
+
+
+def _loaded(robot: LimbedRobot, payload: Any, where: str) -> LimbedRobot:
+    """A robot whose limbs carry payloads: tables of one each, which name its limb or the trunk's.
+
+    Raises:
+        ValueError: one is no payload, or of a limb that the robot has not.
+    """
+    if not (isinstance(payload, list | tuple) and all(isinstance(one, dict) for one in payload)):
+        raise ValueError(f"{where}payload must be tables, got {payload!r}")
+    carried: dict[str, list[Payload]] = {name: [] for name in robot.names}
+    for number, one in enumerate(payload, start=1):
+        name = f"{where}payload, number {number}: "
+        limb = one.get("limb", robot.names[0])
+        one_of(f"{name}limb", limb, robot.names)
+        fields = {key: value for key, value in one.items() if key != "limb"}
+        carried[limb].append(make(Payload, fields, name))
+    return replace(robot, limbs=tuple(
+        replace(limb, strip=replace(limb.strip, payload=(*limb.strip.payload, *carried[limb.name])))
+        if carried[limb.name] else limb for limb in robot.limbs
+    ))  # fmt: skip
 
 
 def _refuse_idle(shared: Table, limbs: list[Table], where: str) -> None:

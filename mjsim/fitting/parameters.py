@@ -104,7 +104,7 @@ def nominal(base: Tables, name: str) -> float:
         robot = whole if hasattr(whole, key) else limbs_of(whole)[0].strip
         value = getattr(robot, key, None)
         if key == "mass" and value is None:
-            value = whole.weight / GRAVITY
+            value = whole.weight / GRAVITY - whole.payload_mass
     elif table == "valves":
         value = getattr(make(Valves, base.get("valves", {}), "[valves] "), key)
     else:
@@ -179,7 +179,7 @@ def _check(name: str) -> None:
         )
     if name == "robot.actuator":
         raise ValueError("robot.actuator must be fitted alone, from a bench's files")
-    if key in ("segments", "material", "feet", "nap"):
+    if key in ("segments", "material", "feet", "payload", "nap"):
         raise ValueError(f"{name} cannot be fitted")
 
 

@@ -21,7 +21,13 @@ from numpy.typing import NDArray
 from scipy.linalg.lapack import dgbsv
 
 from analytic.scene import pneunet
-from analytic.scene.chain import check_chamber, joint_springs, link_lengths, sealed_springs
+from analytic.scene.chain import (
+    check_chamber,
+    joint_springs,
+    link_lengths,
+    payload_on_nodes,
+    sealed_springs,
+)
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Surface
 from analytic.solvers.elastica.stability import stable
@@ -68,16 +74,17 @@ class Chain:
         self.force_unit = self._d0 / robot.length**2
         self.length = link_lengths(robot, links) / robot.length
         half = 0.5 * self.length * robot.weight_per_length * robot.length / self.force_unit
-        self.weight = np.zeros(links + 2)
-        self.weight[:-1] += half
-        self.weight[1:] += half
+        own = np.zeros(links + 2)
+        own[:-1] += half
+        own[1:] += half
+        self.weight = own + payload_on_nodes(robot, links) / self.force_unit
         # the weight's part downhill adds to the tension of the tractions
         self.hanging = math.sin(slope) * np.cumsum(self.weight)[:-1]
         self.adhesion, self.reach = np.zeros(links + 2), 0.0
         if surface and surface.adhesion:
             self.reach = surface.adhesion_reach / robot.length
             per_weight = surface.press(robot.width) / robot.weight_per_length
-            self.adhesion = per_weight * self.weight
+            self.adhesion = per_weight * own
         self.weight *= math.cos(slope)
         self.stiffness, self.rest = np.zeros(links), np.zeros(links)
         self.pressure = np.zeros(len(robot.segments))

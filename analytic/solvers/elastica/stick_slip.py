@@ -18,6 +18,7 @@ from analytic.friction.contact_length import (
     ripple,
 )
 from analytic.friction.contacts import ContactFinder, StripContact
+from analytic.friction.flat_load import FlatLoad
 from analytic.friction.grip import Grip
 from analytic.friction.laws import LAWS, Friction
 from analytic.scene.chain import node_positions
@@ -58,9 +59,11 @@ class StickSlip:
         self._chain, self._ground, self._friction = chain, ground, friction
         self._nodes = node_positions(chain.robot, chain.links)
         self._air = ripple(chain.robot, self._nodes)
-        self._press = ground.at(0.0).press(chain.robot.width)
+        press = ground.at(0.0).press(chain.robot.width)
+        load = FlatLoad(chain.robot, press)
+        self._inwards = load.from_begin, load.from_end
         self._flat = flat_pressures(chain.robot, ground.at(0.0))
-        self._finder = ContactFinder(chain.robot, self._nodes, friction.roughness, self._press)
+        self._finder = ContactFinder(chain.robot, self._nodes, friction.roughness, press)
         self._law = LAWS[friction.law]
         self._grip = Grip(chain.robot, self._law)
         self._by_speed = depends_on_speed(ground)
@@ -291,9 +294,8 @@ class StickSlip:
         air = height > self._air
         flat = np.abs(chain.pressure) <= self._flat
         left, right = (
-            end_contact(robot, self._nodes[::order], force[::order], air[::order], lies,
-                        self._press)
-            for order, lies in ((1, flat[0]), (-1, flat[-1]))
+            end_contact(load, self._nodes[::order], force[::order], air[::order], lies)
+            for load, order, lies in zip(self._inwards, (1, -1), (flat[0], flat[-1]), strict=True)
         )  # fmt: skip
         if self._friction.contacts == "all":
             return self._finder.find(force.tolist(), height.tolist(), (left, right))

@@ -12,7 +12,7 @@ else the limb rests the rest.
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_length, flat_pressures, length_between
+from analytic.friction.contact_length import flat_pressures
 from analytic.friction.contacts import POINT, runs_without_gaps
 from analytic.friction.laws import LAWS
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb
@@ -189,7 +189,7 @@ class ContactSearch:
         if len(run) > POINT:
             places = [place[vertex] for vertex in run]
             push = [force[vertex] for vertex in run]
-            flat = min(length_between(limb.weight, places, push), length)
+            flat = min(limb.load.length_between(places, push), length)
             if flat > SHORT * length:
                 begin = min(max(0.5 * (places[0] + places[-1] - flat), 0.0), length - flat)
                 return self._contact(i, part, begin, flat, load)
@@ -259,11 +259,12 @@ class ContactSearch:
             if not whole:
                 joint = limb.share * state.force[carrier][END[limb.at]]
                 total, moment = total + joint, moment + joint * length
-        side = length if whole else min(float(flat_length(limb.weight, total, moment)), length)
+        load_from = limb.load.from_begin if at_begin else limb.load.from_end
+        side = length if whole else min(load_from.length(total, moment), length)
         if side <= 0:
             return self._contact(i, end, tip, 0.0, load), 0.0, carried
         begin = tip if at_begin else tip - side
-        return self._contact(i, end, begin, side, load), total - limb.weight * side, carried
+        return self._contact(i, end, begin, side, load), total - load_from.of(side), carried
 
     def _contact(self, i: int, part: str, begin: float, length: float, load: float) -> Contact:
         """A side that begins somewhere along a limb, or a tip there: all across the limb."""

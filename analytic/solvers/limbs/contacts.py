@@ -21,6 +21,7 @@ from analytic.scene.ground import (
     durations,
     surfaces_of,
 )
+from analytic.scene.robot import GRAVITY
 from analytic.scene.surface import Ground, Surface, Way
 from analytic.solvers.limbs.contact_search import SHORT, ContactSearch
 from analytic.solvers.limbs.contact_state import Contact
@@ -107,6 +108,7 @@ class Contacts(ContactSearch):
         robot = self._tree.robot
         loads = [
             (limb.strip.weight_per_length + press) * limb.strip.length
+            + GRAVITY * limb.strip.payload_mass
             for limb, press in zip(robot.limbs, self._tree.press.tolist(), strict=True)
         ]
         return max(
