@@ -28,6 +28,7 @@ __getattr__, __dir__, __all__ = lazily(
         "analytic.scene.quadruped_gaits": ("QUADRUPED_GAITS", "undulation"),
         "analytic.scene.robot": ("Robot",),
         "analytic.scene.surface": ("SURFACES", "Ground", "Surface"),
+        "analytic.scene.tether": ("Tether",),
         "analytic.shapes": ("ContactShapes", "Mode", "Shapes", "Flag"),
         "analytic.solvers.elastica": ("solve_elastica",),
         "analytic.solvers.lifted": ("solve_lifted",),

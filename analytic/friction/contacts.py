@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from analytic.friction.contact_length import ripple
 from analytic.friction.flat_load import FlatLoad
 from analytic.friction.laws import ROUGHNESS
+from analytic.scene.payload import place_on_link
 from analytic.scene.robot import Robot
 from analytic.shapes import ContactShapes
 
@@ -28,12 +29,14 @@ class StripContact(NamedTuple):
             end itself, else those that push, by their force.
         length: of side contact, 0 for a tip [m].
         load: normal force [N].
+        drag: bound of a tether, whatever the ground; None of a contact with it [N].
     """
 
     nodes: list[int]
     share: list[float]
     length: float
     load: float
+    drag: float | None = None
 
     def extent(self, x: Array) -> tuple[float, float]:
         """Places where the contact begins and ends, from those of all nodes, (N,) [m].
@@ -46,6 +49,17 @@ class StripContact(NamedTuple):
         if self.nodes == [len(x) - 1]:
             return place - self.length, place
         return place - 0.5 * self.length, place + 0.5 * self.length
+
+
+def of_tether(robot: Robot, nodes: Array) -> list[StripContact]:
+    """The contact that a strip's tether is, of a chain with nodes at arclengths (N,) [m]."""
+    tether = robot.tether
+    if tether is None or not (tether.drag or tether.stiffness):
+        return []
+    link, part = place_on_link(nodes, tether.at * robot.length)
+    share = {link: 1.0 - part, link + 1: part}
+    on = {node: weight for node, weight in share.items() if weight}
+    return [StripContact(list(on), list(on.values()), 0.0, 0.0, tether.drag)]
 
 
 class ContactFinder:

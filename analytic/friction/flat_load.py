@@ -97,7 +97,7 @@ class FlatLoad:
     def __init__(self, strip: Robot, press: float = 0.0, normal: float = 1.0) -> None:
         self._length, own = strip.length, normal * strip.weight_per_length + press
         stretches, self._points = [], []
-        for payload in strip.payload:
+        for payload in strip.carried:
             begin, end = (part * strip.length for part in payload.stretch)
             weight = normal * GRAVITY * payload.mass
             if begin == end:

@@ -77,7 +77,7 @@ def node_positions(robot: Robot, links: int) -> Array:
 
 def payload_moments(robot: Robot, links: int) -> Array:
     """Mass of a strip's payloads in its links, see analytic.scene.payload, (N + 1, 3) [kg]."""
-    return mass_moments(robot.payload, robot.length, node_positions(robot, links))
+    return mass_moments(robot.carried, robot.length, node_positions(robot, links))
 
 
 def payload_on_nodes(robot: Robot, links: int) -> Array:

@@ -69,7 +69,7 @@ def payloads(given: Iterable[Payload | Mapping[str, Any]]) -> tuple[Payload, ...
 
 def refuse_payload(robot: Any, what: str) -> None:
     """Raise ValueError for a strip with payloads, where weight must be even."""
-    if robot.payload:
+    if robot.carried:
         raise ValueError(
             f"{what} are of a strip of even weight: for one with a payload take elastica or "
             f"obstacle; got one of {robot.payload_mass:g} kg"
@@ -95,8 +95,8 @@ def mass_moments(carried: Sequence[Payload], length: float, nodes: Array) -> Arr
     for payload in carried:
         first, last = (part * length for part in payload.stretch)
         if first == last:
-            link = int(np.clip(np.searchsorted(nodes, first, side="right") - 1, 0, len(spans) - 1))
-            low = high = np.full(1, (first - begins[link]) / spans[link])
+            link, part = place_on_link(nodes, first)
+            low = high = np.full(1, part)
             on, mass = slice(link, link + 1), np.full(1, payload.mass)
         else:
             on = slice(None)
@@ -107,6 +107,17 @@ def mass_moments(carried: Sequence[Payload], length: float, nodes: Array) -> Arr
         squares = np.stack([(1 - middle) ** 2, middle * (1 - middle), middle**2])
         moments[on] += (mass * (squares + spread * np.array([[1.0], [-1.0], [1.0]]))).T
     return moments
+
+
+def place_on_link(nodes: Array, place: float) -> tuple[int, float]:
+    """Link of a chain that a place [m] is on, and how far along that it is [1].
+
+    Args:
+        nodes: ends of the links, ascending from 0, (N + 2,) [m].
+        place: arclength.
+    """
+    link = int(np.clip(np.searchsorted(nodes, place, side="right") - 1, 0, len(nodes) - 2))
+    return link, float((place - nodes[link]) / (nodes[link + 1] - nodes[link]))
 
 
 def mass_on_nodes(moments: Array) -> Array:

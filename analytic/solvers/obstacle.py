@@ -130,7 +130,7 @@ def _payload(robot: Robot, elements: int) -> tuple[Array, Array]:
     """
     edges = np.linspace(0.0, 1.0, elements + 1)
     spread, load, h = np.zeros(elements), np.zeros(2 * elements + 2), 1.0 / elements
-    for payload in robot.payload:
+    for payload in robot.carried:
         begin, end = payload.stretch
         weight = GRAVITY * payload.mass
         if begin == end:

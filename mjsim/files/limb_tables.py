@@ -5,7 +5,8 @@
                 it, `at`, its "begin" or "end", `angle_deg` of its direction in plan, from the
                 ground's x to the left, `offset` to the left [m]; and fields of analytic.Robot of
                 its own over the shared ones: length, width, mass, segments, feet, ...
-[[robot.payload]] of each `limb`, the trunk if it names none: mass, begin, end
+[[robot.payload]] of a `limb`, the trunk if it names none: mass, begin, end; [robot.tether]
+                likewise: at, drag, mass
 
 A robot of one limb that points along x is a strip.
 """
@@ -19,11 +20,13 @@ from analytic.checks import one_of
 from analytic.scene.limbs import AnyRobot, Limb, LimbedRobot, quadruped
 from analytic.scene.payload import Payload
 from analytic.scene.robot import Robot
+from analytic.scene.tether import Tether
 from mjsim.files.actuator_files import make_robot
 from mjsim.files.typed import Table, as_number, make
 
 ROBOTS = ("quadruped",)
 KEYS = ("name", "limbs")  # of [robot], of such a robot alone
+_CARRIED = ("payload", "tether")  # of a limb that they name
 _PLACED = ("name", "on", "at", "angle_deg", "offset")  # of a limb, beside its strip
 _FIXED = {  # fields that the quadruped gives, and what to give in their place
     **dict.fromkeys(("length", "width", "mass", "weight_per_length", "segments"),
@@ -43,8 +46,8 @@ def of_limbs(table: Table) -> bool:
 
 def build_robot(table: Table, where: str = "") -> AnyRobot:
     """A robot by its name, or of limbs; of one that points along x, the strip that it is."""
-    shared = {key: value for key, value in table.items() if key not in ("name", "limbs", "payload")}
-    payload = table.get("payload", ())
+    shared = {key: value for key, value in table.items() if key not in ("name", "limbs", *_CARRIED)}
+    carried = {key: table[key] for key in _CARRIED if key in table}
     if "limbs" not in table:
         one_of(f"{where}name", table["name"], ROBOTS)
         for key in _FIXED:
@@ -57,7 +60,7 @@ def build_robot(table: Table, where: str = "") -> AnyRobot:
                 f"[[robot.limbs]], got {len(curves)}"
             )
         base = make_robot(shared, where, of_segments=False)
-        return _loaded(replace(quadruped(base), peak_pressure=base.peak_pressure), payload, where)
+        return _loaded(replace(quadruped(base), peak_pressure=base.peak_pressure), carried, where)
     if "segments" in shared:
         raise ValueError(f"{where}segments are each limb's own, in [[robot.limbs]]")
     limbs = table["limbs"]
@@ -69,7 +72,7 @@ def build_robot(table: Table, where: str = "") -> AnyRobot:
         _limb(limb, shared, f"{where}limb {number}: ") for number, limb in enumerate(limbs, start=1)
     )
     try:
-        robot = _loaded(LimbedRobot(built, peak), payload, where)
+        robot = _loaded(LimbedRobot(built, peak), carried, where)
     except ValueError as error:
         raise ValueError(f"{where}{error}") from error
     if len(built) == 1 and built[0].angle == 0:
@@ -77,25 +80,34 @@ def build_robot(table: Table, where: str = "") -> AnyRobot:
     return robot
 
 
-def _loaded(robot: LimbedRobot, payload: Any, where: str) -> LimbedRobot:
-    """A robot whose limbs carry payloads: tables of one each, which name its limb or the trunk's.
+def _loaded(robot: LimbedRobot, carried: Table, where: str) -> LimbedRobot:
+    """A robot whose limbs carry payloads and a tether, each of a limb it names or the trunk's.
 
     Raises:
-        ValueError: one is no payload, or of a limb that the robot has not.
+        ValueError: one is no payload or tether, or of a limb that the robot has not.
     """
-    if not (isinstance(payload, list | tuple) and all(isinstance(one, dict) for one in payload)):
+    payload, strips = carried.get("payload", ()), [limb.strip for limb in robot.limbs]
+    if not isinstance(payload, list | tuple):
         raise ValueError(f"{where}payload must be tables, got {payload!r}")
-    carried: dict[str, list[Payload]] = {name: [] for name in robot.names}
-    for number, one in enumerate(payload, start=1):
+    for number, table in enumerate(payload, start=1):
         name = f"{where}payload, number {number}: "
-        limb = one.get("limb", robot.names[0])
-        one_of(f"{name}limb", limb, robot.names)
-        fields = {key: value for key, value in one.items() if key != "limb"}
-        carried[limb].append(make(Payload, fields, name))
-    return replace(robot, limbs=tuple(
-        replace(limb, strip=replace(limb.strip, payload=(*limb.strip.payload, *carried[limb.name])))
-        if carried[limb.name] else limb for limb in robot.limbs
-    ))  # fmt: skip
+        place, one = _on_limb(robot, table, name)
+        added = (*strips[place].payload, make(Payload, one, name))
+        strips[place] = replace(strips[place], payload=added)
+    if "tether" in carried:
+        place, one = _on_limb(robot, carried["tether"], f"{where}tether: ")
+        strips[place] = replace(strips[place], tether=make(Tether, one, f"{where}tether: "))
+    limbs = zip(robot.limbs, strips, strict=True)
+    return replace(robot, limbs=tuple(replace(limb, strip=strip) for limb, strip in limbs))
+
+
+def _on_limb(robot: LimbedRobot, table: Any, name: str) -> tuple[int, Table]:
+    """Place of the limb that a table names, and what else it says."""
+    if not isinstance(table, dict):
+        raise ValueError(f"{name}must be a table, got {table!r}")
+    one_of(f"{name}limb", table.get("limb", robot.names[0]), robot.names)
+    others = {key: value for key, value in table.items() if key != "limb"}
+    return robot.place(table.get("limb", robot.names[0])), others
 
 
 def _refuse_idle(shared: Table, limbs: list[Table], where: str) -> None:

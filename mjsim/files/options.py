@@ -132,6 +132,8 @@ def tables_of(options: SceneOptions) -> list[Tables]:
         robot["feet"] = _feet(robot["feet"])
     if "payload" in robot:
         robot["payload"] = _payload(robot["payload"])
+    if "tether" in robot:
+        robot["tether"] = _tether(robot["tether"])
     if "ramp_time" in gait:
         gait["ramp_time"] = parts(gait["ramp_time"])
     if "columns" in gait:
@@ -181,6 +183,15 @@ def _payload(text: str) -> list[dict[str, Any]]:
         begin, dots, end = place.partition("..")
         payloads.append({"begin": begin, **({"end": end} if dots else {}), **settings})
     return payloads
+
+
+def _tether(text: str) -> dict[str, Any]:
+    """Table of a tether: "0 drag=5mN stiffness=1N/m mass=2g limb=torso"."""
+    example = "0 drag=5mN stiffness=1N/m mass=2g"
+    tables = [{"at": place, **settings} for _, place, settings in _placed("tether", text, example)]
+    if len(tables) > 1:
+        raise _not_such("tether", example, text)
+    return tables[0]
 
 
 def _placed(field: str, text: str, example: str) -> Iterator[tuple[str, str, dict[str, str]]]:

@@ -179,7 +179,7 @@ def _check(name: str) -> None:
         )
     if name == "robot.actuator":
         raise ValueError("robot.actuator must be fitted alone, from a bench's files")
-    if key in ("segments", "material", "feet", "payload", "nap"):
+    if key in ("segments", "material", "feet", "payload", "tether", "nap"):
         raise ValueError(f"{name} cannot be fitted")
 
 

@@ -8,7 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.contact_length import flat_pressures
-from mjsim.friction.between_ends import BoundedContacts, ContactFrictionEverywhere
+from mjsim.friction.between_ends import (
+    BoundedContacts,
+    ContactFrictionEverywhere,
+    TetheredEnds,
+    tether_tendons,
+)
 from mjsim.friction.ceiling import CeilingPush
 from mjsim.friction.in_plane import LimbFooting
 from mjsim.friction.traction import BoundedEnds, ContactFriction
@@ -70,7 +75,7 @@ class StripFooting:
     ) -> None:  # fmt: skip
         by_load, bounded = (
             (ContactFrictionEverywhere, BoundedContacts) if scene.between
-            else (ContactFriction, BoundedEnds)
+            else (ContactFriction, TetheredEnds if tether_tendons(scene, model) else BoundedEnds)
         )  # fmt: skip
         law = by_load if scene.friction == "coulomb" else bounded
         self._law = law(scene, numerics, model, data)

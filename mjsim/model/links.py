@@ -63,7 +63,7 @@ def add_links(
             joint.damping[0] = numerics.damping_time * stiffness[0, i - 1]
         mass, middle = strip.weight_per_length / scene.gravity * length, length / 2
         along = mass * length**2 / 12
-        if strip.payload:
+        if strip.carried:
             mass, middle, along = _with_payload(mass, length, carried[i])
         across = mass * width**2 / 12
         body.explicitinertial, body.mass, body.ipos = True, mass, (middle, 0.0, 0.0)

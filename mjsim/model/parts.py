@@ -14,10 +14,11 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from analytic.friction.contacts import of_tether
 from analytic.friction.grip import Grip
 from analytic.friction.laws import LAWS
 from analytic.scene import pneunet
-from analytic.scene.chain import link_lengths
+from analytic.scene.chain import link_lengths, node_positions
 from analytic.scene.robot import Robot
 from mjsim.scene import Resolved, Scene
 
@@ -26,6 +27,7 @@ FAR = 100.0  # m; a line to a point this far is horizontal to 1 part in 1e6
 _FARTHER = 1e4  # m; a walk of 0.1 m changes the distance to there by 1e-6 m
 NO_BOUND = 1e-12  # N; without any bound a tendon would get no row to be given one
 TENDONS = ("left", "right", "both")
+TETHER = "tether"
 TOUCH = 1e-6  # how deep the robot starts in the ground, over L: a contact at 0 is not seen; chosen
 PREFIX = "robot_"  # of the strip's names once it is on its ground
 TEMPLATE = Path(__file__).with_name("strip.xml")
@@ -152,6 +154,23 @@ def add_ends(spec: mujoco.MjSpec, scene: Scene, nodes: Sequence[Node]) -> None:
     if everywhere:
         for name, tendon in zip(names[1:-1], tendons[1:-1], strict=True):
             _tie(spec, tendon, "far", [name], bound)
+    _add_tether(spec, scene, nodes)
+
+
+def _add_tether(spec: mujoco.MjSpec, scene: Scene, nodes: Sequence[Node]) -> None:
+    """Tie the place of a tether to the far site by its drag and its spring, if it has one."""
+    for contact in of_tether(scene.strip, node_positions(scene.strip, len(nodes) - 2)):
+        tether, tied = scene.strip.tether, friction_tendon(spec, TETHER, contact.drag or 0.0)
+        assert tether
+        for node, share in zip(contact.nodes, contact.share, strict=True):
+            body, place = nodes[node]
+            name = f"{TETHER}_{node}"
+            body.add_site(name=name, pos=place, size=[6e-4] * 3, group=4)
+            tied.wrap_pulley(1.0 / share)
+            tied.wrap_site("far")
+            tied.wrap_site(name)
+        tied.width, tied.stiffness[0] = 2e-4, tether.stiffness
+        tied.springlength = [FAR + tether.at * scene.strip.length] * 2
 
 
 def tendon_names(nodes: int) -> list[str]:

@@ -20,8 +20,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.contact_length import PASSIVE
+from analytic.friction.contacts import of_tether
 from analytic.prediction import Prediction, predict
 from analytic.scene import pneunet
+from analytic.scene.chain import node_positions
 from analytic.scene.ground import depends_on_speed
 from analytic.scene.surface import Surface
 from analytic.solvers.models import Elastica
@@ -138,7 +140,8 @@ def add_shoes(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
     widest = surface.shear_strength * strip.width * strip.length / len(strip.segments)
     for name in ENDS:
         spec.tendon(PREFIX + name).frictionloss = 0.0
-    spec.tendon(PREFIX + TENDONS[2]).frictionloss = _TIE * max(surface.tip_force, widest)
+    tied = 0.0 if of_tether(strip, node_positions(strip, numerics.links)) else _TIE
+    spec.tendon(PREFIX + TENDONS[2]).frictionloss = tied * max(surface.tip_force, widest)
     side, tip = (
         surface.shear_strength * strip.width,
         surface.tip_force / (_TAKES_OVER * strip.length),

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.chain import link_lengths, node_positions
+from analytic.scene.payload import place_on_link
 from analytic.scene.robot import Robot
 from mjsim.model.parts import ORIGIN, PALE, PREFIX
 from mjsim.scene import Resolved
@@ -24,6 +25,7 @@ _RUST = (0.60, 0.28, 0.12, 1.0)  # colour of feet, unlike any pressure's
 _STEEL = (0.45, 0.50, 0.58, 1.0)  # and of payloads
 _RIM, _WIDER = 0.5, 1.04  # of feet, over the layer's thickness and width; chosen
 _HIGH = 0.15  # of payloads, over the width; chosen
+_TUBE, _TALL = 0.04, 0.4  # of tethers: radius and half of the height drawn, over the width; chosen
 
 
 class Skin(NamedTuple):
@@ -83,6 +85,14 @@ def add_strip_skins(
     for payload in strip.payload:
         heights = top, top + _HIGH * strip.width
         _add_blocks(spec, strip, starts.tolist(), bodies, payload.stretch, heights, _STEEL)
+    if strip.tether:
+        link, part = place_on_link(starts, strip.tether.at * strip.length)
+        tube = spec.body(f"{bodies}{link}").add_geom(type=mujoco.mjtGeom.mjGEOM_CYLINDER)
+        tall = _TALL * strip.width
+        tube.pos = (part * float(starts[link + 1] - starts[link]), 0.0, top + tall)
+        tube.size[:2] = _TUBE * strip.width, tall
+        tube.contype = tube.conaffinity = 0
+        tube.mass, tube.rgba = 0.0, _STEEL
 
 
 def _add_blocks(

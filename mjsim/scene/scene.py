@@ -27,6 +27,7 @@ from analytic.scene.limbs import (
     LimbedRobot,
     as_bent,
     chambers_by_limb,
+    check_tethers,
     limbs_of,
     quadruped,
     usual_twists,
@@ -164,6 +165,7 @@ class Scene:
         ways: tuple[Way, ...] = ("ahead", "back", "across") if self.in_space else ("ahead", "back")
         surfaces = [s.against(way) for s in surfaces_of(self.ground) for way in ways]
         holds = any(foot.hold for foot in feet)
+        holds |= any(limb.strip.tether for limb in limbs_of(self.robot))
         if not holds and not any(acts(surface) or surface.viscosity for surface in surfaces):
             acting = [law for law in _LAWS if any(map(LAWS[law].acts_on, surfaces))]
             hint = "".join(f"add friction = {law!r}, or --friction {law}; or " for law in acting)
@@ -213,6 +215,8 @@ class Scene:
             raise ValueError("chamber of a robot of limbs cannot be sealed, which is of strips")
         check_for_limbs(self.ground)
         check_feet_in_space(self.robot, self.ground)
+        if isinstance(self.robot, LimbedRobot):
+            check_tethers(self.robot)
 
     @property
     def in_space(self) -> bool:

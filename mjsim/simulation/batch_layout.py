@@ -49,6 +49,8 @@ def refusal(scene: Scene) -> str | None:
         return "the strip must have no feet"
     if scene.strip.payload:
         return "the strip must have no payload"
+    if scene.strip.tether:
+        return "the strip must have no tether"
     return None
 
 

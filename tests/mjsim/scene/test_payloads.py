@@ -23,6 +23,7 @@ from mjsim.results.mechanics import balance, bending
 from mjsim.results.prediction import reference
 from mjsim.results.trajectory import load
 from mjsim.scene import Numerics, Scene, resolved
+from mjsim.simulation.alone import distance
 from mjsim.simulation.batch_layout import refusal
 from mjsim.simulation.simulation import simulate
 
@@ -194,3 +195,11 @@ def test_pictures_show_a_block_on_top_along_all_of_it():
     boxes = (model.geom_type == mujoco.mjtGeom.mjGEOM_BOX) & (model.geom_bodyid > 0)
     assert 2.0 * model.geom_size[boxes, 0].sum() == pytest.approx(0.4 * STRIP.length)
     assert (model.geom_pos[boxes, 2] > STRIP.flat_height).all()
+
+
+@pytest.mark.parametrize("surface", ["felt", "gelatin"])
+def test_they_walk_by_themselves_as_under_the_bounds_that_mjsim_sets(surface):
+    scene = Scene(replace(STRIP, payload=(Payload(0.005, 0.5),)), ground=surface,
+                  chamber="constant-pressure", actuation="actuators")  # fmt: skip
+    expected = measure(simulate(scene)).displacement
+    assert distance(scene)[0] == pytest.approx(expected, abs=0.003)
