@@ -32,6 +32,7 @@ class Grip:
     Attributes:
         feet: whether there are any.
         switched: whether chambers switch any.
+        holds: whether any has a bound of its own.
         most: greatest grip of any part of it [1], and hold of all feet together [N].
 
     Raises:
@@ -45,6 +46,7 @@ class Grip:
         self._feet = [_Placed.of(foot, strip.length, whole.chambers) for foot in strip.feet]
         self.feet = bool(self._feet)
         self.switched = any(foot.column is not None for foot in self._feet)
+        self.holds = any(foot.hold for foot in strip.feet)
         self._round = all(foot.is_round for foot in strip.feet)
         ways: tuple[Way, ...] = ("ahead", "back", "across")
         grips = [foot.grip_against(way) for foot in strip.feet for way in ways]

@@ -15,7 +15,7 @@ from analytic.friction.dissipation import minimisers
 from analytic.scene.chain import node_positions
 from mjsim.friction.traction import BoundedEnds, BoundedFriction, ContactFriction
 from mjsim.model.pads import pads_by_node
-from mjsim.model.parts import PREFIX, TETHER, tendon_names
+from mjsim.model.parts import NO_BOUND, PREFIX, TETHER, tendon_names
 from mjsim.scene import Resolved, Scene
 
 _APART = 1e12  # divisor of a pulley that takes a node out of the mean
@@ -124,22 +124,36 @@ class ContactFrictionEverywhere(ContactFriction):
         self._tendons = node_tendons(model, numerics.links + 2)
         self._anchors = AnchoredContacts(data)
         self._geoms = pads_by_node(model)[:, 0].tolist()
+        self._arclength = node_positions(scene.strip, numerics.links)
+        press = scene.ground.at(0.0).press(scene.strip.width)
+        self._finder = ContactFinder(scene.strip, self._arclength, scene.roughness, press)
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
         """See StripFriction.before_step."""
         super().before_step(slopes, left, right)
         self.left_slip = float("nan")
-        force, _ = self._forces.by_node()
+        force, height = self._forces.by_node()
+        if self.grip.holds:
+            self._hold_contacts(force, height)
         pushed = [node for node, push in enumerate(force) if push > 0.0]
         anchors = self._anchors
         anchors.contacts = [self._tendons[node] for node in pushed]
         anchors.bounds = [
-            force[node] * self._friction.item(self._geoms[node], 0) for node in pushed
-        ]
+            force[node] * self._friction.item(self._geoms[node], 0)
+            + self._bounds.item(self._tendons[node]) for node in pushed
+        ]  # fmt: skip
         if self._lean:
             anchors.bounds, anchors.back = self._lean.both_ways(anchors.contacts, anchors.bounds)
         rates = [abs(self._rate.item(tendon)) for tendon in anchors.contacts]
         anchors.anchored = [anchors.contacts[rates.index(min(rates))]] if pushed else []
+
+    def _hold_contacts(self, force: list[float], height: list[float]) -> None:
+        """Set what feet hold each contact by, at one node of it."""
+        self._bounds[self._tendons] = NO_BOUND
+        lengths = self.contact_left, self.contact_right
+        for contact in self._finder.find(force, height, lengths):
+            hold = self._hold(*contact.extent(self._arclength))
+            self._bounds[self._tendons[_middle(contact)]] = max(hold, NO_BOUND)
 
     def after_step(self, dt: float) -> float:
         """See StripFriction.after_step."""

@@ -3,7 +3,8 @@
 Under bounds of their own, the friction of the two ends is carried by spatial tendons to a far fixed
 site: `left` and `right` along each end, and `both` along their mean; see mjsim.friction. Where it
 acts between the ends too there is one for each node, and `both` is the mean of those in contact.
-Under Coulomb friction it is MuJoCo's own contact friction, and the tendons only measure. Where the
+Under Coulomb friction it is MuJoCo's own contact friction, and the tendons only measure, or carry
+what feet hold by besides. Where the
 ground resists otherwise back than ahead each has a spring besides, so long that it pulls alike
 wherever the robot is: see mjsim.friction.lean.
 """
@@ -140,9 +141,9 @@ def add_ends(spec: mujoco.MjSpec, scene: Scene, nodes: Sequence[Node]) -> None:
     names = ["end_left", *(f"node_{node}" for node in range(1, len(nodes) - 1)), "end_right"]
     constant = scene.friction != "coulomb"
     tendons = tendon_names(len(nodes))
-    is_round = Grip(scene.strip, LAWS[scene.friction]).is_round(scene.ground)
-    everywhere = scene.between or (not constant and not is_round)
-    bound = NO_BOUND if constant else 0.0
+    grip = Grip(scene.strip, LAWS[scene.friction])
+    everywhere = scene.between or (not constant and not grip.is_round(scene.ground))
+    bound = NO_BOUND if constant or grip.holds else 0.0
     for name, (body, place) in zip(names, nodes, strict=True):
         if everywhere or name.startswith("end"):
             body.add_site(name=name, pos=place, size=[6e-4] * 3, group=4)
@@ -150,7 +151,7 @@ def add_ends(spec: mujoco.MjSpec, scene: Scene, nodes: Sequence[Node]) -> None:
     for end in (0, -1):
         _tie(spec, tendons[end], "far", [names[end]], bound)
     mean = names if everywhere and constant else [names[0], names[-1]]
-    _tie(spec, TENDONS[2], "far", mean, bound)
+    _tie(spec, TENDONS[2], "far", mean, bound if constant else 0.0)
     if everywhere:
         for name, tendon in zip(names[1:-1], tendons[1:-1], strict=True):
             _tie(spec, tendon, "far", [name], bound)

@@ -187,16 +187,10 @@ class Scene:
         """Feet of all limbs.
 
         Raises:
-            ValueError: one is switched by no chamber of the robot, or holds under friction by load.
+            ValueError: one is switched by no chamber of the robot.
         """
         feet = [foot for limb in limbs_of(self.robot) for foot in limb.strip.feet]
         check_chambers(feet, self.robot.chambers)
-        holds = max((foot.hold for foot in feet), default=0.0)
-        if holds and self.friction == "coulomb":
-            raise ValueError(
-                f"feet that hold by a bound need friction constant, not coulomb, got a hold of "
-                f"{holds:g} N"
-            )
         return feet
 
     def _check_limbs(self) -> None:
