@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from analytic.friction.flat_load import FlatLoad, LoadFrom, heaviest
 from analytic.scene import pneunet
 from analytic.scene.actuator import Actuator
+from analytic.scene.feet import drops
 from analytic.scene.limbs import AnyRobot, limbs_of
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Surface
@@ -41,7 +42,7 @@ def side_contact(
     Args:
         nodes: arclength of the nodes, shape (S,) [m].
         force: of the ground on each, 0 where it does not touch, shape (B, S) [N].
-        height: of each, shape (B, S) [m].
+        height: of each over where it touches, shape (B, S) [m].
         pressures: of the segments, shape (B, S) [Pa].
         surface: whose adhesion pulls at a flat stretch, besides its weight, and may keep an
             inflated end flat too.
@@ -51,7 +52,7 @@ def side_contact(
         a force is.
     """
     lifted = ripple(robot, nodes)
-    flat = np.abs(pressures) <= flat_pressures(robot, surface)
+    flat = np.abs(pressures[:, [0, -1]]) <= end_flat_pressures(robot, surface)
     press = surface.press(robot.width) if surface else 0.0
     load = FlatLoad(robot, press)
     lengths = [
@@ -94,6 +95,15 @@ def ripple(robot: Robot, nodes: Array) -> float:
     spacing = float(np.diff(nodes).max())
     unit = heaviest(robot) * robot.length * spacing**3 / pneunet.base_rigidity(robot)
     return _RIPPLE * unit
+
+
+def end_flat_pressures(robot: Robot, surface: Surface | None = None) -> Array:
+    """Greatest pressures at which the left and the right end may lie on their side, (2,) [Pa].
+
+    Below 0 for an end on a foot that stands proud, which never does.
+    """
+    proud = np.array(drops(robot.feet)) > 0
+    return np.where(proud, -1.0, flat_pressures(robot, surface)[[0, -1]])
 
 
 @lru_cache(_ROBOTS)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from analytic.friction.contact_length import ripple
 from analytic.friction.flat_load import FlatLoad
 from analytic.friction.laws import ROUGHNESS
+from analytic.scene.feet import drops
 from analytic.scene.payload import place_on_link
 from analytic.scene.robot import Robot
 from analytic.shapes import ContactShapes
@@ -92,7 +93,7 @@ class ContactFinder:
 
         Args:
             force: of the ground on the nodes, (N,) [N].
-            height: of the nodes, (N,) [m].
+            height: of the nodes over where they touch, (N,) [m].
             lengths: of side contact of the two ends, see analytic.friction.contact_length: not 0
                 for an end without pressure, whose side may be shorter than a link; used as they
                 are where the strip lies flat as a whole [m].
@@ -161,4 +162,6 @@ def contacts_of(
     """The contacts of one of several states, its nodes at heights of shape (B, N) [m]."""
     lengths = float(shapes.contact_left[state]), float(shapes.contact_right[state])
     finder = ContactFinder(shapes.robot, shapes.nodes, roughness)
-    return finder.find(shapes.force[state].tolist(), height[state].tolist(), lengths)
+    gap = height[state].copy()
+    gap[[0, -1]] -= drops(shapes.robot.feet)
+    return finder.find(shapes.force[state].tolist(), gap.tolist(), lengths)

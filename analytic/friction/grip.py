@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from analytic.friction.laws import Number, TractionLaw, bounds_both_ways
-from analytic.scene.feet import Foot, check_chambers
+from analytic.scene.feet import Foot, check_chambers, refuse_proud
 from analytic.scene.ground import is_round, surfaces_of
 from analytic.scene.limbs import AnyRobot, limbs_of
 from analytic.scene.robot import Robot
@@ -158,6 +158,7 @@ def check_feet_in_space(robot: AnyRobot, ground: Ground) -> None:
         ValueError: it has a nap whose ahead is not the robot's, or a viscous film.
     """
     feet = [foot for limb in limbs_of(robot) for foot in limb.strip.feet]
+    refuse_proud(feet, "a robot of limbs")
     if all(foot.is_round for foot in feet):
         return
     for surface in surfaces_of(ground):

@@ -38,6 +38,8 @@ class Foot:
     hold: float = 0.0
     """bound by which it resists besides, in all directions: all of it where a tip stands on the
     foot, and of a side the part of the foot that it covers [N]"""
+    drop: float = 0.0
+    """height by which a point at an end stands proud of the underside [m]"""
     chamber: str | None = None
     """name of a chamber that switches it on: by its pressure over the peak it is between bare skin
     and foot; always on if not given"""
@@ -62,6 +64,12 @@ class Foot:
             if field.name != "chamber" and value is not None:
                 not_negative(f"{field.name} of a foot", value)
                 object.__setattr__(self, field.name, float(value))
+
+        if self.drop and self.begin != self.end:
+            raise ValueError(
+                "drop must be 0 for a foot with a length, got "
+                f"{self.drop:g} m: points at an end, 0 or 1, alone stand proud"
+            )
 
     @property
     def is_round(self) -> bool:
@@ -88,6 +96,28 @@ def in_order(feet: Iterable[Foot | Mapping[str, Any]]) -> tuple[Foot, ...]:
                 f"{after.begin:g} to {after.end:g}"
             )
     return ordered
+
+
+def drops(feet: Sequence[Foot]) -> tuple[float, float]:
+    """Heights by which feet lift the left and the right end of a strip [m]."""
+    left, right = (
+        max((foot.drop for foot in feet if foot.begin == end), default=0.0) for end in (0.0, 1.0)
+    )
+    return left, right
+
+
+def proud(feet: Sequence[Foot]) -> bool:
+    """Tell whether any foot stands proud of the underside."""
+    return any(drops(feet))
+
+
+def refuse_proud(feet: Sequence[Foot], what: str) -> None:
+    """Raise ValueError for feet that stand proud where undersides must be flat."""
+    if proud(feet):
+        raise ValueError(
+            f"drop of a foot must be 0 for {what}, got {max(drops(feet)):g} m: feet that stand "
+            "proud are of strips under constant bounds at all contacts, by elastica and MuJoCo"
+        )
 
 
 def check_chambers(feet: Sequence[Foot], chambers: Sequence[str]) -> None:

@@ -18,6 +18,7 @@ from scipy.linalg.blas import dsbmv
 from analytic.friction.contact_length import side_contact
 from analytic.scene import pneunet
 from analytic.scene.chain import overlaps, segments_fit
+from analytic.scene.feet import refuse_proud
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import GRAVITY, Robot
 from analytic.shapes import ContactShapes, Flag
@@ -43,6 +44,7 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
         ValueError: the pressures are bad, or a segment ends between nodes.
     """
     p = check_pressures(robot, pressures_pa)
+    refuse_proud(robot.feet, "small slopes")
     if elements < 1 or not segments_fit(robot, elements):
         raise ValueError(f"elements must be so many that segments end at nodes, got {elements}")
     overlap = overlaps(np.linspace(0.0, 1.0, elements + 1), robot.borders)

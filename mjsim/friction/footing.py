@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_pressures
+from analytic.friction.contact_length import end_flat_pressures
 from mjsim.friction.between_ends import (
     BoundedContacts,
     ContactFrictionEverywhere,
@@ -83,7 +83,7 @@ class StripFooting:
         self.columns = (*_COLUMNS, *self._ceiling.columns)
         self._slopes, self._shift, self._dt = joints.slopes, joints.shift, numerics.timestep
         self._before, self._after = self._law.before_step, self._law.after_step
-        self._flat = flat_pressures(scene.robot, scene.ground.at(0.0))[[0, -1]]
+        self._flat = end_flat_pressures(scene.strip, scene.ground.at(0.0))
         self._lengths = data.ten_length
         pads = pads_by_node(model)
         self._feet = int(pads[0, 0]), int(pads[-1, 0])

@@ -20,6 +20,7 @@ from analytic.friction.grip import Grip
 from analytic.friction.laws import LAWS
 from analytic.scene import pneunet
 from analytic.scene.chain import link_lengths, node_positions
+from analytic.scene.feet import drops
 from analytic.scene.robot import Robot
 from mjsim.scene import Resolved, Scene
 
@@ -93,7 +94,9 @@ def add_pads(
 ) -> None:
     """Contact pads of one node, side by side at places in its body's frame [m]."""
     coulomb = scene.friction == "coulomb"
-    for i, place in enumerate(places):
+    below = {0: drops(scene.strip.feet)[0], numerics.links + 1: drops(scene.strip.feet)[1]}
+    for i, (x, y, z) in enumerate(places):
+        place = x, y, z - below.get(node, 0.0)
         pad = add_pad(body, f"pad_{node}" + (f"_{i}" if i else ""), place, numerics)
         pad.condim = 3 if coulomb else 1
         pad.solref[:], pad.solimp[:3] = contact_softness(scene, numerics)

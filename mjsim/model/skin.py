@@ -79,7 +79,7 @@ def add_strip_skins(
         skin.vertid = [moved.tolist() for _, moved, _ in shape.bones]
         skin.vertweight = [weight.tolist() for _, _, weight in shape.bones]
     for foot in strip.feet:
-        heights = -numerics.pad_radius, _RIM * strip.thickness
+        heights = -numerics.pad_radius - foot.drop, _RIM * strip.thickness
         _add_blocks(spec, strip, starts.tolist(), bodies, (foot.begin, foot.end), heights, _RUST)
     top = strip.flat_height
     for payload in strip.payload:

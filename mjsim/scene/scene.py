@@ -13,7 +13,7 @@ from analytic.fields import in_si
 from analytic.friction.grip import check_feet_in_space
 from analytic.friction.laws import LAWS, ROUGHNESS, Friction
 from analytic.scene.chain import CHAMBER_LAWS
-from analytic.scene.feet import Foot, check_chambers
+from analytic.scene.feet import Foot, check_chambers, proud, refuse_proud
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.ground import (
     Incline,
@@ -191,6 +191,12 @@ class Scene:
         """
         feet = [foot for limb in limbs_of(self.robot) for foot in limb.strip.feet]
         check_chambers(feet, self.robot.chambers)
+        if not self.between:
+            refuse_proud(feet, "friction at the ends alone")
+        if self.friction == "coulomb":
+            refuse_proud(feet, "friction by load")
+        if self.ground.at(0.0).adhesion:
+            refuse_proud(feet, "adhesive ground")
         return feet
 
     def _check_limbs(self) -> None:
@@ -236,7 +242,8 @@ class Scene:
         """Tell whether friction acts between the ends of a strip, or at all contacts of limbs."""
         if self.in_space:
             return True
-        return self.contacts == "all" or (self.contacts == "auto" and self.lies_between)
+        lies = self.contacts == "auto" and (proud(self.strip.feet) or self.lies_between)
+        return self.contacts == "all" or lies
 
     @property
     def lies_between(self) -> bool:

@@ -11,7 +11,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import end_contact, end_loads, flat_pressures, ripple
+from analytic.friction.contact_length import end_contact, end_flat_pressures, end_loads, ripple
 from analytic.friction.contacts import ContactFinder, StripContact
 from analytic.friction.flat_load import FlatLoad
 from analytic.friction.grip import Grip
@@ -58,7 +58,7 @@ class StickSlip:
         press = ground.at(0.0).press(chain.robot.width)
         load = FlatLoad(chain.robot, press)
         self._inwards = load.from_begin, load.from_end
-        self._flat = flat_pressures(chain.robot, ground.at(0.0))
+        self._flat = end_flat_pressures(chain.robot, ground.at(0.0))
         self._finder = ContactFinder(chain.robot, self._nodes, friction.roughness, press)
         self._law = LAWS[friction.law]
         self._grip = Grip(chain.robot, self._law)
@@ -287,12 +287,12 @@ class StickSlip:
     def _touching(self, state: ChainState) -> list[StripContact]:
         chain, robot = self._chain, self._chain.robot
         force = chain.ground_force(state) * chain.force_unit
-        height = state.y * robot.length
+        height = (state.y - chain.floor) * robot.length
         air = height > self._air
-        flat = np.abs(chain.pressure) <= self._flat
+        flat = np.abs(chain.pressure[[0, -1]]) <= self._flat
         left, right = (
             end_contact(load, self._nodes[::order], force[::order], air[::order], lies)
-            for load, order, lies in zip(self._inwards, (1, -1), (flat[0], flat[-1]), strict=True)
+            for load, order, lies in zip(self._inwards, (1, -1), flat, strict=True)
         )  # fmt: skip
         if self._friction.contacts == "all":
             found = self._finder.find(force.tolist(), height.tolist(), (left, right))
