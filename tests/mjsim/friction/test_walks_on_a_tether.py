@@ -31,8 +31,9 @@ def tied(tether, ground, gait=SLOW, **more):
     (Tether(1.0, drag="5 mN"), "gelatin"),
     (Tether(0.5, drag="1 mN"), "polyethylene"),
 ])  # fmt: skip
-def test_it_goes_as_far_as_the_theory_says(tether, ground):
-    scene = tied(tether, ground)
+@pytest.mark.parametrize("law", ["constant", pytest.param("coulomb", marks=pytest.mark.slow)])
+def test_it_goes_as_far_as_the_theory_says(tether, ground, law):
+    scene = tied(tether, ground, friction=law)
     expected = reference(scene).displacement[0]
     assert abs(expected) > 0.01
     assert measure(simulate(scene)).displacement == pytest.approx(expected, rel=0.02)
