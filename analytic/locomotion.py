@@ -74,8 +74,7 @@ def left_end(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array,
     """
     if friction.tension and isinstance(shapes, ContactShapes) and shapes.left is not None:
         return shapes.left, np.zeros(len(shapes) - 1, dtype=bool)  # all known
-    tether = shapes.robot.tether
-    if tether is not None and (tether.drag or tether.stiffness):
+    if shapes.robot.tether and shapes.robot.tether.resists:
         raise ValueError(
             "a tether that resists is for elastica with friction that bends the strip: tension "
             "must be above 0"

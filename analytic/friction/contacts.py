@@ -55,7 +55,7 @@ class StripContact(NamedTuple):
 def of_tether(robot: Robot, nodes: Array) -> list[StripContact]:
     """The contact that a strip's tether is, of a chain with nodes at arclengths (N,) [m]."""
     tether = robot.tether
-    if tether is None or not (tether.drag or tether.stiffness):
+    if tether is None or not tether.resists:
         return []
     link, part = place_on_link(nodes, tether.at * robot.length)
     share = {link: 1.0 - part, link + 1: part}

@@ -40,3 +40,8 @@ class Tether:
             object.__setattr__(self, field.name, float(value))
         if not (self.drag or self.stiffness or self.mass):
             raise ValueError("a tether must have drag, stiffness or mass, got none of them")
+
+    @property
+    def resists(self) -> bool:
+        """True if it does more than to weigh on the robot."""
+        return bool(self.drag or self.stiffness)

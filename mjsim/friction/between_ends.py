@@ -29,8 +29,7 @@ def node_tendons(model: mujoco.MjModel, nodes: int) -> list[int]:
 def tether_tendons(scene: Scene, model: mujoco.MjModel) -> list[int]:
     """The tendon of a tether that resists, if there is one."""
     tether = scene.strip.tether
-    resists = tether is not None and (tether.drag or tether.stiffness)
-    return [model.tendon(PREFIX + TETHER).id] if resists else []
+    return [model.tendon(PREFIX + TETHER).id] if tether and tether.resists else []
 
 
 class AnchoredContacts:

@@ -20,10 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.contact_length import PASSIVE
-from analytic.friction.contacts import of_tether
 from analytic.prediction import Prediction, predict
 from analytic.scene import pneunet
-from analytic.scene.chain import node_positions
 from analytic.scene.ground import depends_on_speed
 from analytic.scene.surface import Surface
 from analytic.solvers.models import Elastica
@@ -140,7 +138,7 @@ def add_shoes(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
     widest = surface.shear_strength * strip.width * strip.length / len(strip.segments)
     for name in ENDS:
         spec.tendon(PREFIX + name).frictionloss = 0.0
-    tied = 0.0 if of_tether(strip, node_positions(strip, numerics.links)) else _TIE
+    tied = 0.0 if strip.tether and strip.tether.resists else _TIE
     spec.tendon(PREFIX + TENDONS[2]).frictionloss = tied * max(surface.tip_force, widest)
     side, tip = (
         surface.shear_strength * strip.width,

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from analytic.friction.contacts import of_tether
 from analytic.friction.laws import LAWS, Friction
 from analytic.friction.motion import motion, undecided_motion
 from analytic.locomotion import undecided
@@ -90,7 +89,7 @@ def _sprung(scene: Scene) -> list[str]:
 
 
 def _near_ties(scene: Scene, prediction: Prediction) -> list[str]:
-    if of_tether(scene.strip, np.array([0.0, scene.strip.length])):
+    if scene.strip.tether and scene.strip.tether.resists:
         return []  # which is one more bound, of a place that others do not share
     amount = tied(scene, prediction, NEARLY)
     if amount <= APART:
@@ -152,7 +151,7 @@ def _rough(scene: Scene, prediction: Prediction) -> list[str]:
     shapes, friction = prediction.shapes, scene.reference_friction
     if not scene.between or not isinstance(shapes, ContactShapes) or not scene.roughness:
         return []
-    if of_tether(scene.strip, shapes.nodes):
+    if scene.strip.tether and scene.strip.tether.resists:
         return []  # it has a part in the motion that shapes alone do not tell
     rougher = replace(friction, roughness=_ROUGHER * scene.roughness)
     smooth, rough = (motion(shapes, scene.ground, law)[0][-1] for law in (friction, rougher))
