@@ -7,13 +7,16 @@ import ast
 import inspect
 import re
 import sys
-from collections.abc import Mapping
-from dataclasses import fields
+from collections.abc import Iterable, Mapping
+from dataclasses import MISSING, fields
 from functools import cache
 from itertools import pairwise
-from typing import Any, get_args, get_type_hints
+from typing import Any, TypeVar, get_args, get_type_hints
 
+from analytic.checks import one_of
 from analytic.units import in_unit
+
+Kind = TypeVar("Kind")
 
 _CITATION = re.compile(r"[A-Z][a-z]+\d\d$")
 
@@ -68,3 +71,39 @@ def in_si(record: Any) -> None:
                 for part in value
             )
             object.__setattr__(record, name, parts)
+
+
+def records(kind: type[Kind], noun: str, given: Iterable[Kind | Mapping[str, Any]]) -> list[Kind]:
+    """Make a dataclass of each table of its fields; those that are made are taken.
+
+    Args:
+        kind: the dataclass.
+        noun: of one, for messages.
+        given: tables or records.
+
+    Raises:
+        ValueError: one is neither, or has a key that is no field, or misses one.
+    """
+    if isinstance(given, str) or not hasattr(given, "__iter__"):
+        raise ValueError(f"{_plural(noun)} must be {kind.__name__}, or tables of its fields, got "
+                         f"{given!r}")  # fmt: skip
+    return [_record(kind, noun, one) for one in given]
+
+
+def _record(kind: type[Kind], noun: str, given: Kind | Mapping[str, Any]) -> Kind:
+    if isinstance(given, kind):
+        return given
+    if not isinstance(given, Mapping):
+        raise ValueError(f"{_plural(noun)} must be {kind.__name__}, or tables of its fields, got "
+                         f"{given!r}")  # fmt: skip
+    known = fields(kind)  # type: ignore[arg-type]
+    for key in given:
+        one_of(f"key of a {noun}", key, [field.name for field in known])
+    for field in known:
+        if field.default is MISSING and field.name not in given:
+            raise ValueError(f"{field.name} of a {noun} is missing, got {dict(given)!r}")
+    return kind(**given)
+
+
+def _plural(noun: str) -> str:
+    return {"foot": "feet"}.get(noun, f"{noun}s")

@@ -9,6 +9,7 @@ from analytic.friction.contact_length import end_loads
 from analytic.friction.grip import Grip, pressures_of
 from analytic.friction.laws import LAWS, Friction, slip_fraction
 from analytic.friction.motion import motion
+from analytic.scene.feet import refuse_proud
 from analytic.scene.ground import over
 from analytic.scene.surface import Ground, Surface
 from analytic.shapes import ContactShapes, Shapes
@@ -73,7 +74,14 @@ def left_end(shapes: Shapes, ground: Ground, friction: Friction) -> tuple[Array,
     """
     if friction.tension and isinstance(shapes, ContactShapes) and shapes.left is not None:
         return shapes.left, np.zeros(len(shapes) - 1, dtype=bool)  # all known
-    if friction.contacts == "all":
+    if shapes.robot.tether and shapes.robot.tether.resists:
+        raise ValueError(
+            "a tether that resists is for elastica with friction that bends the strip: tension "
+            "must be above 0"
+        )
+    if friction.contacts == "ends":
+        refuse_proud(shapes.robot.feet, "friction at the ends alone")
+    else:
         return motion(shapes, ground, friction)
     if isinstance(ground, Surface):
         return _on_uniform(shapes, ground, friction)

@@ -1,14 +1,16 @@
 """Contact lengths that follow from the contact forces on nodes, for one or many states."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.friction.flat_load import FlatLoad, LoadFrom, heaviest
 from analytic.scene import pneunet
 from analytic.scene.actuator import Actuator
+from analytic.scene.feet import drops
 from analytic.scene.limbs import AnyRobot, limbs_of
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Surface
@@ -32,7 +34,7 @@ def side_contact(
     An end whose segment is inflated is a tip: to lie flat it would need the moment D kappa, and an
     end has none. Else (or with next to no pressure) the ground carries the weight of a flat
     stretch, w per length, and where the strip lifts off a concentrated force R besides. So the
-    length follows from the sum and the moment of the forces on an end's nodes (see `flat_length`):
+    length follows from the sum and the moment of the forces on an end's nodes (see FlatLoad):
     finer than the distance of the nodes, and exactly 0 if the end alone touches. An end's nodes
     reach to the next that is in the air, higher than a flat stretch ripples between the nodes that
     push it.
@@ -40,7 +42,7 @@ def side_contact(
     Args:
         nodes: arclength of the nodes, shape (S,) [m].
         force: of the ground on each, 0 where it does not touch, shape (B, S) [N].
-        height: of each, shape (B, S) [m].
+        height: of each over where it touches, shape (B, S) [m].
         pressures: of the segments, shape (B, S) [Pa].
         surface: whose adhesion pulls at a flat stretch, besides its weight, and may keep an
             inflated end flat too.
@@ -50,29 +52,28 @@ def side_contact(
         a force is.
     """
     lifted = ripple(robot, nodes)
-    flat = np.abs(pressures) <= flat_pressures(robot, surface)
+    flat = np.abs(pressures[:, [0, -1]]) <= end_flat_pressures(robot, surface)
     press = surface.press(robot.width) if surface else 0.0
+    load = FlatLoad(robot, press)
     lengths = [
-        [end_contact(robot, nodes[::order], f[::order], y[::order] > lifted, lies[::order][0],
-                     press)
+        [end_contact(inwards, nodes[::order], f[::order], y[::order] > lifted, lies[::order][0])
          for f, y, lies in zip(force, height, flat, strict=True)]
-        for order in (1, -1)
+        for order, inwards in ((1, load.from_begin), (-1, load.from_end))
     ]  # fmt: skip
     return np.array(lengths[0]), np.array(lengths[1])
 
 
 def end_contact(
-    robot: Robot, nodes: Array, push: Array, air: NDArray[np.bool_], flat: bool, press: float
+    load: LoadFrom, nodes: Array, push: Array, air: NDArray[np.bool_], flat: bool
 ) -> float:
     """Length of side contact at the end that comes first, of one state; see side_contact [m].
 
     Args:
-        robot: the strip.
+        load: of the strip from that end on.
         nodes: arclength, from that end or towards it, (S,) [m].
         push: force on each, (S,) [N].
         air: whether it is higher than a flat stretch ripples, (S,).
         flat: whether the segment at that end may lie flat, see flat_pressures.
-        press: pull of adhesion [N/m].
     """
     if not np.isfinite(push[0]):
         return np.nan
@@ -82,50 +83,27 @@ def end_contact(
     end = first + int(air[first:].argmax())
     if not air[end]:
         if not air.any():
-            return 0.5 * robot.length
+            return 0.5 * load.whole
         end = len(push)
     push = push[:end]
     moment = float(push @ np.abs(nodes[:end] - nodes[0]))
-    return float(flat_length(robot.weight_per_length + press, float(push.sum()), moment))
+    return load.length(float(push.sum()), moment)
 
 
 def ripple(robot: Robot, nodes: Array) -> float:
     """Bound of the height to which a flat stretch ripples between nodes that push it [m]."""
     spacing = float(np.diff(nodes).max())
-    unit = robot.weight_per_length * robot.length * spacing**3 / pneunet.base_rigidity(robot)
+    unit = heaviest(robot) * robot.length * spacing**3 / pneunet.base_rigidity(robot)
     return _RIPPLE * unit
 
 
-def flat_length(weight: Any, total: Any, moment: Any) -> Any:
-    """xi of a flat end that carries F = w xi + R with the moment M = w xi^2 / 2 + R xi [m].
+def end_flat_pressures(robot: Robot, surface: Surface | None = None) -> Array:
+    """Greatest pressures at which the left and the right end may lie on their side, (2,) [Pa].
 
-    Args:
-        weight: w [N/m], a float or an array.
-        total: F [N], a float or an array.
-        moment: M about the end [N m], of the shape of F.
+    Below 0 for an end on a foot that stands proud, which never does.
     """
-    square = total * total - 2.0 * weight * moment
-    return (total - (0.5 * (square + abs(square))) ** 0.5) / weight
-
-
-def length_between(weight: float, places: Sequence[float], push: Sequence[float]) -> float:
-    """Length of a flat stretch between the ends, either half of which carries its weight [m].
-
-    Args:
-        weight: per length [N/m].
-        places: of the nodes that push there, ascending [m].
-        push: of each [N].
-    """
-    middle, length = 0.5 * (places[0] + places[-1]), 0.0
-    for sign in (-1.0, 1.0):
-        total = moment = 0.0
-        for place, part in zip(places, push, strict=True):
-            reach = sign * (place - middle)
-            if reach >= 0:
-                total += part if reach else 0.5 * part
-                moment += part * reach
-        length += float(flat_length(weight, total, moment))
-    return length
+    proud = np.array(drops(robot.feet)) > 0
+    return np.where(proud, -1.0, flat_pressures(robot, surface)[[0, -1]])
 
 
 @lru_cache(_ROBOTS)

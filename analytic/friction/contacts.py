@@ -9,8 +9,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_length, length_between, ripple
+from analytic.friction.contact_length import ripple
+from analytic.friction.flat_load import FlatLoad
 from analytic.friction.laws import ROUGHNESS
+from analytic.scene.feet import drops
+from analytic.scene.payload import place_on_link
 from analytic.scene.robot import Robot
 from analytic.shapes import ContactShapes
 
@@ -27,12 +30,14 @@ class StripContact(NamedTuple):
             end itself, else those that push, by their force.
         length: of side contact, 0 for a tip [m].
         load: normal force [N].
+        drag: bound of a tether, whatever the ground; None of a contact with it [N].
     """
 
     nodes: list[int]
     share: list[float]
     length: float
     load: float
+    drag: float | None = None
 
     def extent(self, x: Array) -> tuple[float, float]:
         """Places where the contact begins and ends, from those of all nodes, (N,) [m].
@@ -45,6 +50,17 @@ class StripContact(NamedTuple):
         if self.nodes == [len(x) - 1]:
             return place - self.length, place
         return place - 0.5 * self.length, place + 0.5 * self.length
+
+
+def of_tether(robot: Robot, nodes: Array) -> list[StripContact]:
+    """The contact that a strip's tether is, of a chain with nodes at arclengths (N,) [m]."""
+    tether = robot.tether
+    if tether is None or not tether.resists:
+        return []
+    link, part = place_on_link(nodes, tether.at * robot.length)
+    share = {link: 1.0 - part, link + 1: part}
+    on = {node: weight for node, weight in share.items() if weight}
+    return [StripContact(list(on), list(on.values()), 0.0, 0.0, tether.drag)]
 
 
 class ContactFinder:
@@ -60,7 +76,7 @@ class ContactFinder:
     def __init__(
         self, robot: Robot, nodes: Array, roughness: float = ROUGHNESS, press: float = 0.0
     ) -> None:
-        self._weight, self._roughness = robot.weight_per_length + press, roughness
+        self._load, self._roughness = FlatLoad(robot, press), roughness
         self._place: list[float] = nodes.tolist()
         self._lifted = ripple(robot, nodes)
 
@@ -77,7 +93,7 @@ class ContactFinder:
 
         Args:
             force: of the ground on the nodes, (N,) [N].
-            height: of the nodes, (N,) [m].
+            height: of the nodes over where they touch, (N,) [m].
             lengths: of side contact of the two ends, see analytic.friction.contact_length: not 0
                 for an end without pressure, whose side may be shorter than a link; used as they
                 are where the strip lies flat as a whole [m].
@@ -112,12 +128,13 @@ class ContactFinder:
     def _side(self, run: list[int], push: list[float], end: float) -> float:
         """Length of a flat stretch that begins at an end, from what its nodes carry [m]."""
         moment = sum(p * abs(self._place[node] - end) for node, p in zip(run, push, strict=True))
-        return float(flat_length(self._weight, sum(push), moment))
+        inwards = self._load.from_end if end else self._load.from_begin
+        return inwards.length(sum(push), moment)
 
     def _length_between(self, run: list[int], push: list[float]) -> float:
         if run[-1] - run[0] < POINT:
             return 0.0
-        return length_between(self._weight, [self._place[node] for node in run], push)
+        return self._load.length_between([self._place[node] for node in run], push)
 
 
 def runs_without_gaps(
@@ -145,4 +162,6 @@ def contacts_of(
     """The contacts of one of several states, its nodes at heights of shape (B, N) [m]."""
     lengths = float(shapes.contact_left[state]), float(shapes.contact_right[state])
     finder = ContactFinder(shapes.robot, shapes.nodes, roughness)
-    return finder.find(shapes.force[state].tolist(), height[state].tolist(), lengths)
+    gap = height[state].copy()
+    gap[[0, -1]] -= drops(shapes.robot.feet)
+    return finder.find(shapes.force[state].tolist(), gap.tolist(), lengths)

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from analytic.friction.laws import Number, TractionLaw, bounds_both_ways
-from analytic.scene.feet import Foot, check_chambers
+from analytic.scene.feet import Foot, check_chambers, refuse_proud
 from analytic.scene.ground import is_round, surfaces_of
 from analytic.scene.limbs import AnyRobot, limbs_of
 from analytic.scene.robot import Robot
@@ -32,6 +32,7 @@ class Grip:
     Attributes:
         feet: whether there are any.
         switched: whether chambers switch any.
+        holds: whether any has a bound of its own.
         most: greatest grip of any part of it [1], and hold of all feet together [N].
 
     Raises:
@@ -45,6 +46,7 @@ class Grip:
         self._feet = [_Placed.of(foot, strip.length, whole.chambers) for foot in strip.feet]
         self.feet = bool(self._feet)
         self.switched = any(foot.column is not None for foot in self._feet)
+        self.holds = any(foot.hold for foot in strip.feet)
         self._round = all(foot.is_round for foot in strip.feet)
         ways: tuple[Way, ...] = ("ahead", "back", "across")
         grips = [foot.grip_against(way) for foot in strip.feet for way in ways]
@@ -161,6 +163,7 @@ def check_feet_in_space(robot: AnyRobot, ground: Ground) -> None:
         ValueError: it has a nap whose ahead is not the robot's, or a viscous film.
     """
     feet = [foot for limb in limbs_of(robot) for foot in limb.strip.feet]
+    refuse_proud(feet, "a robot of limbs")
     if all(foot.is_round for foot in feet):
         return
     for surface in surfaces_of(ground):

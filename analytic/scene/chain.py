@@ -22,7 +22,8 @@ from numpy.typing import NDArray
 
 from analytic.checks import one_of, whole
 from analytic.scene import pneunet
-from analytic.scene.robot import Robot
+from analytic.scene.payload import mass_moments, mass_on_nodes
+from analytic.scene.robot import GRAVITY, Robot
 
 Array = NDArray[np.float64]
 
@@ -72,6 +73,16 @@ def link_lengths(robot: Robot, links: int) -> Array:
 def node_positions(robot: Robot, links: int) -> Array:
     """Arclength of the chain's vertices: left end, hinges, right end, shape (N + 2,) [m]."""
     return np.concatenate([[0.0], np.cumsum(link_lengths(robot, links))])
+
+
+def payload_moments(robot: Robot, links: int) -> Array:
+    """Mass of a strip's payloads in its links, see analytic.scene.payload, (N + 1, 3) [kg]."""
+    return mass_moments(robot.carried, robot.length, node_positions(robot, links))
+
+
+def payload_on_nodes(robot: Robot, links: int) -> Array:
+    """Weight of a strip's payloads on the chain's vertices, (N + 2,) [N]."""
+    return GRAVITY * mass_on_nodes(payload_moments(robot, links))
 
 
 def segments_fit(robot: Robot, parts: float) -> bool:

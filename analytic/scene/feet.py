@@ -6,7 +6,7 @@ from itertools import pairwise
 from typing import Any
 
 from analytic.checks import is_number, not_negative, one_of
-from analytic.fields import in_si
+from analytic.fields import in_si, records
 from analytic.scene.surface import Way, by_way
 
 
@@ -38,6 +38,8 @@ class Foot:
     hold: float = 0.0
     """bound by which it resists besides, in all directions: all of it where a tip stands on the
     foot, and of a side the part of the foot that it covers [N]"""
+    drop: float = 0.0
+    """height by which a point at an end stands proud of the underside [m]"""
     chamber: str | None = None
     """name of a chamber that switches it on: by its pressure over the peak it is between bare skin
     and foot; always on if not given"""
@@ -63,6 +65,12 @@ class Foot:
                 not_negative(f"{field.name} of a foot", value)
                 object.__setattr__(self, field.name, float(value))
 
+        if self.drop and self.begin != self.end:
+            raise ValueError(
+                "drop must be 0 for a foot with a length, got "
+                f"{self.drop:g} m: points at an end, 0 or 1, alone stand proud"
+            )
+
     @property
     def is_round(self) -> bool:
         """True if its grip is alike in all directions."""
@@ -79,7 +87,7 @@ def in_order(feet: Iterable[Foot | Mapping[str, Any]]) -> tuple[Foot, ...]:
     Raises:
         ValueError: one is no foot, two of them overlap, or a point is at the end of another.
     """
-    ordered = tuple(sorted(map(_foot, feet), key=lambda foot: (foot.begin, foot.end)))
+    ordered = tuple(sorted(records(Foot, "foot", feet), key=lambda foot: (foot.begin, foot.end)))
     for foot, after in pairwise(ordered):
         point = foot.begin == foot.end or after.begin == after.end
         if after.begin < foot.end or (point and after.begin == foot.end):
@@ -90,18 +98,26 @@ def in_order(feet: Iterable[Foot | Mapping[str, Any]]) -> tuple[Foot, ...]:
     return ordered
 
 
-def _foot(given: Foot | Mapping[str, Any]) -> Foot:
-    if isinstance(given, Foot):
-        return given
-    if not isinstance(given, Mapping):
-        raise ValueError(f"feet must be Foot, or tables of its fields, got {given!r}")
-    names = [field.name for field in fields(Foot)]
-    for key in given:
-        one_of("key of a foot", key, names)
-    for name in ("begin", "end"):
-        if name not in given:
-            raise ValueError(f"{name} of a foot is missing, got {dict(given)!r}")
-    return Foot(**given)
+def drops(feet: Sequence[Foot]) -> tuple[float, float]:
+    """Heights by which feet lift the left and the right end of a strip [m]."""
+    left, right = (
+        max((foot.drop for foot in feet if foot.begin == end), default=0.0) for end in (0.0, 1.0)
+    )
+    return left, right
+
+
+def proud(feet: Sequence[Foot]) -> bool:
+    """Tell whether any foot stands proud of the underside."""
+    return any(drops(feet))
+
+
+def refuse_proud(feet: Sequence[Foot], what: str) -> None:
+    """Raise ValueError for feet that stand proud where undersides must be flat."""
+    if proud(feet):
+        raise ValueError(
+            f"drop of a foot must be 0 for {what}, got {max(drops(feet)):g} m: feet that stand "
+            "proud are of strips under constant bounds at all contacts, by elastica and MuJoCo"
+        )
 
 
 def check_chambers(feet: Sequence[Foot], chambers: Sequence[str]) -> None:

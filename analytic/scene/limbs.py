@@ -125,8 +125,13 @@ class LimbedRobot:
 
     @property
     def weight(self) -> float:
-        """Of all limbs [N]."""
+        """Of all limbs and what they carry [N]."""
         return sum(limb.strip.weight for limb in self.limbs)
+
+    @property
+    def payload_mass(self) -> float:
+        """Of all that its limbs carry [kg]."""
+        return sum(limb.strip.payload_mass for limb in self.limbs)
 
 
 AnyRobot = Robot | LimbedRobot
@@ -135,6 +140,17 @@ AnyRobot = Robot | LimbedRobot
 def limbs_of(robot: AnyRobot) -> tuple[Limb, ...]:
     """The limbs of a robot, of which a strip is one."""
     return robot.limbs if isinstance(robot, LimbedRobot) else (Limb("strip", robot),)
+
+
+def check_tethers(robot: LimbedRobot) -> None:
+    """Raise ValueError for tethers that pull back, which is known along a line alone."""
+    tethers = [limb.strip.tether for limb in robot.limbs if limb.strip.tether]
+    most = max((tether.stiffness for tether in tethers), default=0.0)
+    if most:
+        raise ValueError(
+            f"stiffness of a tether must be 0 for a robot of limbs, got {most:g} N/m: springs are "
+            "known along a line alone"
+        )
 
 
 def chambers_by_limb(robot: AnyRobot) -> list[slice]:
@@ -239,7 +255,8 @@ def quadruped(base: Robot | None = None, angle: float = LEG_ANGLE) -> LimbedRobo
     """The paper's robot: a torso and four legs, each a third of its length along the body.
 
     Args:
-        base: thickness, chambers, modulus of all five; of the strip of [Majidi13] if None.
+        base: thickness, chambers, modulus of all five; of the strip of [Majidi13] if None. The
+            torso carries its payloads and drags its tether.
         angle: of each leg to the axis of the body [rad].
     """
     third = LENGTH / 3
@@ -248,7 +265,8 @@ def quadruped(base: Robot | None = None, angle: float = LEG_ANGLE) -> LimbedRobo
     by_area = MASS * GRAVITY / plan  # the silicone is as thick everywhere [N/m^2]
     torso = replace(strip, length=third, width=TORSO_WIDTH, weight_per_length=by_area * TORSO_WIDTH)
     leg = replace(strip, length=third / float(np.cos(angle)), width=LEG_WIDTH,
-                  weight_per_length=by_area * LEG_WIDTH)  # fmt: skip
+                  weight_per_length=by_area * LEG_WIDTH, payload=(),
+                  tether=None)  # fmt: skip
     side = 0.5 * (TORSO_WIDTH - LEG_WIDTH)
     legs = [
         Limb(name, leg, "torso", "begin" if rear else "end",
@@ -263,10 +281,12 @@ def as_strip(strip: Robot) -> LimbedRobot:
     """A strip of three segments as a torso with a leg before and one behind, to verify by.
 
     Raises:
-        ValueError: it has feet, whose places are along the whole strip.
+        ValueError: it has feet, a payload or a tether, whose places are along the whole strip.
     """
-    if strip.feet:
-        raise ValueError("a strip as limbs must have no feet; give the limbs theirs")
+    if strip.feet or strip.payload or strip.tether:
+        raise ValueError(
+            "a strip as limbs must have no feet, payload or tether; give the limbs theirs"
+        )
     lengths = strip.length * np.diff(strip.borders)
     rear, middle, front = (replace(strip, length=float(part), segments=(1.0,)) for part in lengths)
     return LimbedRobot(

@@ -4,10 +4,12 @@ from dataclasses import dataclass, fields
 from itertools import accumulate
 
 from analytic.checks import one_of, positive
-from analytic.fields import in_si
+from analytic.fields import in_si, records
 from analytic.scene.actuator import Actuator
 from analytic.scene.feet import Foot, in_order
 from analytic.scene.materials import MATERIALS
+from analytic.scene.payload import Payload, payloads
+from analytic.scene.tether import Tether
 
 PSI = 6894.757293168  # Pa in a pound-force per square inch (NIST SP 811)
 GRAVITY = 9.81  # m/s^2
@@ -15,7 +17,8 @@ THREE_EQUAL = (1.0, 1.0, 1.0)  # [Majidi13], section 2.3
 
 _THREE = ("left", "middle", "right")
 _OPTIONAL = ("mass", "rigidity", "curvature_per_pressure", "rigidity_per_pressure", "torsion")
-_OTHERS = ("segments", "material", "actuator", "feet")  # fields that are no number
+# fields that are no number
+_OTHERS = ("segments", "material", "actuator", "feet", "payload", "tether")
 _SAME = 1e-9  # of a modulus that is given and follows from the actuator too
 
 
@@ -75,6 +78,12 @@ class Robot:
     feet: tuple[Foot, ...] = ()
     """stretches of its underside that resist otherwise than its skin: tables of begin, end, grip,
     grip_back, grip_across, hold and chamber; as an option 0..0.1 grip_back=2, 1..1 hold=50mN"""
+    payload: tuple[Payload, ...] = ()
+    """masses that it carries besides its own: tables of mass, begin and end; as an option 0.5
+    mass=5g, 0.2..0.4 mass=3g"""
+    tether: Tether | None = None
+    """tube or cable that it drags along: a table of at, drag, stiffness and mass; as an option 0
+    drag=5mN stiffness=1N/m mass=2g"""
 
     def __post_init__(self) -> None:
         in_si(self)
@@ -86,9 +95,10 @@ class Robot:
         for length in self.segments:
             positive("segments' lengths", length)
         object.__setattr__(self, "segments", tuple(float(part) for part in self.segments))
-        if isinstance(self.feet, str) or not hasattr(self.feet, "__iter__"):
-            raise ValueError(f"feet must be Foot, or tables of its fields, got {self.feet!r}")
         object.__setattr__(self, "feet", in_order(self.feet))
+        object.__setattr__(self, "payload", payloads(self.payload))
+        if self.tether is not None:
+            object.__setattr__(self, "tether", records(Tether, "tether", [self.tether])[0])
         for field in fields(self):
             value = getattr(self, field.name)
             if field.name in _OTHERS or (value is None and field.name in _OPTIONAL):
@@ -170,5 +180,17 @@ class Robot:
 
     @property
     def weight(self) -> float:
-        """Of the whole robot [N]."""
-        return self.weight_per_length * self.length
+        """Of the whole robot and what it carries [N]."""
+        return self.weight_per_length * self.length + GRAVITY * self.payload_mass
+
+    @property
+    def carried(self) -> tuple[Payload, ...]:
+        """Its payloads, and what it carries of its tether."""
+        if self.tether is None or not self.tether.mass:
+            return self.payload
+        return (*self.payload, Payload(self.tether.mass, self.tether.at))
+
+    @property
+    def payload_mass(self) -> float:
+        """Of all that it carries [kg]."""
+        return sum(payload.mass for payload in self.carried)

@@ -22,6 +22,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from analytic.scene import pneunet
+from analytic.scene.feet import refuse_proud
+from analytic.scene.payload import refuse_payload
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
 from analytic.shapes import Flag, Shapes
@@ -72,9 +74,12 @@ def solve_lifted(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
         Shapes of B states; `status` says where the assumptions break.
 
     Raises:
-        ValueError: the shape is wrong, or a pressure is negative or not finite.
+        ValueError: the shape is wrong, a pressure is negative or not finite, or the strip carries a
+            payload.
     """
     p = check_pressures(robot, pressures_pa)
+    refuse_payload(robot, "the contact modes with finite rotations")
+    refuse_proud(robot.feet, "the contact modes with finite rotations")
     d0 = pneunet.base_rigidity(robot)
     beam = _Beam(
         np.asarray(pneunet.natural_curvature(robot, p)) * robot.length,

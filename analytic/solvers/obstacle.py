@@ -18,8 +18,9 @@ from scipy.linalg.blas import dsbmv
 from analytic.friction.contact_length import side_contact
 from analytic.scene import pneunet
 from analytic.scene.chain import overlaps, segments_fit
+from analytic.scene.feet import refuse_proud
 from analytic.scene.pressures import check_pressures
-from analytic.scene.robot import Robot
+from analytic.scene.robot import GRAVITY, Robot
 from analytic.shapes import ContactShapes, Flag
 
 Array = NDArray[np.float64]
@@ -43,6 +44,7 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
         ValueError: the pressures are bad, or a segment ends between nodes.
     """
     p = check_pressures(robot, pressures_pa)
+    refuse_proud(robot.feet, "small slopes")
     if elements < 1 or not segments_fit(robot, elements):
         raise ValueError(f"elements must be so many that segments end at nodes, got {elements}")
     overlap = overlaps(np.linspace(0.0, 1.0, elements + 1), robot.borders)
@@ -50,7 +52,10 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
     rigidity = pneunet.rigidity(robot, p) / d0 @ overlap.T
     curvature = pneunet.natural_curvature(robot, p) * robot.length
     curvature = curvature @ overlap.T
-    load = robot.weight_per_length * robot.length**3 / d0
+    even = robot.weight_per_length * robot.length**3 / d0
+    spread, carried = _payload(robot, elements)
+    load, carried = even + spread * robot.length**3 / d0, carried * robot.length**2 / d0
+    weight = even + GRAVITY * robot.payload_mass * robot.length**2 / d0
 
     values = np.zeros((len(p), elements + 1, 2))  # y and y' at the nodes
     force = np.zeros((len(p), elements + 1))
@@ -58,7 +63,9 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
     iterations = np.zeros(len(p), dtype=int)
     state = np.zeros((elements + 1, 2))
     for i in range(len(p)):
-        state, force[i], iterations[i], converged = _solve(rigidity[i], curvature[i], load, state)
+        state, force[i], iterations[i], converged = _solve(
+            rigidity[i], _load(rigidity[i], curvature[i], even) + carried, weight, state
+        )
         values[i] = state
         if not converged:
             status[i] = Flag.NOT_CONVERGED
@@ -80,7 +87,7 @@ def solve_obstacle(robot: Robot, pressures_pa: ArrayLike, elements: int = 60) ->
         nodes=nodes,
         force=newtons,
         pressures=p,
-        residual=_residual(values, force, load),
+        residual=_residual(values, force, weight),
         iterations=iterations,
     )
 
@@ -117,8 +124,35 @@ def _load(rigidity: Array, curvature: Array, weight: float) -> Array:
     return load
 
 
+def _payload(robot: Robot, elements: int) -> tuple[Array, Array]:
+    """Payloads of a strip: their weight per length in each element, and as a consistent load.
+
+    Returns:
+        (n,) [N/m], mean of each element; and (2 n + 2,) [N], on heights and on slopes over L.
+    """
+    edges = np.linspace(0.0, 1.0, elements + 1)
+    spread, load, h = np.zeros(elements), np.zeros(2 * elements + 2), 1.0 / elements
+    for payload in robot.carried:
+        begin, end = payload.stretch
+        weight = GRAVITY * payload.mass
+        if begin == end:
+            pieces = [(min(int(begin * elements), elements - 1), begin, begin, weight)]
+        else:
+            low, high = np.maximum(edges[:-1], begin), np.minimum(edges[1:], end)
+            parts = weight * np.maximum(high - low, 0.0) / (end - begin)
+            spread += parts / (h * robot.length)
+            pieces = list(zip(range(elements), low, high, parts.tolist(), strict=True))
+        for element, first, last, part in pieces:
+            for x, share in zip(_GAUSS_X, 0.5 * _GAUSS_W, strict=True):
+                t = (first + 0.5 * (1 + x) * (last - first)) / h - element
+                a, b = t * t * (3 - 2 * t), t * (1 - t) * h
+                shape = np.array([1 - a, b * (1 - t), a, -b * t])
+                load[2 * element : 2 * element + 4] -= share * part * shape
+    return spread, load
+
+
 def _solve(
-    rigidity: Array, curvature: Array, weight: float, start: Array
+    rigidity: Array, load: Array, weight: float, start: Array
 ) -> tuple[Array, Array, int, bool]:
     """Primal active set method from a feasible start (n+1, 2).
 
@@ -127,7 +161,7 @@ def _solve(
     A node is set free only at the minimum for the active nodes, so that the energy falls from one
     such minimum to the next and none comes back: the method cannot cycle.
     """
-    band, load = _stiffness(rigidity), _load(rigidity, curvature, weight)
+    band = _stiffness(rigidity)
     u = start.ravel().copy()
     active = u[0::2] <= 0.0
     for count in range(1, _EXCHANGES + 1):

@@ -65,6 +65,11 @@ class Chain:
         self.w = strip.weight_per_length * strip.length / self.unit
         self.weight = np.full(links + 1, self.w * self.h)
         self.weight[[0, -1]] *= 0.5
+        self.places_of_grains, grains = strip.grains()
+        self.grains = grains / self.unit
+        at = np.arange(links + 1) * self.h
+        for place, grain in zip(self.places_of_grains, self.grains, strict=True):
+            self.weight += grain * np.maximum(1.0 - np.abs(at - place) / self.h, 0.0)
         ends = np.cumsum(strip.segments) / np.sum(strip.segments)
         middles = (np.arange(2 * links) + 0.5) * 0.5 * self.h
         self.segment = np.minimum(np.searchsorted(ends, middles), len(ends) - 1)
@@ -135,19 +140,36 @@ class Chain:
         if run[0] == 0 and run[-1] == self.links:
             return 1.0
         if run[0] == 0:
-            return self._carried(push, s)
+            return self._carried(push, s, self.places_of_grains)
         if run[-1] == self.links:
-            return self._carried(push, 1.0 - s)
+            return self._carried(push, 1.0 - s, 1.0 - self.places_of_grains)
         middle = 0.5 * (s[0] + s[-1])
         part = np.where(s == middle, 0.5, 1.0) * push
         low, high = s <= middle, s >= middle
-        return (self._carried(part[low], middle - s[low])
-                + self._carried(part[high], s[high] - middle))  # fmt: skip
+        beyond = self.places_of_grains - middle
+        return (self._carried(part[low], middle - s[low], -beyond)
+                + self._carried(part[high], s[high] - middle, beyond))  # fmt: skip
 
-    def _carried(self, push: Array, arm: Array) -> float:
-        """xi of F = w xi + R and M = w xi^2 / 2 + R xi."""
+    def _carried(self, push: Array, arm: Array, grains: Array) -> float:
+        """xi of F = w xi + R and M = w xi^2 / 2 + R xi, with the payload's grains to F and M."""
         total, moment = push.sum(), push @ arm
+        if len(grains):
+            return self._laden(float(total), float(moment), grains)
         return float((total - np.sqrt(max(total**2 - 2 * self.w * moment, 0.0))) / self.w)
+
+    def _laden(self, total: float, moment: float, grains: Array) -> float:
+        """xi by halving: M - int (F - W) ds falls with it, up to where F = W."""
+        low, high = 0.0, 1.0
+        for _ in range(50):
+            xi = 0.5 * (low + high)
+            under = (grains >= 0) & (grains <= xi)
+            load = self.w * xi + self.grains[under].sum()
+            felt = total * xi - 0.5 * self.w * xi**2 - self.grains[under] @ (xi - grains[under])
+            if load > total or felt > moment:
+                high = xi
+            else:
+                low = xi
+        return low
 
     def path(self, before: State, begin: Array, end: Array, depth: int = 0) -> State:
         """The state at a pressure, by smaller steps where contacts change on the way."""

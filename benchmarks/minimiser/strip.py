@@ -30,6 +30,8 @@ class Strip:
     # begin and end over L, factors ahead and back, bound besides, segment that switches it or -1
     feet: tuple[tuple[float, float, float, float, float, int], ...] = ()
     peak: float = 1.0  # pressure at which feet are switched on [Pa]
+    # begin and end over L, weight [N]; alike for a point
+    payload: tuple[tuple[float, float, float], ...] = ()
 
     def bending(self, pressure: Array) -> tuple[Array, Array]:
         """D and natural curvature, equations (9) and (3)."""
@@ -59,3 +61,10 @@ class Strip:
             part = under.mean() * (end - begin) / (last - first) if end > begin else under.mean()
             hold += on * holds * float(part)
         return np.asarray(grip.mean(axis=1) * bound + hold)
+
+    def grains(self) -> tuple[Array, Array]:
+        """Places over L and weights [N] of many small parts of the payload."""
+        part = (np.arange(_PIECES) + 0.5) / _PIECES
+        places = [begin + (end - begin) * part for begin, end, _ in self.payload]
+        weights = [np.full(_PIECES, weight / _PIECES) for _, _, weight in self.payload]
+        return np.concatenate([np.zeros(0), *places]), np.concatenate([np.zeros(0), *weights])

@@ -1,7 +1,7 @@
 """Options of a command from the fields of a dataclass: their types, units and help."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import field, fields, make_dataclass
+from dataclasses import field, fields, is_dataclass, make_dataclass
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Optional, Union, get_args, get_origin, get_type_hints
 
@@ -74,7 +74,8 @@ def _shown(default: Any) -> str:
 
 
 def _plain(hint: Any) -> Any:
-    """Type without None, and text in place of a list."""
+    """Type without None, and text in place of a list or of a table."""
     parts = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
     parts = tuple(part for part in parts if part is not NoneType)
-    return str if any(get_origin(part) is tuple for part in parts) else Union[parts]  # noqa: UP007
+    text = any(get_origin(part) is tuple or is_dataclass(part) for part in parts)
+    return str if text else Union[parts]  # noqa: UP007

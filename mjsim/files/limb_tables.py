@@ -5,6 +5,8 @@
                 it, `at`, its "begin" or "end", `angle_deg` of its direction in plan, from the
                 ground's x to the left, `offset` to the left [m]; and fields of analytic.Robot of
                 its own over the shared ones: length, width, mass, segments, feet, ...
+[[robot.payload]] of a `limb`, the trunk if it names none: mass, begin, end; [robot.tether]
+                likewise: at, drag, mass
 
 A robot of one limb that points along x is a strip.
 """
@@ -16,12 +18,15 @@ from typing import Any
 
 from analytic.checks import one_of
 from analytic.scene.limbs import AnyRobot, Limb, LimbedRobot, quadruped
+from analytic.scene.payload import Payload
 from analytic.scene.robot import Robot
+from analytic.scene.tether import Tether
 from mjsim.files.actuator_files import make_robot
 from mjsim.files.typed import Table, as_number, make
 
 ROBOTS = ("quadruped",)
 KEYS = ("name", "limbs")  # of [robot], of such a robot alone
+_CARRIED = ("payload", "tether")  # of a limb that they name
 _PLACED = ("name", "on", "at", "angle_deg", "offset")  # of a limb, beside its strip
 _FIXED = {  # fields that the quadruped gives, and what to give in their place
     **dict.fromkeys(("length", "width", "mass", "weight_per_length", "segments"),
@@ -41,7 +46,8 @@ def of_limbs(table: Table) -> bool:
 
 def build_robot(table: Table, where: str = "") -> AnyRobot:
     """A robot by its name, or of limbs; of one that points along x, the strip that it is."""
-    shared = {key: value for key, value in table.items() if key not in ("name", "limbs")}
+    shared = {key: value for key, value in table.items() if key not in ("name", "limbs", *_CARRIED)}
+    carried = {key: table[key] for key in _CARRIED if key in table}
     if "limbs" not in table:
         one_of(f"{where}name", table["name"], ROBOTS)
         for key in _FIXED:
@@ -54,7 +60,7 @@ def build_robot(table: Table, where: str = "") -> AnyRobot:
                 f"[[robot.limbs]], got {len(curves)}"
             )
         base = make_robot(shared, where, of_segments=False)
-        return replace(quadruped(base), peak_pressure=base.peak_pressure)
+        return _loaded(replace(quadruped(base), peak_pressure=base.peak_pressure), carried, where)
     if "segments" in shared:
         raise ValueError(f"{where}segments are each limb's own, in [[robot.limbs]]")
     limbs = table["limbs"]
@@ -66,12 +72,42 @@ def build_robot(table: Table, where: str = "") -> AnyRobot:
         _limb(limb, shared, f"{where}limb {number}: ") for number, limb in enumerate(limbs, start=1)
     )
     try:
-        robot = LimbedRobot(built, peak)
+        robot = _loaded(LimbedRobot(built, peak), carried, where)
     except ValueError as error:
         raise ValueError(f"{where}{error}") from error
     if len(built) == 1 and built[0].angle == 0:
-        return replace(built[0].strip, peak_pressure=peak)
+        return replace(robot.limbs[0].strip, peak_pressure=peak)
     return robot
+
+
+def _loaded(robot: LimbedRobot, carried: Table, where: str) -> LimbedRobot:
+    """A robot whose limbs carry payloads and a tether, each of a limb it names or the trunk's.
+
+    Raises:
+        ValueError: one is no payload or tether, or of a limb that the robot has not.
+    """
+    payload, strips = carried.get("payload", ()), [limb.strip for limb in robot.limbs]
+    if not isinstance(payload, list | tuple):
+        raise ValueError(f"{where}payload must be tables, got {payload!r}")
+    for number, table in enumerate(payload, start=1):
+        name = f"{where}payload, number {number}: "
+        place, one = _on_limb(robot, table, name)
+        added = (*strips[place].payload, make(Payload, one, name))
+        strips[place] = replace(strips[place], payload=added)
+    if "tether" in carried:
+        place, one = _on_limb(robot, carried["tether"], f"{where}tether: ")
+        strips[place] = replace(strips[place], tether=make(Tether, one, f"{where}tether: "))
+    limbs = zip(robot.limbs, strips, strict=True)
+    return replace(robot, limbs=tuple(replace(limb, strip=strip) for limb, strip in limbs))
+
+
+def _on_limb(robot: LimbedRobot, table: Any, name: str) -> tuple[int, Table]:
+    """Place of the limb that a table names, and what else it says."""
+    if not isinstance(table, dict):
+        raise ValueError(f"{name}must be a table, got {table!r}")
+    one_of(f"{name}limb", table.get("limb", robot.names[0]), robot.names)
+    others = {key: value for key, value in table.items() if key != "limb"}
+    return robot.place(table.get("limb", robot.names[0])), others
 
 
 def _refuse_idle(shared: Table, limbs: list[Table], where: str) -> None:

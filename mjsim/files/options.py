@@ -1,6 +1,7 @@
 """Every field of a scene as an option of the command line."""
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Annotated, Any, Optional
@@ -129,6 +130,10 @@ def tables_of(options: SceneOptions) -> list[Tables]:
         robot["actuator"] = parts(robot["actuator"])
     if "feet" in robot:
         robot["feet"] = _feet(robot["feet"])
+    if "payload" in robot:
+        robot["payload"] = _payload(robot["payload"])
+    if "tether" in robot:
+        robot["tether"] = _tether(robot["tether"])
     if "ramp_time" in gait:
         gait["ramp_time"] = parts(gait["ramp_time"])
     if "columns" in gait:
@@ -161,17 +166,45 @@ def tables_of(options: SceneOptions) -> list[Tables]:
 
 def _feet(text: str) -> list[dict[str, Any]]:
     """Tables of feet: "0..0.1 grip_back=2, 1..1 hold=50 mN chamber=right"."""
+    example = "0..0.1 grip_back=2, 1..1 hold=50mN chamber=right"
     feet = []
-    for words in text.split(","):
-        place, *settings = re.split(r"\s+(?=\w+=)", words.strip())
+    for words, place, settings in _placed("feet", text, example):
         begin, dots, end = place.partition("..")
-        if not dots or not all("=" in setting for setting in settings):
-            raise ValueError(
-                f"robot.feet must be such as '0..0.1 grip_back=2, 1..1 hold=50mN chamber=right', "
-                f"got {words.strip()!r}"
-            )
-        feet.append({"begin": begin, "end": end, **dict(s.split("=", 1) for s in settings)})
+        if not dots:
+            raise _not_such("feet", example, words)
+        feet.append({"begin": begin, "end": end, **settings})
     return feet
+
+
+def _payload(text: str) -> list[dict[str, Any]]:
+    """Tables of payloads: "0.5 mass=5g, 0.2..0.4 mass=3g limb=torso"."""
+    payloads = []
+    for _, place, settings in _placed("payload", text, "0.5 mass=5g, 0.2..0.4 mass=3g"):
+        begin, dots, end = place.partition("..")
+        payloads.append({"begin": begin, **({"end": end} if dots else {}), **settings})
+    return payloads
+
+
+def _tether(text: str) -> dict[str, Any]:
+    """Table of a tether: "0 drag=5mN stiffness=1N/m mass=2g limb=torso"."""
+    example = "0 drag=5mN stiffness=1N/m mass=2g"
+    tables = [{"at": place, **settings} for _, place, settings in _placed("tether", text, example)]
+    if len(tables) > 1:
+        raise _not_such("tether", example, text)
+    return tables[0]
+
+
+def _placed(field: str, text: str, example: str) -> Iterator[tuple[str, str, dict[str, str]]]:
+    """Words, place and settings of each part of a list of things on a robot."""
+    for words in map(str.strip, text.split(",")):
+        place, *settings = re.split(r"\s+(?=\w+=)", words)
+        if not place or "=" in place or not all("=" in setting for setting in settings):
+            raise _not_such(field, example, words)
+        yield words, place, dict(s.split("=", 1) for s in settings)
+
+
+def _not_such(field: str, example: str, words: str) -> ValueError:
+    return ValueError(f"robot.{field} must be such as {example!r}, got {words!r}")
 
 
 def _stages(text: str) -> tuple[tuple[float, ...], ...]:

@@ -76,6 +76,12 @@ def as_type(hint: Any, value: Any, name: str, unit: str | None = None) -> Any:
             return value
         if option in (str, bool) and isinstance(value, option):
             return value
+        if (
+            isinstance(option, type)
+            and is_dataclass(option)
+            and isinstance(value, option | Mapping)
+        ):
+            return _record(option, value, name)
         if get_origin(option) is tuple and isinstance(value, list | tuple):
             inner = get_args(option)[0]
             if isinstance(inner, type) and is_dataclass(inner):
@@ -102,7 +108,8 @@ def _record(kind: type[Kind], value: Any, name: str) -> Kind:
 
 def _described(options: tuple[Any, ...]) -> str:
     words = {float: "a number", int: "a whole number", str: "a word", bool: "true or false"}
-    return " or ".join(words.get(o, "a list") for o in options if o is not NoneType)
+    tables = {o: "a table" for o in options if is_dataclass(o)}
+    return " or ".join((words | tables).get(o, "a list") for o in options if o is not NoneType)
 
 
 def as_number(value: Any, name: str, unit: str) -> float:

@@ -116,7 +116,7 @@ def value_of(base: Tables, name: str) -> float | None:
         if value is None and key in base.get("robot", {}):  # and was turned into another at once
             value = in_unit(name, str(base["robot"][key]), unit_of(name))
         elif key == "mass" and value is None:
-            value = whole.weight / GRAVITY
+            value = whole.weight / GRAVITY - whole.payload_mass
     elif table == "valves":
         value = getattr(make(Valves, base.get("valves", {}), "[valves] "), key)
     else:
@@ -190,7 +190,7 @@ def check_free(name: str, option: str = "free") -> None:
         )
     if name == "robot.actuator":
         raise ValueError("robot.actuator must be fitted alone, from a bench's files")
-    if key in ("segments", "material", "feet", "nap"):
+    if key in ("segments", "material", "feet", "payload", "tether", "nap"):
         raise ValueError(f"{option}: {name} is no number")
 
 

@@ -13,9 +13,9 @@ import mujoco
 from analytic.friction.contacts import ContactFinder, StripContact
 from analytic.friction.dissipation import minimisers
 from analytic.scene.chain import node_positions
-from mjsim.friction.traction import BoundedFriction, ContactFriction
+from mjsim.friction.traction import BoundedEnds, BoundedFriction, ContactFriction
 from mjsim.model.pads import pads_by_node
-from mjsim.model.parts import PREFIX, tendon_names
+from mjsim.model.parts import NO_BOUND, PREFIX, TETHER, tendon_names
 from mjsim.scene import Resolved, Scene
 
 _APART = 1e12  # divisor of a pulley that takes a node out of the mean
@@ -24,6 +24,12 @@ _APART = 1e12  # divisor of a pulley that takes a node out of the mean
 def node_tendons(model: mujoco.MjModel, nodes: int) -> list[int]:
     """Tendons that carry the friction of the nodes, left first."""
     return [model.tendon(PREFIX + name).id for name in tendon_names(nodes)]
+
+
+def tether_tendons(scene: Scene, model: mujoco.MjModel) -> list[int]:
+    """The tendon of a tether that resists, if there is one."""
+    tether = scene.strip.tether
+    return [model.tendon(PREFIX + TETHER).id] if tether and tether.resists else []
 
 
 class AnchoredContacts:
@@ -66,6 +72,47 @@ class AnchoredContacts:
         return min(max(mean, -high), -low)
 
 
+class TetheredEnds(BoundedEnds):
+    """Bounds of the two ends beside those of a tether; `left_slip` is NaN, as three share it.
+
+    A tether decides between ends that resist alike, so no friction on their mean does.
+    """
+
+    def __init__(
+        self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
+    ) -> None:
+        super().__init__(scene, numerics, model, data)
+        self._anchors, self._tied = AnchoredContacts(data), False
+        self._resisting = [self._left, self._right]
+        self._tether = tether_tendons(scene, model)
+        self._anchors.contacts = [*self._resisting, *self._tether]
+        self._sprung = bool(model.tendon_stiffness[self._tether].any())
+
+    def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
+        """See StripFriction.before_step."""
+        super().before_step(slopes, left, right)
+        self.left_slip, anchors = math.nan, self._anchors
+        self._bounds[self._both] = 0.0
+        bounds = self._bounds[self._resisting].tolist()
+        ahead, back = bounds, None
+        drags = self._bounds[self._tether].tolist()
+        if self._lean:
+            ahead, back = self._lean.both_ways(self._resisting, bounds)
+            back = [*back, *drags]
+        anchors.bounds, anchors.back = [*ahead, *drags], back
+        speeds = [
+            abs(self._rate.item(tendon)) if bound else math.inf
+            for tendon, bound in zip(anchors.contacts, [*bounds, *drags], strict=True)
+        ]
+        anchors.anchored = [anchors.contacts[speeds.index(min(speeds))]]
+
+    def after_step(self, dt: float) -> float:
+        """See StripFriction.after_step."""
+        if not (self._by_speed or self._sprung):
+            self.drift = self._anchors.drift()
+        return self._anchors.after_step(dt)
+
+
 class ContactFrictionEverywhere(ContactFriction):
     """Coulomb friction of a strip that may be anchored between its ends; `left_slip` is NaN."""
 
@@ -76,22 +123,36 @@ class ContactFrictionEverywhere(ContactFriction):
         self._tendons = node_tendons(model, numerics.links + 2)
         self._anchors = AnchoredContacts(data)
         self._geoms = pads_by_node(model)[:, 0].tolist()
+        self._arclength = node_positions(scene.strip, numerics.links)
+        press = scene.ground.at(0.0).press(scene.strip.width)
+        self._finder = ContactFinder(scene.strip, self._arclength, scene.roughness, press)
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
         """See StripFriction.before_step."""
         super().before_step(slopes, left, right)
         self.left_slip = float("nan")
-        force, _ = self._forces.by_node()
+        force, height = self._forces.by_node()
+        if self.grip.holds:
+            self._hold_contacts(force, height)
         pushed = [node for node, push in enumerate(force) if push > 0.0]
         anchors = self._anchors
         anchors.contacts = [self._tendons[node] for node in pushed]
         anchors.bounds = [
-            force[node] * self._friction.item(self._geoms[node], 0) for node in pushed
-        ]
+            force[node] * self._friction.item(self._geoms[node], 0)
+            + self._bounds.item(self._tendons[node]) for node in pushed
+        ]  # fmt: skip
         if self._lean:
             anchors.bounds, anchors.back = self._lean.both_ways(anchors.contacts, anchors.bounds)
         rates = [abs(self._rate.item(tendon)) for tendon in anchors.contacts]
         anchors.anchored = [anchors.contacts[rates.index(min(rates))]] if pushed else []
+
+    def _hold_contacts(self, force: list[float], height: list[float]) -> None:
+        """Set what feet hold each contact by, at one node of it."""
+        self._bounds[self._tendons] = NO_BOUND
+        lengths = self.contact_left, self.contact_right
+        for contact in self._finder.find(force, height, lengths):
+            hold = self._hold(*contact.extent(self._arclength))
+            self._bounds[self._tendons[_middle(contact)]] = max(hold, NO_BOUND)
 
     def after_step(self, dt: float) -> float:
         """See StripFriction.after_step."""
@@ -118,6 +179,9 @@ class BoundedContacts(BoundedFriction):
         begin = model.tendon_adr[self._both]
         self._divisors = model.wrap_prm[begin : begin + model.tendon_num[self._both] : 3]
         self._anchors = AnchoredContacts(data)
+        self._tether = tether_tendons(scene, model)
+        self._drags: list[float] = self._bounds[self._tether].tolist()
+        self._sprung = bool(model.tendon_stiffness[self._tether].any())
 
     def before_step(self, slopes: tuple[float, float], left: bool, right: bool) -> None:
         """See StripFriction.before_step."""
@@ -146,11 +210,14 @@ class BoundedContacts(BoundedFriction):
             self._bounds[tendon] = bound
         self._resisting = [*tendons, self._both]
         ahead, back = self._lean.both_ways(tendons, bounds) if self._lean else (bounds, None)
+        if self._tether:
+            tendons, bounds = [*tendons, *self._tether], [*bounds, *self._drags]
+            ahead, back = [*ahead, *self._drags], back and [*back, *self._drags]
         self._anchors.contacts, self._anchors.bounds, self._anchors.back = tendons, ahead, back
         rates = [self._rate.item(tendon) for tendon in tendons]
         low, high = minimisers(ahead, rates, back)
         viscous = self._by_speed and any(self._drag[tendon] for tendon in tendons)
-        if high > low and self._level and not viscous:
+        if high > low and self._level and not (viscous or self._tether):
             self._anchor_undecided(nodes, rates, low, high)
         else:
             speeds = [abs(v) if bound else math.inf for v, bound in zip(rates, bounds, strict=True)]
@@ -158,7 +225,7 @@ class BoundedContacts(BoundedFriction):
 
     def after_step(self, dt: float) -> float:
         """See StripFriction.after_step."""
-        if not self._by_speed:
+        if not (self._by_speed or self._sprung):
             self.drift = self._anchors.drift()
         return self._anchors.after_step(dt)
 

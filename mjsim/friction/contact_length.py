@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_length
+from analytic.friction.flat_load import FlatLoad, LoadFrom
 from analytic.scene.chain import node_positions
 from mjsim.model.pads import node_of_geom, pads_by_node
 from mjsim.scene import Resolved, Scene
@@ -32,7 +32,7 @@ class ContactForces:
         self._model, self._data, self._radius = model, data, numerics.pad_radius
         robot = scene.strip
         self._length = robot.length
-        self._weight = robot.weight_per_length + scene.ground.at(0.0).press(robot.width)
+        self._load = FlatLoad(robot, scene.ground.at(0.0).press(robot.width))
         arclength = node_positions(scene.strip, numerics.links)
         self._least = float(arclength[1])  # the first link lies flat as a whole
         pads = pads_by_node(model)
@@ -58,16 +58,16 @@ class ContactForces:
             return half * left, half * right
         (force_left, moment_left), (force_right, moment_right) = ends
         return (
-            self._length_of(force_left, moment_left) if left else 0.0,
-            self._length_of(force_right, moment_right) if right else 0.0,
+            self._length_of(self._load.from_begin, force_left, moment_left) if left else 0.0,
+            self._length_of(self._load.from_end, force_right, moment_right) if right else 0.0,
         )
 
     def loads(self) -> tuple[float, float]:
-        """Normal force on the left and the right part of the strip [N]; half each lying flat."""
+        """Normal force on the left and the right part of the strip [N]; halves lying flat."""
         ends = self._sums()
         if ends is None:
-            half = 0.5 * self._weight * self._length
-            return half, half
+            half = 0.5 * self._length
+            return self._load.from_begin.of(half), self._load.from_end.of(half)
         return ends[0][0], ends[1][0]
 
     def by_node(self) -> tuple[list[float], list[float]]:
@@ -77,8 +77,8 @@ class ContactForces:
             force[self._node[geom]] += push
         return force, (self._pad_heights() - self._radius).tolist()
 
-    def _length_of(self, force: float, moment: float) -> float:
-        return max(flat_length(self._weight, force, moment), self._least)
+    def _length_of(self, load: LoadFrom, force: float, moment: float) -> float:
+        return max(load.length(force, moment), self._least)
 
     def _sums(self) -> tuple[tuple[float, float], tuple[float, float]] | None:
         """Force and moment about its end of either part; None if no pad is in the air."""

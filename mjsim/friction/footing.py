@@ -7,8 +7,13 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_pressures
-from mjsim.friction.between_ends import BoundedContacts, ContactFrictionEverywhere
+from analytic.friction.contact_length import end_flat_pressures
+from mjsim.friction.between_ends import (
+    BoundedContacts,
+    ContactFrictionEverywhere,
+    TetheredEnds,
+    tether_tendons,
+)
 from mjsim.friction.ceiling import CeilingPush
 from mjsim.friction.in_plane import LimbFooting
 from mjsim.friction.traction import BoundedEnds, ContactFriction
@@ -70,7 +75,7 @@ class StripFooting:
     ) -> None:  # fmt: skip
         by_load, bounded = (
             (ContactFrictionEverywhere, BoundedContacts) if scene.between
-            else (ContactFriction, BoundedEnds)
+            else (ContactFriction, TetheredEnds if tether_tendons(scene, model) else BoundedEnds)
         )  # fmt: skip
         law = by_load if scene.friction == "coulomb" else bounded
         self._law = law(scene, numerics, model, data)
@@ -78,7 +83,7 @@ class StripFooting:
         self.columns = (*_COLUMNS, *self._ceiling.columns)
         self._slopes, self._shift, self._dt = joints.slopes, joints.shift, numerics.timestep
         self._before, self._after = self._law.before_step, self._law.after_step
-        self._flat = flat_pressures(scene.robot, scene.ground.at(0.0))[[0, -1]]
+        self._flat = end_flat_pressures(scene.strip, scene.ground.at(0.0))
         self._lengths = data.ten_length
         pads = pads_by_node(model)
         self._feet = int(pads[0, 0]), int(pads[-1, 0])

@@ -20,7 +20,7 @@ from analytic.friction.dissipation_in_plane import nap_of
 from analytic.scene.chain import link_lengths
 from analytic.scene.surface import Surface, Way
 from analytic.solvers.limbs.contact_search import parts_of
-from analytic.solvers.limbs.contact_state import Contact
+from analytic.solvers.limbs.contact_state import TETHER, Contact
 from analytic.solvers.limbs.contacts import Contacts, axes_of
 from analytic.solvers.limbs.kinematics import Tree
 from mjsim.friction.ceiling import CeilingPush
@@ -118,7 +118,8 @@ class LimbFooting:
             offsets.append(at - starts[link])
             radii.append(self._finder.radius(contact))
         if numbers != rows.numbers:
-            self._touching = float(len({contact.limb for contact in self.contacts}))
+            touching = {contact.limb for contact in self.contacts if contact.part != TETHER}
+            self._touching = float(len(touching))
         rows.move_to(numbers, bodies, offsets)
         rows.slip(radii)
         if self._round:

@@ -111,6 +111,10 @@ class ContactRecorder:
             mujoco.mj_contactForce(self._model, self._data, i, self._six)
             normal[node] += self._six[0]
             friction[node] += self._six[1] * frame[3] + self._six[2] * frame[6]
+        data = self._data
+        dry = np.flatnonzero(data.efc_type == _TENDON)  # what feet hold by
+        nodes = self._node_of_tendon[data.efc_id[dry]]
+        np.add.at(friction, nodes[nodes >= 0], data.efc_force[dry[nodes >= 0]])
         if self._lean:
             forces, tendons = self._lean.forces(), np.flatnonzero(self._node_of_tendon >= 0)
             friction[self._node_of_tendon[tendons]] += forces[tendons]

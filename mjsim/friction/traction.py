@@ -202,7 +202,8 @@ class ContactFriction(StripFriction):
 
     The outermost ones have the coefficient of a tip, or of a side while the end lies on it; the
     others that of a side. On ground that changes along x each has that of its place; on ground that
-    resists otherwise back than ahead the mean of both, and a force by its load besides.
+    resists otherwise back than ahead the mean of both, and a force by its load besides. What feet
+    hold by whatever the load is dry friction of the ends' tendons.
     """
 
     def __init__(
@@ -219,6 +220,7 @@ class ContactFriction(StripFriction):
             pad: place for row, place in zip(pads.tolist(), places, strict=True) for pad in row
         }
         self._sides: tuple[bool, bool] | None = (False, False)
+        self._length, self._bounds = scene.strip.length, model.tendon_frictionloss
         self._lean = None
         if not self.grip.is_round(scene.ground):
             self._lean, self._sides = Lean(model), None
@@ -234,7 +236,15 @@ class ContactFriction(StripFriction):
             self._set_friction(sides)
         if self._lean:
             self._lean_by_load(sides)
+        if self.grip.holds:
+            whole = self._length
+            self._bounds[self._left] = self._hold(0.0, self.contact_left)
+            self._bounds[self._right] = self._hold(whole - self.contact_right, whole)
         self._see_which_end_moves()
+
+    def _hold(self, begin: float, end: float) -> float:
+        """Bound that feet hold a contact by, whatever its load, between two arclengths [N]."""
+        return float(self.grip.over("ahead", (begin, end), self.pressures)[1])
 
     def _set_friction(self, sides: tuple[bool, bool]) -> None:
         for pads, on_side in zip(self._pads, sides, strict=True):

@@ -3,6 +3,7 @@
 import mujoco
 import numpy as np
 
+from analytic.scene.feet import drops
 from mjsim.files.assets import BARE
 from mjsim.model.ceiling import add_ceiling
 from mjsim.model.limbs import tree_spec
@@ -40,7 +41,7 @@ def on_ground(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> mujoco.M
     body = registry.find(scene.body)
     body.check(scene, numerics)
     set_options(spec, scene, numerics)
-    height = start_height(scene.strip.length, numerics)
+    height = start_height(scene.strip.length, numerics) + max(drops(scene.strip.feet))
     strip = body.spec(scene, numerics)
     for item in (*strip.worldbody.bodies, *strip.worldbody.sites):
         # not by a frame, which dm_control does not read

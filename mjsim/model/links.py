@@ -2,16 +2,20 @@
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from analytic.scene.chain import (
     joint_springs,
     link_lengths,
+    payload_moments,
     torsion_stiffness,
     twisting_links,
 )
-from analytic.scene.robot import Robot
+from analytic.scene.robot import GRAVITY, Robot
 from mjsim.model.parts import ORIGIN, Node
 from mjsim.scene import Resolved, Scene
+
+Array = NDArray[np.float64]
 
 UP = (0, -1, 0)  # axis about which a positive angle turns x towards z
 
@@ -43,6 +47,7 @@ def add_links(
     lengths = link_lengths(strip, numerics.links).tolist()
     stiffness, rest = joint_springs(strip, numerics.links, np.zeros((1, len(strip.segments))))
     twisting = twisting_links(numerics.links, numerics.twists) if twists else ()
+    carried = payload_moments(strip, numerics.links) * (GRAVITY / scene.gravity)
     nodes: list[Node] = []
     body, begin = parent, 0.0
     for i, length in enumerate(lengths):
@@ -56,11 +61,28 @@ def add_links(
             joint = body.add_joint(name=f"{names[1]}{i}", type=joint_type, axis=UP)
             joint.springref, joint.stiffness[0] = rest[0, i - 1], stiffness[0, i - 1]
             joint.damping[0] = numerics.damping_time * stiffness[0, i - 1]
-        mass = strip.weight_per_length / scene.gravity * length
-        across, along = mass * width**2 / 12, mass * length**2 / 12
-        body.explicitinertial, body.mass, body.ipos = True, mass, (length / 2, 0.0, 0.0)
+        mass, middle = strip.weight_per_length / scene.gravity * length, length / 2
+        along = mass * length**2 / 12
+        if strip.carried:
+            mass, middle, along = _with_payload(mass, length, carried[i])
+        across = mass * width**2 / 12
+        body.explicitinertial, body.mass, body.ipos = True, mass, (middle, 0.0, 0.0)
         # a plate without thickness; or a rod that turns alike about all axes
         body.inertia = (across, along, across + along) if width else [along] * 3
         nodes.append((body, ORIGIN))
         begin = length
     return [*nodes, (body, (begin, 0.0, 0.0))]
+
+
+def _with_payload(mass: float, length: float, carried: Array) -> tuple[float, float, float]:
+    """Mass [kg], place of its middle [m] and moment of inertia about it [kg m^2], of a rod.
+
+    Args:
+        mass, length: of the rod alone.
+        carried: moments of the payload on it, see analytic.scene.payload, (3,) [kg].
+    """
+    rod = mass * np.array([1 / 3, 1 / 6, 1 / 3])
+    at_begin, between, at_end = (rod + carried).tolist()
+    whole = at_begin + 2 * between + at_end
+    middle = (between + at_end) / whole
+    return whole, middle * length, (at_end - whole * middle**2) * length**2

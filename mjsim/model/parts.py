@@ -3,7 +3,8 @@
 Under bounds of their own, the friction of the two ends is carried by spatial tendons to a far fixed
 site: `left` and `right` along each end, and `both` along their mean; see mjsim.friction. Where it
 acts between the ends too there is one for each node, and `both` is the mean of those in contact.
-Under Coulomb friction it is MuJoCo's own contact friction, and the tendons only measure. Where the
+Under Coulomb friction it is MuJoCo's own contact friction, and the tendons only measure, or carry
+what feet hold by besides. Where the
 ground resists otherwise back than ahead each has a spring besides, so long that it pulls alike
 wherever the robot is: see mjsim.friction.lean.
 """
@@ -14,10 +15,12 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from analytic.friction.contacts import of_tether
 from analytic.friction.grip import Grip
 from analytic.friction.laws import LAWS
 from analytic.scene import pneunet
-from analytic.scene.chain import link_lengths
+from analytic.scene.chain import link_lengths, node_positions
+from analytic.scene.feet import drops
 from analytic.scene.robot import Robot
 from mjsim.scene import Resolved, Scene
 
@@ -26,6 +29,7 @@ FAR = 100.0  # m; a line to a point this far is horizontal to 1 part in 1e6
 _FARTHER = 1e4  # m; a walk of 0.1 m changes the distance to there by 1e-6 m
 NO_BOUND = 1e-12  # N; without any bound a tendon would get no row to be given one
 TENDONS = ("left", "right", "both")
+TETHER = "tether"
 TOUCH = 1e-6  # how deep the robot starts in the ground, over L: a contact at 0 is not seen; chosen
 PREFIX = "robot_"  # of the strip's names once it is on its ground
 TEMPLATE = Path(__file__).with_name("strip.xml")
@@ -90,7 +94,9 @@ def add_pads(
 ) -> None:
     """Contact pads of one node, side by side at places in its body's frame [m]."""
     coulomb = scene.friction == "coulomb"
-    for i, place in enumerate(places):
+    below = {0: drops(scene.strip.feet)[0], numerics.links + 1: drops(scene.strip.feet)[1]}
+    for i, (x, y, z) in enumerate(places):
+        place = x, y, z - below.get(node, 0.0)
         pad = add_pad(body, f"pad_{node}" + (f"_{i}" if i else ""), place, numerics)
         pad.condim = 3 if coulomb else 1
         pad.solref[:], pad.solimp[:3] = contact_softness(scene, numerics)
@@ -138,9 +144,9 @@ def add_ends(spec: mujoco.MjSpec, scene: Scene, nodes: Sequence[Node]) -> None:
     names = ["end_left", *(f"node_{node}" for node in range(1, len(nodes) - 1)), "end_right"]
     constant = scene.friction != "coulomb"
     tendons = tendon_names(len(nodes))
-    is_round = Grip(scene.strip, LAWS[scene.friction]).is_round(scene.ground)
-    everywhere = scene.between or (not constant and not is_round)
-    bound = NO_BOUND if constant else 0.0
+    grip = Grip(scene.strip, LAWS[scene.friction])
+    everywhere = scene.between or (not constant and not grip.is_round(scene.ground))
+    bound = NO_BOUND if constant or grip.holds else 0.0
     for name, (body, place) in zip(names, nodes, strict=True):
         if everywhere or name.startswith("end"):
             body.add_site(name=name, pos=place, size=[6e-4] * 3, group=4)
@@ -148,10 +154,27 @@ def add_ends(spec: mujoco.MjSpec, scene: Scene, nodes: Sequence[Node]) -> None:
     for end in (0, -1):
         _tie(spec, tendons[end], "far", [names[end]], bound)
     mean = names if everywhere and constant else [names[0], names[-1]]
-    _tie(spec, TENDONS[2], "far", mean, bound)
+    _tie(spec, TENDONS[2], "far", mean, bound if constant else 0.0)
     if everywhere:
         for name, tendon in zip(names[1:-1], tendons[1:-1], strict=True):
             _tie(spec, tendon, "far", [name], bound)
+    _add_tether(spec, scene, nodes)
+
+
+def _add_tether(spec: mujoco.MjSpec, scene: Scene, nodes: Sequence[Node]) -> None:
+    """Tie the place of a tether to the far site by its drag and its spring, if it has one."""
+    for contact in of_tether(scene.strip, node_positions(scene.strip, len(nodes) - 2)):
+        tether, tied = scene.strip.tether, friction_tendon(spec, TETHER, contact.drag or 0.0)
+        assert tether
+        for node, share in zip(contact.nodes, contact.share, strict=True):
+            body, place = nodes[node]
+            name = f"{TETHER}_{node}"
+            body.add_site(name=name, pos=place, size=[6e-4] * 3, group=4)
+            tied.wrap_pulley(1.0 / share)
+            tied.wrap_site("far")
+            tied.wrap_site(name)
+        tied.width, tied.stiffness[0] = 2e-4, tether.stiffness
+        tied.springlength = [FAR + tether.at * scene.strip.length] * 2
 
 
 def tendon_names(nodes: int) -> list[str]:

@@ -17,7 +17,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.scene.chain import joint_springs, link_lengths, node_positions
+from analytic.scene.chain import joint_springs, link_lengths, node_positions, payload_on_nodes
 from mjsim.model import parts
 from mjsim.model.body import Joints
 from mjsim.scene import Resolved, Scene
@@ -43,6 +43,7 @@ class Rod:
         spec = parts.template()
         half = 0.5 * robot.weight_per_length / scene.gravity * link_lengths(robot, links)
         mass = np.concatenate([[0.0], half]) + np.concatenate([half, [0.0]])
+        mass += payload_on_nodes(robot, links) / scene.gravity
         bodies = []
         for i, x in enumerate(node_positions(robot, links).tolist()):
             body = spec.worldbody.add_body(name=f"rod_{i}", pos=(x, 0, 0))

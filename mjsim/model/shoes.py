@@ -138,7 +138,8 @@ def add_shoes(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
     widest = surface.shear_strength * strip.width * strip.length / len(strip.segments)
     for name in ENDS:
         spec.tendon(PREFIX + name).frictionloss = 0.0
-    spec.tendon(PREFIX + TENDONS[2]).frictionloss = _TIE * max(surface.tip_force, widest)
+    tied = 0.0 if strip.tether and strip.tether.resists else _TIE
+    spec.tendon(PREFIX + TENDONS[2]).frictionloss = tied * max(surface.tip_force, widest)
     side, tip = (
         surface.shear_strength * strip.width,
         surface.tip_force / (_TAKES_OVER * strip.length),

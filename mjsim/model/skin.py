@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.chain import link_lengths, node_positions
+from analytic.scene.payload import place_on_link
 from analytic.scene.robot import Robot
 from mjsim.model.parts import ORIGIN, PALE, PREFIX
 from mjsim.scene import Resolved
@@ -19,9 +20,12 @@ PALE_SKIN = (*PALE, 1.0)
 CELLS = 6  # pneu-net chambers drawn per segment; chosen, the theory needs only their fraction
 PER_CELL = 8  # stations along a cell
 _CORNER = 5  # points round each upper corner
-_POINT = 0.04  # of the length, of a foot that is a point; chosen
+_POINT = 0.04  # of the length, of a foot or a payload that is a point; chosen
 _RUST = (0.60, 0.28, 0.12, 1.0)  # colour of feet, unlike any pressure's
+_STEEL = (0.45, 0.50, 0.58, 1.0)  # and of payloads
 _RIM, _WIDER = 0.5, 1.04  # of feet, over the layer's thickness and width; chosen
+_HIGH = 0.15  # of payloads, over the width; chosen
+_TUBE, _TALL = 0.04, 0.4  # of tethers: radius and half of the height drawn, over the width; chosen
 
 
 class Skin(NamedTuple):
@@ -74,34 +78,50 @@ def add_strip_skins(
         skin.bindquat = np.ravel([half] * len(shape.bones))
         skin.vertid = [moved.tolist() for _, moved, _ in shape.bones]
         skin.vertweight = [weight.tolist() for _, _, weight in shape.bones]
-    _add_feet(spec, strip, starts.tolist(), bodies, numerics.pad_radius)
+    for foot in strip.feet:
+        heights = -numerics.pad_radius - foot.drop, _RIM * strip.thickness
+        _add_blocks(spec, strip, starts.tolist(), bodies, (foot.begin, foot.end), heights, _RUST)
+    top = strip.flat_height
+    for payload in strip.payload:
+        heights = top, top + _HIGH * strip.width
+        _add_blocks(spec, strip, starts.tolist(), bodies, payload.stretch, heights, _STEEL)
+    if strip.tether:
+        link, part = place_on_link(starts, strip.tether.at * strip.length)
+        tube = spec.body(f"{bodies}{link}").add_geom(type=mujoco.mjtGeom.mjGEOM_CYLINDER)
+        tall = _TALL * strip.width
+        tube.pos = (part * float(starts[link + 1] - starts[link]), 0.0, top + tall)
+        tube.size[:2] = _TUBE * strip.width, tall
+        tube.contype = tube.conaffinity = 0
+        tube.mass, tube.rgba = 0.0, _STEEL
 
 
-def _add_feet(
-    spec: mujoco.MjSpec, strip: Robot, starts: list[float], bodies: str, below: float
-) -> None:
-    """Draw each foot as a block on every link that it is under; points a little longer.
+def _add_blocks(
+    spec: mujoco.MjSpec, strip: Robot, starts: list[float], bodies: str,
+    stretch: tuple[float, float], heights: tuple[float, float], colour: Sequence[float],
+) -> None:  # fmt: skip
+    """Draw a foot or a payload as a block on every link that it is on; points a little longer.
 
     Args:
         spec, strip, bodies: see add_strip_skins.
         starts: arclength of the links' ends, from the left, (N + 2,) [m].
-        below: how far the underside lies below the neutral line [m].
+        stretch: where it begins and ends, over the length [1].
+        heights: of its lower and upper side over the neutral line [m].
+        colour: of it.
     """
-    for foot in strip.feet:
-        begin, end = foot.begin * strip.length, foot.end * strip.length
-        if begin == end:
-            half = 0.5 * _POINT * strip.length
-            begin, end = begin - half, end + half
-        for link, (start, stop) in enumerate(pairwise(starts)):
-            low, high = max(begin, start), min(end, stop)
-            if high <= low:
-                continue
-            block = spec.body(f"{bodies}{link}").add_geom(type=mujoco.mjtGeom.mjGEOM_BOX)
-            up = _RIM * strip.thickness
-            block.pos = (0.5 * (low + high) - start, 0.0, 0.5 * (up - below))
-            block.size = (0.5 * (high - low), _WIDER * 0.5 * strip.width, 0.5 * (up + below))
-            block.contype = block.conaffinity = 0
-            block.mass, block.rgba = 0.0, _RUST
+    begin, end = (part * strip.length for part in stretch)
+    if begin == end:
+        half = 0.5 * _POINT * strip.length
+        begin, end = begin - half, end + half
+    for link, (start, stop) in enumerate(pairwise(starts)):
+        near, far = max(begin, start), min(end, stop)
+        if far <= near:
+            continue
+        block = spec.body(f"{bodies}{link}").add_geom(type=mujoco.mjtGeom.mjGEOM_BOX)
+        low, high = heights
+        block.pos = (0.5 * (near + far) - start, 0.0, 0.5 * (low + high))
+        block.size = (0.5 * (far - near), _WIDER * 0.5 * strip.width, 0.5 * (high - low))
+        block.contype = block.conaffinity = 0
+        block.mass, block.rgba = 0.0, colour
 
 
 def segment_skin(

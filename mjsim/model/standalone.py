@@ -44,6 +44,10 @@ def walking_scene(scene: Scene) -> Scene:
         raise ValueError(
             "a file that walks by itself is for robots without feet; this one has some"
         )
+    if scene.in_space and any(limb.strip.tether for limb in limbs_of(scene.robot)):
+        raise ValueError(
+            "a file that walks by itself is for robots of limbs without tether; this one has one"
+        )
     if not ground.friction and not ground.tip_friction:
         legs = [limb.strip for limb in limbs_of(scene.robot)[1:]]
         feet = len(legs) or 2 - scene.in_space

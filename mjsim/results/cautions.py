@@ -46,6 +46,7 @@ def cautions(walk: Trajectory, theory: Reference | None, row: dict[str, Any]) ->
     return [
         *above,
         *_coasting(walk.scene),
+        *_sprung(walk.scene),
         *between_ends(walk.scene),
         *_rough(walk.scene, theory.walk),
         *_later(walk.scene, theory.walk),
@@ -80,7 +81,16 @@ def tied(scene: Scene, prediction: Prediction, alike: float = 0.0) -> float:
     return exact if scene.friction == "coulomb" or ground.static_ratio > 1 else 0.0
 
 
+def _sprung(scene: Scene) -> list[str]:
+    """A note on a tether that pulls back."""
+    if scene.strip.tether is None or not scene.strip.tether.stiffness:
+        return []
+    return ["its tether pulls back to where it started: every cycle goes another distance"]
+
+
 def _near_ties(scene: Scene, prediction: Prediction) -> list[str]:
+    if scene.strip.tether and scene.strip.tether.resists:
+        return []  # which is one more bound, of a place that others do not share
     amount = tied(scene, prediction, NEARLY)
     if amount <= APART:
         return []
@@ -139,6 +149,8 @@ def _rough(scene: Scene, prediction: Prediction) -> list[str]:
     shapes, friction = prediction.shapes, scene.reference_friction
     if not scene.between or not isinstance(shapes, ContactShapes) or not scene.roughness:
         return []
+    if scene.strip.tether and scene.strip.tether.resists:
+        return []  # it has a part in the motion that shapes alone do not tell
     rougher = replace(friction, roughness=_ROUGHER * scene.roughness)
     smooth, rough = (motion(shapes, scene.ground, law)[0][-1] for law in (friction, rougher))
     change = float(rough - smooth) / (scene.strip.length * prediction.cycles)

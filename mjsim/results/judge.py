@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from analytic.scene.feet import drops
 from mjsim.results.status import END_HOPS, Status
 from mjsim.results.trajectory import Trajectory
 
@@ -24,7 +25,9 @@ def judge(walk: Trajectory, stopped: bool = False, unsettled: bool = False) -> T
         return replace(walk, status=_in_space(walk, stopped, unsettled))
     length = walk.scene.robot.length
     height = walk.line[..., 2]
-    ends, lowest = np.abs(height[:, [0, -1]]).max(axis=1), height.min(axis=1)
+    gap = height.copy()  # of an end on a foot that stands proud under that
+    gap[:, [0, -1]] -= drops(walk.scene.strip.feet)
+    ends, lowest = np.abs(gap[:, [0, -1]]).max(axis=1), gap.min(axis=1)
     hop = walk.numerics.hop * length
     fallen = np.flatnonzero(~((ends < END_HOPS * hop) & (lowest < hop)))
     if len(fallen) and not stopped:

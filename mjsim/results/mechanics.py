@@ -8,8 +8,16 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.scene.chain import element_lengths, joint_springs, link_lengths, sealed_springs
+from analytic.scene.chain import (
+    element_lengths,
+    joint_springs,
+    link_lengths,
+    payload_moments,
+    sealed_springs,
+)
 from analytic.scene.limbs import acting_pressures
+from analytic.scene.payload import mass_on_nodes
+from analytic.scene.robot import GRAVITY
 
 if TYPE_CHECKING:
     from mjsim.results.trajectory import Trajectory
@@ -80,22 +88,27 @@ def balance(walk: "Trajectory") -> Balance | None:
         return None
     scene, dt = walk.scene, walk.numerics.timestep
     weights = scene.strip.weight_per_length * link_lengths(scene.strip, walk.numerics.links)
+    payload = GRAVITY * payload_moments(scene.strip, walk.numerics.links)
+    laden = mass_on_nodes(payload)
     along, down = np.sin(scene.slope), np.cos(scene.slope)
     x, z = walk.nodes()
     tangent = np.arctan2(np.diff(z), np.diff(x))
     # on the part left of each link's middle, half of its own weight included
-    carried = np.cumsum(weights) - 0.5 * weights
+    carried = np.cumsum(weights) - 0.5 * weights + np.cumsum(laden)[:-1]
     pulled = np.cumsum(walk.forces.friction, axis=1)[:, :-1] - along * carried
     pushed = np.cumsum(walk.forces.normal, axis=1)[:, :-1] - down * carried
     velocity = np.diff(walk.line, axis=0, prepend=walk.line[:1]) / dt
     left, right = velocity[:, :-1], velocity[:, 1:]
     squares = (left * left + left * right + right * right).sum(axis=2) / 3  # of a thin rod
+    products = np.stack([left * left, 2 * left * right, right * right], axis=-1).sum(axis=2)
+    of_payload = (products * payload).sum(axis=(1, 2))
     middle = 0.5 * (walk.line[:, :-1] + walk.line[:, 1:])
     slipped = np.diff(x, axis=0)
     return Balance(
         tension=-(pulled * np.cos(tangent) + pushed * np.sin(tangent)),
-        potential=(middle[..., 2] * down + middle[..., 0] * along) @ weights,
-        kinetic=0.5 * squares @ weights / scene.gravity,
+        potential=(middle[..., 2] * down + middle[..., 0] * along) @ weights
+        + (walk.line[..., 2] * down + walk.line[..., 0] * along) @ laden,
+        kinetic=0.5 * (squares @ weights + of_payload) / scene.gravity,
         friction_loss=_since_start(-(walk.forces.friction[1:] * slipped).sum(axis=1)),
     )
 

@@ -204,7 +204,8 @@ def prediction(
 ) -> Prediction:
     """Prediction of a scene by a quasi-static solver.
 
-    Every cycle is walked where they differ from each other, else one; two where a gait starts
+    Every cycle is walked where they differ from each other, as over surfaces that change along x
+    or at a tether that pulls back, else one; two where a gait starts
     inflated, whose first cycle differs from those after.
 
     Args:
@@ -243,7 +244,8 @@ def _predicted(
     if isinstance(model, Elastica):
         model = Elastica(round(links(scene) * finer), scene.chamber)
     cycles = scene.cycles
-    if path is None and isinstance(scene.ground, Surface):
+    alike = not (scene.strip.tether and scene.strip.tether.stiffness)
+    if path is None and isinstance(scene.ground, Surface) and alike:
         cycles = 2 if scene.rise_time and scene.gait.repeats else 1
     return predict(
         scene.strip, scene.gait, scene.ground, model, round((states or STATES) * finer),

@@ -18,6 +18,7 @@ _DENSE = (10.0, 1e5)  # kg/m^3, mass over the volume of the strain-limiting laye
 _STIFF = (1e2, 1e12)  # Pa; gels to diamond
 _BENT = 5e-3  # rad, by which the whole strip bends at its peak pressure at least
 _STIFFENED = 100.0  # times its rigidity without pressure, at the peak
+_LADEN = 100.0  # times its own mass, that a robot carries
 _ROUNDING = 1e-6  # of a pressure in a file
 _DECADE = math.log(10.0)
 _BENDS = ("peak_pressure", "chamber_height")  # fields of which a meant one must bend the strip
@@ -48,8 +49,22 @@ def check_robot(robot: AnyRobot, given: Collection[str] = (), gravity: float = G
         if message:
             raise ValueError(f"{where}{message}")
         _check_measured(limb.strip, robot.peak_pressure, where)
+    _check_payload(robot)
     if isinstance(robot, Robot) and pneunet.turn_number(robot) < _BENT:
         raise ValueError(_unbent(robot, given))
+
+
+def _check_payload(robot: AnyRobot) -> None:
+    """Refuse a payload that no robot of this mass could carry."""
+    own = robot.weight / GRAVITY - robot.payload_mass
+    heaviest = max(
+        (payload.mass for limb in limbs_of(robot) for payload in limb.strip.payload), default=0.0
+    )
+    if heaviest <= _LADEN * own:
+        return
+    near = [words for words, scale in readings(heaviest, _MASSES) if heaviest * scale <= own]
+    raise ValueError(f"mass of a payload must be one that a robot of {own:.3g} kg carries, got "
+                     f"{heaviest:g} kg{asked(near[:1])}")  # fmt: skip
 
 
 def _check_measured(strip: Robot, peak_pressure: float, where: str) -> None:
@@ -118,7 +133,7 @@ def _wrong(strip: Robot, given: Collection[str], gravity: float) -> str | None:
     density = _density(strip, min(gravity, GRAVITY))  # a small weight may be that of little gravity
     if density < _DENSE[0] or _density(strip, GRAVITY) > _DENSE[1]:
         name = "weight_per_length" if "weight_per_length" in given else "mass"
-        mass = strip.weight / GRAVITY
+        mass = strip.weight / GRAVITY - strip.payload_mass
         near = [words for words, scale in readings(mass, _MASSES)
                 if _DENSE[0] <= _density(strip, GRAVITY) * scale <= _DENSE[1]]  # fmt: skip
         return (f"{name} must be that of a robot of this kind, got {mass:g} kg, "

@@ -13,7 +13,7 @@ from analytic.fields import in_si
 from analytic.friction.grip import Grip, check_feet_in_space
 from analytic.friction.laws import LAWS, ROUGHNESS, Friction
 from analytic.scene.chain import CHAMBER_LAWS
-from analytic.scene.feet import Foot, check_chambers
+from analytic.scene.feet import Foot, check_chambers, proud, refuse_proud
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.ground import (
     Incline,
@@ -27,6 +27,7 @@ from analytic.scene.limbs import (
     LimbedRobot,
     as_bent,
     chambers_by_limb,
+    check_tethers,
     limbs_of,
     quadruped,
     usual_twists,
@@ -165,6 +166,7 @@ class Scene:
         ways: tuple[Way, ...] = ("ahead", "back", "across") if self.in_space else ("ahead", "back")
         surfaces = [s.against(way) for s in surfaces_of(self.ground) for way in ways]
         holds = any(foot.hold for foot in feet)
+        holds |= any(limb.strip.tether for limb in limbs_of(self.robot))
         if not holds and not any(acts(surface) or surface.viscosity for surface in surfaces):
             acting = [law for law in _LAWS if any(map(LAWS[law].acts_on, surfaces))]
             hint = "".join(f"add friction = {law!r}, or --friction {law}; or " for law in acting)
@@ -186,15 +188,16 @@ class Scene:
         """Feet of all limbs.
 
         Raises:
-            ValueError: one is switched by no chamber of the robot, or holds under friction by load.
+            ValueError: one is switched by no chamber of the robot.
         """
         feet = [foot for limb in limbs_of(self.robot) for foot in limb.strip.feet]
         check_chambers(feet, self.robot.chambers)
-        holds = max((foot.hold for foot in feet), default=0.0)
-        if holds and self.friction == "coulomb":
-            raise ValueError(
-                f"feet must have no hold under friction coulomb, by load alone, got {holds:g} N"
-            )
+        if not self.between:
+            refuse_proud(feet, "friction at the ends alone")
+        if self.friction == "coulomb":
+            refuse_proud(feet, "friction by load")
+        if self.ground.at(0.0).adhesion:
+            refuse_proud(feet, "adhesive ground")
         return feet
 
     def _check_limbs(self) -> None:
@@ -213,6 +216,8 @@ class Scene:
             raise ValueError("chamber of a robot of limbs cannot be sealed, which is of strips")
         check_for_limbs(self.ground)
         check_feet_in_space(self.robot, self.ground)
+        if isinstance(self.robot, LimbedRobot):
+            check_tethers(self.robot)
 
     @property
     def in_space(self) -> bool:
@@ -238,7 +243,8 @@ class Scene:
         """Tell whether friction acts between the ends of a strip, or at all contacts of limbs."""
         if self.in_space:
             return True
-        return self.contacts == "all" or (self.contacts == "auto" and self.lies_between)
+        lies = self.contacts == "auto" and (proud(self.strip.feet) or self.lies_between)
+        return self.contacts == "all" or lies
 
     @property
     def lies_between(self) -> bool:

@@ -11,7 +11,7 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_length
+from analytic.friction.flat_load import flat_length
 from analytic.friction.laws import slip_fraction
 from analytic.scene.chain import node_positions
 from mjsim.model.pads import pads_by_node

@@ -47,6 +47,10 @@ def refusal(scene: Scene) -> str | None:
         return "ground must resist alike in all directions"
     if scene.strip.feet:
         return "the strip must have no feet"
+    if scene.strip.payload:
+        return "the strip must have no payload"
+    if scene.strip.tether:
+        return "the strip must have no tether"
     return None
 
 

@@ -4,6 +4,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.scene.feet import proud
 from mjsim.model.pads import Pads, pads_of
 from mjsim.scene import Resolved, Scene
 
@@ -17,13 +18,24 @@ def positions(model: mujoco.MjModel, scene: Scene, numerics: Resolved, coordinat
     for state, place in zip(coordinates, position, strict=True):
         data.qpos[:] = state
         mujoco.mj_kinematics(model, data)
-        place[:] = data.geom_xpos[pads]
+        place[:] = _on_line(model, data, pads, scene)
     return _above_rest(position.mean(axis=3), numerics)
 
 
-def nodes_of(data: mujoco.MjData, pads: Pads, numerics: Resolved) -> Array:
+def _on_line(model: mujoco.MjModel, data: mujoco.MjData, pads: Pads, scene: Scene) -> Array:
+    """Places of the pads, those of feet that stand proud moved up to the neutral line."""
+    places = data.geom_xpos[pads]
+    if not (scene.in_space or not proud(scene.strip.feet)):
+        up = data.geom_xmat[pads][..., [2, 5, 8]]
+        places = places - model.geom_pos[pads][..., 2:] * up
+    return np.asarray(places)
+
+
+def nodes_of(
+    model: mujoco.MjModel, data: mujoco.MjData, pads: Pads, scene: Scene, numerics: Resolved
+) -> Array:
     """Vertices of the neutral lines in a state whose kinematics are done, (L, N + 2, 3) [m]."""
-    return _above_rest(data.geom_xpos[pads].mean(axis=2), numerics)
+    return _above_rest(_on_line(model, data, pads, scene).mean(axis=2), numerics)
 
 
 def _above_rest(position: Array, numerics: Resolved) -> Array:

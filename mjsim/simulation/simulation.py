@@ -262,7 +262,7 @@ class Simulation(Copied):
             data = mujoco.MjData(self.model)
             data.qpos[:] = self.data.qpos
         mujoco.mj_kinematics(self.model, data)
-        return nodes_of(data, self._pads, self.numerics)
+        return nodes_of(self.model, data, self._pads, self.scene, self.numerics)
 
     def hinges(self) -> Array:
         """Angles of the hinges of each limb of a robot in space, up is positive, (L, N) [rad]."""

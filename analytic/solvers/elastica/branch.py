@@ -80,7 +80,7 @@ class Branch:
 
     def points(self) -> list[Point]:
         """States at the rows of the path, and two more on either side of changes of contacts."""
-        points = [Point(-1.0, self._path[0], self._chain.flat())]
+        points = [Point(-1.0, self._path[0], self._at_rest())]
         for row in counted(range(len(self._path) - 1)):
             changes = 0
             while points[-1].row < row:
@@ -170,6 +170,24 @@ class Branch:
             return located
         return [beyond._replace(status=beyond.status | Flag.JUMPED)]
 
+    def _at_rest(self) -> ChainState:
+        """The strip without pressure: flat, or lifted by feet that stand proud."""
+        chain, state = self._chain, self._chain.flat()
+        floor = chain.floor
+        if not floor.any():
+            return state
+        chain.load_at(self._path[0])
+
+        def solve(_: float, end: float, near: ChainState) -> ChainState | None:
+            chain.floor = end * floor
+            return chain.equilibrium(near)
+
+        part, state = follow(state, solve, first=0.01, least=_LEAST_STEP)
+        chain.floor = floor
+        if part < 1.0:
+            raise ValueError("drop of a foot must be such that the strip stands on it at rest")
+        return state
+
     def _after(
         self, points: list[Point], row: float, beyond: Point | None = None, trial: bool = False
     ) -> Point:
@@ -204,7 +222,7 @@ class Branch:
         steps = chain.iterations - steps
         if state is None:
             return Point(row, pressure, self.missing, Flag.BRANCH_END, steps)
-        if _rolled_up(state) and not self._may_curl:
+        if _rolled_up(state, chain.floor) and not self._may_curl:
             return Point(row, pressure, state, Flag.ROLLED_UP, steps)
         traction = self._traction
         contacts = traction.signature() if traction else None
@@ -263,9 +281,10 @@ class Branch:
         return None
 
 
-def _rolled_up(state: ChainState) -> bool:
+def _rolled_up(state: ChainState, floor: Array) -> bool:
     """Tell whether an end is off the ground and not for lying nearly flat."""
-    ends = ((state.y[0], state.theta[0]), (state.y[-1], state.theta[-1]))
+    gap = state.y - floor
+    ends = ((gap[0], state.theta[0]), (gap[-1], state.theta[-1]))
     return any(y > 1e-9 and abs(theta) > _CURLED for y, theta in ends)
 
 

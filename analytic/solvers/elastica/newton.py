@@ -21,7 +21,14 @@ from numpy.typing import NDArray
 from scipy.linalg.lapack import dgbsv
 
 from analytic.scene import pneunet
-from analytic.scene.chain import check_chamber, joint_springs, link_lengths, sealed_springs
+from analytic.scene.chain import (
+    check_chamber,
+    joint_springs,
+    link_lengths,
+    payload_on_nodes,
+    sealed_springs,
+)
+from analytic.scene.feet import drops
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Surface
 from analytic.solvers.elastica.stability import stable
@@ -50,6 +57,7 @@ class Chain:
 
     Attributes:
         iterations: Newton steps so far.
+        floor: height of the nodes where they touch, over L: of an end on a foot that stands proud.
     """
 
     def __init__(
@@ -68,17 +76,20 @@ class Chain:
         self.force_unit = self._d0 / robot.length**2
         self.length = link_lengths(robot, links) / robot.length
         half = 0.5 * self.length * robot.weight_per_length * robot.length / self.force_unit
-        self.weight = np.zeros(links + 2)
-        self.weight[:-1] += half
-        self.weight[1:] += half
+        own = np.zeros(links + 2)
+        own[:-1] += half
+        own[1:] += half
+        self.weight = own + payload_on_nodes(robot, links) / self.force_unit
         # the weight's part downhill adds to the tension of the tractions
         self.hanging = math.sin(slope) * np.cumsum(self.weight)[:-1]
         self.adhesion, self.reach = np.zeros(links + 2), 0.0
         if surface and surface.adhesion:
             self.reach = surface.adhesion_reach / robot.length
             per_weight = surface.press(robot.width) / robot.weight_per_length
-            self.adhesion = per_weight * self.weight
+            self.adhesion = per_weight * own
         self.weight *= math.cos(slope)
+        self.floor = np.zeros(links + 2)
+        self.floor[[0, -1]] = np.array(drops(robot.feet)) / robot.length
         self.stiffness, self.rest = np.zeros(links), np.zeros(links)
         self.pressure = np.zeros(len(robot.segments))
         self.iterations = 0
@@ -177,7 +188,7 @@ class Chain:
         band[5, 2::3] = band[7, 1::3] = -cosine
         columns = traction.tensions() if traction else np.zeros((len(sine), 0))
         right = np.zeros((band.shape[1], 1 + columns.shape[1]), order="F")
-        right[0::3, 0] = self._down(state) * free
+        right[0::3, 0] = self._down(state) * free + self.floor * state.active
         pulling = self.hanging if traction else tension
         moment = geometric * state.theta - pulling * sine
         moment[:-1] -= turn
@@ -211,14 +222,15 @@ class Chain:
         """The state with other nodes active or pulled, or None if these are right."""
         active = None if self.clamped else self._other_nodes(state, revisions)
         if self.reach:
-            near = state.active | (state.y < self.reach)
+            near = state.active | (state.y - self.floor < self.reach)
             if (near != state.near).any():
                 return state._replace(near=near, active=state.active if active is None else active)
         return None if active is None else state._replace(active=active)
 
     def _other_nodes(self, state: ChainState, revisions: int) -> Mask | None:
         """Other active nodes, or None if these are right; one at a time after many tries."""
-        sinking = (state.y < -_ROUNDING) & ~state.active
+        gap = state.y - self.floor
+        sinking = (gap < -_ROUNDING) & ~state.active
         force = self.ground_force(state)
         pulled = force < self._least_force
         if not (sinking.any() or pulled.any()):
@@ -227,7 +239,7 @@ class Chain:
             return np.asarray((state.active | sinking) & ~pulled)
         active = state.active.copy()
         if sinking.any():
-            active[int(np.argmin(np.where(sinking, state.y, 0.0)))] = True
+            active[int(np.argmin(np.where(sinking, gap, 0.0)))] = True
         else:
             active[int(np.argmin(force))] = False
         return active
@@ -245,6 +257,7 @@ class Chain:
         )
         kinematic = np.diff(state.y) - sine
         pulled = self.adhesion @ state.near / total
-        parts = (-state.y, -force, np.abs(force * state.y), np.abs(torque) / total,
+        gap = state.y - self.floor
+        parts = (-gap, -force, np.abs(force * gap), np.abs(torque) / total,
                  np.abs(kinematic), [abs(force.sum() - 1 - pulled)])  # fmt: skip
         return max(float(np.max(part)) for part in parts)

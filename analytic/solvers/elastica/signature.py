@@ -16,6 +16,24 @@ class Signature(NamedTuple):
     weakest: tuple[bool, ...]
     slips: tuple[int, ...]
 
+    @classmethod
+    def of(
+        cls, sides: list[bool], between: list[bool], weakest: list[bool], slips: list[int]
+    ) -> "Signature":
+        """Signature of contacts.
+
+        Args:
+            sides: whether each is one, else it is a tip.
+            between: whether its bound would jump.
+            weakest, slips: of each.
+        """
+        kinds = ["side" if side else "tip" for side in sides]
+        return cls(
+            tuple("between" if held else kind for held, kind in zip(between, kinds, strict=True)),
+            tuple(weakest),
+            tuple(slips),
+        )
+
     def differs(self, before: "Signature") -> bool:
         """Whether other contacts slide than before, or might have on the way."""
         slid = any(self.slips) and any(before.slips) and (

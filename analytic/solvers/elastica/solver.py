@@ -6,6 +6,7 @@ from numpy.typing import ArrayLike, NDArray
 from analytic.friction.contact_length import side_contact
 from analytic.friction.laws import Friction
 from analytic.scene.chain import link_lengths, node_positions
+from analytic.scene.feet import refuse_proud
 from analytic.scene.ground import check_adhesion
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
@@ -60,6 +61,8 @@ def solve_elastica(
         raise ValueError(f"links must be at least 6, got {links}")
     friction = friction or Friction()
     surface = None
+    if ground and friction.contacts == "ends":
+        refuse_proud(robot.feet, "friction at the ends alone")
     if ground:
         check_adhesion(ground)
         surface = ground.at(0.0)
@@ -70,11 +73,12 @@ def solve_elastica(
     states = [branch.missing if point.status & NO_NUMBERS else point.state for point in points]
     theta = np.array([state.theta for state in states])
     height = np.array([state.y for state in states]) * robot.length
+    gap = height - chain.floor * robot.length
     force = np.array([chain.ground_force(state) for state in states]) * chain.force_unit
     place = np.array([state.left for state in states]) * robot.length
     nodes, lengths = node_positions(robot, links), link_lengths(robot, links)
     p = np.array([point.pressure for point in points])
-    left, right = side_contact(robot, nodes, force, height, p, surface)
+    left, right = side_contact(robot, nodes, force, gap, p, surface)
     return ContactShapes(
         robot=robot,
         separation=np.cos(theta) @ lengths,

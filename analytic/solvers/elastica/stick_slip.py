@@ -11,13 +11,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import (
-    end_contact,
-    end_loads,
-    flat_pressures,
-    ripple,
-)
+from analytic.friction.contact_length import end_contact, end_flat_pressures, end_loads, ripple
 from analytic.friction.contacts import ContactFinder, StripContact
+from analytic.friction.flat_load import FlatLoad
 from analytic.friction.grip import Grip
 from analytic.friction.laws import LAWS, Friction
 from analytic.scene.chain import node_positions
@@ -27,6 +23,7 @@ from analytic.solvers.elastica.fixed_point import FixedPoint
 from analytic.solvers.elastica.newton import Chain
 from analytic.solvers.elastica.signature import Signature
 from analytic.solvers.elastica.state import ChainState
+from analytic.solvers.elastica.tethered import TetherPull
 from analytic.solvers.elastica.tractions import tractions
 
 Array = NDArray[np.float64]
@@ -58,15 +55,18 @@ class StickSlip:
         self._chain, self._ground, self._friction = chain, ground, friction
         self._nodes = node_positions(chain.robot, chain.links)
         self._air = ripple(chain.robot, self._nodes)
-        self._press = ground.at(0.0).press(chain.robot.width)
-        self._flat = flat_pressures(chain.robot, ground.at(0.0))
-        self._finder = ContactFinder(chain.robot, self._nodes, friction.roughness, self._press)
+        press = ground.at(0.0).press(chain.robot.width)
+        load = FlatLoad(chain.robot, press)
+        self._inwards = load.from_begin, load.from_end
+        self._flat = end_flat_pressures(chain.robot, ground.at(0.0))
+        self._finder = ContactFinder(chain.robot, self._nodes, friction.roughness, press)
         self._law = LAWS[friction.law]
         self._grip = Grip(chain.robot, self._law)
         self._by_speed = depends_on_speed(ground)
         self._directed = not self._grip.is_round(ground)
-        self._pull = friction.downhill(chain.robot) / chain.force_unit
+        self._downhill = self._pull = friction.downhill(chain.robot) / chain.force_unit
         self._unit = friction.tension / chain.force_unit
+        self._tether = TetherPull(chain, self._nodes, self._unit)
         self.contacts: list[StripContact] = []
         self.slips = np.zeros(0, dtype=int)
         self._before = self._nodes / chain.robot.length
@@ -89,6 +89,7 @@ class StickSlip:
         self._trial = trial
         self._before, self._search, self._changes = self._places(state), None, 0
         self._speed = self._chain.robot.length / duration  # of a slip of 1
+        self._pull = self._downhill + self._tether.pull(self._before)
         self.update(state)
 
     def tensions(self) -> Array:
@@ -171,14 +172,16 @@ class StickSlip:
         bounds = self._unit * np.array([
             both[way] for way in range(1 + self._directed) for both in both_ways
         ])  # fmt: skip
+        spring = self._tether.springs(contacts)
         if not self._by_speed:
-            return bounds, np.zeros(len(contacts))
+            return bounds, spring
         speed = self._slid if len(contacts) == len(self._slid) else np.zeros(len(contacts))
-        factors = [surface.at_speed(v * self._speed)
-                   for surface, v in zip(under, speed, strict=True)]  # fmt: skip
+        factors = [surface.at_speed(v * self._speed) if contact.drag is None else 1.0
+                   for (surface, contact), v in zip(pairs, speed, strict=True)]  # fmt: skip
         bounds *= np.resize(factors, len(bounds))
-        drag = [surface.drag(robot.width, contact.length) for surface, contact in pairs]
-        return bounds, self._unit * self._speed * np.array(drag)
+        film = [surface.drag(robot.width, contact.length) * (contact.drag is None)
+                for surface, contact in pairs]  # fmt: skip
+        return bounds, spring + self._unit * self._speed * np.array(film)
 
     def _under(self, contact: StripContact, x: Array, sticks: bool) -> Surface:
         """The surface under a contact, at a border under a tip that sticks the one that holds it.
@@ -195,6 +198,8 @@ class StickSlip:
 
     def _bounds(self, contact: StripContact, surface: Surface) -> tuple[float, float]:
         """Bounds of a contact ahead and back [N]."""
+        if contact.drag is not None:
+            return contact.drag, contact.drag
         stretch = contact.extent(self._nodes)
         return self._grip.both_ways(
             surface, contact.length, contact.load, stretch, self._chain.pressure
@@ -206,6 +211,7 @@ class StickSlip:
         beside = {0: float(state.y[1]), last: float(state.y[last - 1])}
         return np.array([
             contact.length / self._chain.robot.length or -beside.get(contact.nodes[0], 0.0)
+            if contact.drag is None else 0.0
             for contact in contacts
         ])  # fmt: skip
 
@@ -247,19 +253,13 @@ class StickSlip:
 
     def signature(self) -> Signature:
         """Contacts of the state that was found last."""
-        count = len(self.contacts)
+        count, settled = len(self.contacts), self.settled
         between = self._search.between if self._search else [False] * count
-        held = [any(between[i::count]) for i in range(count)]
-        kinds = ["side" if contact.length > 0 else "tip" for contact in self.contacts]
+        held = [any(between[i::count]) or not settled for i in range(count)]
+        sides = [contact.length > 0 for contact in self.contacts]
         bounds = self._opposing()
-        least = (1 + _ALIKE) * float(bounds.min(initial=np.inf))
-        return Signature(
-            kinds=tuple(
-                "between" if held[i] or not self.settled else kinds[i] for i in range(count)
-            ),
-            weakest=tuple(bound <= least for bound in bounds.tolist()),
-            slips=tuple(self.slips.tolist()),
-        )
+        weakest = bounds <= (1 + _ALIKE) * float(bounds.min(initial=np.inf))
+        return Signature.of(sides, held, weakest.tolist(), self.slips.tolist())
 
     def _take(self, contacts: list[StripContact], bounds: Array, drag: Array) -> None:
         if len(contacts) != len(self.contacts):
@@ -287,19 +287,20 @@ class StickSlip:
     def _touching(self, state: ChainState) -> list[StripContact]:
         chain, robot = self._chain, self._chain.robot
         force = chain.ground_force(state) * chain.force_unit
-        height = state.y * robot.length
+        height = (state.y - chain.floor) * robot.length
         air = height > self._air
-        flat = np.abs(chain.pressure) <= self._flat
+        flat = np.abs(chain.pressure[[0, -1]]) <= self._flat
         left, right = (
-            end_contact(robot, self._nodes[::order], force[::order], air[::order], lies,
-                        self._press)
-            for order, lies in ((1, flat[0]), (-1, flat[-1]))
+            end_contact(load, self._nodes[::order], force[::order], air[::order], lies)
+            for load, order, lies in zip(self._inwards, (1, -1), flat, strict=True)
         )  # fmt: skip
         if self._friction.contacts == "all":
-            return self._finder.find(force.tolist(), height.tolist(), (left, right))
+            found = self._finder.find(force.tolist(), height.tolist(), (left, right))
+            return found + self._tether.contacts
         loads = (0.0, 0.0)
         if self._law.needs_load:
             on_left, on_right = end_loads(force[None, :], height[None, :])
             loads = float(on_left[0]), float(on_right[0])
         return [StripContact([0], [1.0], left, loads[0]),
-                StripContact([len(height) - 1], [1.0], right, loads[1])]  # fmt: skip
+                StripContact([len(height) - 1], [1.0], right, loads[1]),
+                *self._tether.contacts]  # fmt: skip

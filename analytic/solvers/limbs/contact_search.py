@@ -12,11 +12,11 @@ else the limb rests the rest.
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_length, flat_pressures, length_between
+from analytic.friction.contact_length import flat_pressures
 from analytic.friction.contacts import POINT, runs_without_gaps
 from analytic.friction.laws import LAWS
-from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb
-from analytic.solvers.limbs.contact_state import Contact, ContactState
+from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb, check_tethers
+from analytic.solvers.limbs.contact_state import TETHER, Contact, ContactState
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.rest import Rest
 from analytic.solvers.limbs.resting_limb import resting_limbs
@@ -50,6 +50,7 @@ class ContactSearch:
         parts = chambers_by_limb(robot)
         self._flat = flat_pressures(robot, tree.surface)
         self._end_chambers = np.array([[part.start, part.stop - 1] for part in parts])
+        self._tethers = _tethers(robot)
 
     def find(self, rest: Rest, pressures: Array) -> list[Contact]:
         """The contacts of a state at pressures of its chambers, (S,) [Pa]."""
@@ -87,7 +88,7 @@ class ContactSearch:
         for i in range(len(vertices) - 1, -1, -1):  # limbs that are carried come first
             if state.passed or max(state.force[i]) > 0.0:
                 contacts += self._of_limb(state, i)
-        return contacts
+        return contacts + self._tethers
 
     def heights(self, right: Array, left: Array) -> Array:
         """Heights of vertices, (P,), by those of their edges, less what their links lift [m].
@@ -189,7 +190,7 @@ class ContactSearch:
         if len(run) > POINT:
             places = [place[vertex] for vertex in run]
             push = [force[vertex] for vertex in run]
-            flat = min(length_between(limb.weight, places, push), length)
+            flat = min(limb.load.length_between(places, push), length)
             if flat > SHORT * length:
                 begin = min(max(0.5 * (places[0] + places[-1] - flat), 0.0), length - flat)
                 return self._contact(i, part, begin, flat, load)
@@ -259,11 +260,12 @@ class ContactSearch:
             if not whole:
                 joint = limb.share * state.force[carrier][END[limb.at]]
                 total, moment = total + joint, moment + joint * length
-        side = length if whole else min(float(flat_length(limb.weight, total, moment)), length)
+        load_from = limb.load.from_begin if at_begin else limb.load.from_end
+        side = length if whole else min(load_from.length(total, moment), length)
         if side <= 0:
             return self._contact(i, end, tip, 0.0, load), 0.0, carried
         begin = tip if at_begin else tip - side
-        return self._contact(i, end, begin, side, load), total - limb.weight * side, carried
+        return self._contact(i, end, begin, side, load), total - load_from.of(side), carried
 
     def _contact(self, i: int, part: str, begin: float, length: float, load: float) -> Contact:
         """A side that begins somewhere along a limb, or a tip there: all across the limb."""
@@ -278,6 +280,17 @@ class ContactSearch:
 
 def parts_of(limb: Limb, robot: LimbedRobot) -> tuple[str, ...]:
     """Parts of a limb that may be contacts, see Contact.part."""
+    tied = (TETHER,) if limb.strip.tether and limb.strip.tether.drag else ()
     if limb.on is None or limb.name not in robot.outer:
-        return "begin", "end", "between"
-    return "end", "between"
+        return "begin", "end", "between", *tied
+    return "end", "between", *tied
+
+
+def _tethers(robot: LimbedRobot) -> list[Contact]:
+    """Contacts that tethers of limbs are, in whatever state."""
+    check_tethers(robot)
+    tied = [(i, limb.strip) for i, limb in enumerate(robot.limbs) if limb.strip.tether]
+    return [
+        Contact(i, TETHER, 0.0, (strip.tether.at * strip.length,), (0.0,), strip.tether.drag)
+        for i, strip in tied if strip.tether and strip.tether.drag
+    ]  # fmt: skip

@@ -2,17 +2,19 @@
 
 from typing import NamedTuple
 
+TETHER = "tether"
+
 
 class Contact(NamedTuple):
-    """Contact of one limb with the ground.
+    """Contact of one limb with the ground, or the tether that it drags.
 
     Attributes:
         limb: its place.
-        part: of the limb, "begin", "end" or "between" them.
+        part: of the limb, "begin", "end" or "between" them; or TETHER.
         length: of side contact, 0 for a tip [m].
         at, aside: arclengths of the points that it resists at, and how far to the left of the
             middle line each is [m].
-        load: normal force on the whole [N].
+        load: normal force on the whole, of a tether its drag [N].
     """
 
     limb: int

@@ -21,9 +21,10 @@ from analytic.scene.ground import (
     durations,
     surfaces_of,
 )
+from analytic.scene.robot import GRAVITY
 from analytic.scene.surface import Ground, Surface, Way
 from analytic.solvers.limbs.contact_search import SHORT, ContactSearch
-from analytic.solvers.limbs.contact_state import Contact
+from analytic.solvers.limbs.contact_state import TETHER, Contact
 from analytic.solvers.limbs.kinematics import Tree
 
 Array = NDArray[np.float64]
@@ -107,6 +108,7 @@ class Contacts(ContactSearch):
         robot = self._tree.robot
         loads = [
             (limb.strip.weight_per_length + press) * limb.strip.length
+            + GRAVITY * limb.strip.payload_mass
             for limb, press in zip(robot.limbs, self._tree.press.tolist(), strict=True)
         ]
         return max(
@@ -133,6 +135,8 @@ class Contacts(ContactSearch):
             way: of the motion, which feet may resist otherwise.
             pressures: see resistances.
         """
+        if contact.part == TETHER:
+            return contact.load, 0.0
         width, grip = self._limbs[contact.limb].width, self._grips[contact.limb]
         bound = self._dry(contact, surface)
         if grip.feet:
@@ -158,7 +162,7 @@ class Contacts(ContactSearch):
         """Mean distance from its middle of what resists, 0 of a point [m]."""
         a, b = 0.5 * contact.length, 0.5 * self._limbs[contact.limb].width
         if not a:
-            return 0.5 * b  # a tip: a line across
+            return 0.5 * b if len(contact.at) > 1 else 0.0  # a tip: a line across
         if len(contact.at) == 1:
             return 0.0
         far = math.hypot(a, b)  # over a rectangle

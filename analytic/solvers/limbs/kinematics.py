@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.scene.chain import joint_places, link_lengths, twisting_links
+from analytic.scene.chain import joint_places, link_lengths, payload_on_nodes, twisting_links
 from analytic.scene.ground import LEVEL, Incline
 from analytic.scene.limbs import LimbedRobot
 from analytic.scene.surface import Surface
@@ -113,11 +113,12 @@ class Tree:
             _turn(_UP, limb.angle - robot.limbs[carrier].angle)
             for limb, carrier in zip(robot.limbs, self._carriers, strict=True)
         ]
-        weight, arclength, movers = [], [], []
+        weight, carried, arclength, movers = [], [], [], []
         roots: list[int] = []  # the joint that moves the beginning of each limb
         for i, limb in enumerate(robot.limbs):
             quarter = 0.25 * self._links[i] * limb.strip.weight_per_length  # an end, an edge
             weight += [np.append(quarter, 0.0) + np.append(0.0, quarter)]
+            carried += [0.5 * payload_on_nodes(limb.strip, elements)]
             along = np.append(0.0, np.cumsum(self._links[i]))
             along[-1] = limb.strip.length  # to the last digit: a tip is at no distance from its end
             arclength += [along]
@@ -131,11 +132,12 @@ class Tree:
             # a hinge moves what is beyond it; a twist the edges at the hinge after it too
             before = self.joints[i].start + self.hinge_places[1:] - 1
             movers += [roots[i], roots[i], *before.tolist(), self.joints[i].stop - 1]
-        whole = np.concatenate(2 * weight)
+        own = np.concatenate(2 * weight)
+        whole = own + np.concatenate(2 * carried)
         self.weight: Array = incline.normal * whole
         self.pull: Array = np.multiply.outer(whole, incline.downhill)
         per_weight = self.press / [limb.strip.weight_per_length for limb in robot.limbs]
-        self.adhesion: Array = whole * np.tile(np.repeat(per_weight, per_limb), 2)
+        self.adhesion: Array = own * np.tile(np.repeat(per_weight, per_limb), 2)
         self.arclength: Array = np.concatenate(2 * arclength)
         # a joint is above another if it is on the way from the trunk to it; and above itself
         self._above = np.eye(count, dtype=bool)

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic.friction.contact_length import ripple as strip_ripple
+from analytic.friction.flat_load import FlatLoad
 from analytic.scene.limbs import Limb, LimbedRobot
 from analytic.scene.robot import Robot
 from analytic.solvers.limbs.kinematics import Tree
@@ -25,7 +26,7 @@ class RestingLimb(NamedTuple):
         free: ends that no limb begins at and that no limb carries.
         near: distance from an end that counts as there [m].
         ripple: height below which a vertex is on the ground [m].
-        weight: that presses a flat stretch on the ground, with adhesion [N/m].
+        load: that presses a flat stretch on the ground, with adhesion.
         segments: how many it has.
         aside: how far to the left of its middle line a tip resists [m].
     """
@@ -40,7 +41,7 @@ class RestingLimb(NamedTuple):
     free: tuple[str, ...]
     near: float
     ripple: float
-    weight: float
+    load: FlatLoad
     segments: int
     aside: tuple[float, ...]
 
@@ -63,7 +64,7 @@ def resting_limbs(tree: Tree) -> list[RestingLimb]:
             _free_ends(robot, limb),
             _NEAR * limb.strip.length / tree.elements,
             ripple(limb.strip, tree.elements),
-            tree.incline.normal * limb.strip.weight_per_length + press,
+            FlatLoad(limb.strip, press, tree.incline.normal),
             len(limb.strip.segments),
             tuple(limb.strip.width * part for part in _ASIDE),
         )

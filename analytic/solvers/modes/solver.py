@@ -4,6 +4,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from analytic.scene import pneunet
+from analytic.scene.feet import refuse_proud
+from analytic.scene.payload import refuse_payload
 from analytic.scene.pressures import check_pressures
 from analytic.scene.robot import Robot
 from analytic.shapes import Flag, Shapes
@@ -35,10 +37,12 @@ def solve_modes(robot: Robot, pressures_pa: ArrayLike) -> Shapes:
 
     Raises:
         ValueError: the shape is wrong, a pressure is negative or not finite, or the robot has not
-            the paper's three equal segments.
+            the paper's three equal segments or carries a payload.
     """
     if len(set(robot.segments)) > 1 or len(robot.segments) != SEGMENTS:
         raise ValueError(f"the modes are of three equal segments, got {robot.segments!r}")
+    refuse_payload(robot, "the contact modes")
+    refuse_proud(robot.feet, "the contact modes")
     p = check_pressures(robot, pressures_pa)
     k = pneunet.natural_curvature(robot, p) * robot.length
     g = robot.weight_per_length * robot.length**3 / pneunet.rigidity(robot, p)

@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analytic import GAITS, SURFACES, Friction, Robot, predict
+from analytic import GAITS, SURFACES, Friction, Robot, Tether, predict
 from analytic.scene.feet import Foot
 from analytic.scene.surface import Surface, from_ratios
 from analytic.scene.trapezoid import trapezoid
 from mjsim.commands import run
-from mjsim.results.cautions import _coasting, near_end, tied
+from mjsim.results.cautions import _coasting, _sprung, near_end, tied
 from mjsim.results.measures import measure
 from mjsim.results.prediction import reference
 from mjsim.results.record import record
@@ -142,6 +142,12 @@ def test_a_robot_that_nothing_brakes_one_way_is_said_to_coast(ahead, back, way):
         distances.append(measure(walk).displacement)
     assert abs(distances[0]) > 0.3
     assert distances[1] == pytest.approx(distances[0], rel=0.1)
+
+
+def test_a_tether_that_pulls_back_is_said_to_make_cycles_differ():
+    assert _sprung(Scene(Robot(tether=Tether(0, drag=0.01)))) == []
+    (note,) = _sprung(Scene(Robot(tether=Tether(0, stiffness=0.5))))
+    assert "every cycle goes another distance" in note
 
 
 @pytest.mark.parametrize("name", SURFACES)

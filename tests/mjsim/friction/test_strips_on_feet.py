@@ -6,8 +6,9 @@ from pathlib import Path
 import mujoco
 import pytest
 
-from analytic import SURFACES, Robot
+from analytic import GAITS, SURFACES, Robot
 from analytic.scene.feet import Foot
+from analytic.scene.surface import Surface
 from mjsim.files.options import SceneOptions, tables_of
 from mjsim.files.tables import build, merged, read_tables
 from mjsim.files.written import as_tables
@@ -74,10 +75,37 @@ def test_what_does_not_know_feet_says_so():
     assert "no feet" in refusal(scene)
     with pytest.raises(ValueError, match="without feet"):
         standalone_spec(scene, numerics)
-    with pytest.raises(ValueError, match="hold under friction coulomb"):
-        replace(scene, ground=SURFACES["felt"], friction="coulomb")
     with pytest.raises(ValueError, match="chamber of a foot"):
         Scene(Robot(feet=(Foot(0, 1, chamber="4"),)))
+
+
+@pytest.mark.parametrize(("ground", "contacts", "feet"), [
+    ("polyethylene", "ends", (Foot(0, 0, hold=0.005),)),
+    ("gelatin", "all", (Foot(0, 0.2, hold=0.01), Foot(0.4, 0.6, hold=0.02))),
+])  # fmt: skip
+def test_under_mu_n_what_a_foot_holds_by_adds_to_the_load(ground, contacts, feet):
+    slow = replace(GAITS["wave"], ramp_time=8.0)
+    scene = Scene(Robot(feet=feet), slow, ground, friction="coulomb", contacts=contacts)
+    expected = reference(scene).displacement[0]
+    assert measure(simulate(scene)).displacement == pytest.approx(expected, rel=0.02)
+    bare = reference(replace(scene, robot=Robot())).displacement[0]
+    assert abs(expected - bare) > 0.05
+
+
+@pytest.mark.parametrize("contacts", ["ends", "all"])
+def test_holds_alone_are_alike_whatever_the_law(contacts):
+    """On ground without friction feet alone resist."""
+    feet = Foot(0, 0.3, hold=0.02), Foot(0.7, 1, hold=0.03)
+    ice = Surface("ice", friction=0.0, tip_friction=0.0)
+    scenes = [
+        Scene(Robot(feet=feet), "wave", ice, friction=law, contacts=contacts)
+        for law in ("constant", "coulomb")
+    ]
+    ways = [reference(scene).displacement[0] for scene in scenes]
+    assert ways[0] == pytest.approx(ways[1], abs=1e-6)
+    assert abs(ways[0]) > 0.01
+    walks = [measure(simulate(scene)).displacement for scene in scenes]
+    assert walks[0] == pytest.approx(walks[1], abs=1e-3)
 
 
 def test_feet_of_an_option_are_those_of_a_file():

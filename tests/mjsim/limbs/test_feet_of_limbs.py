@@ -138,3 +138,17 @@ def test_what_limbs_on_feet_cannot_do_is_refused_in_one_line():
         Scene(shod(quadruped(), Foot(0, 1, chamber="left")), gait, GROUND)
     with pytest.raises(ValueError, match="without feet"):
         standalone_spec(Scene(robot, gait, GROUND))
+
+
+def test_under_mu_n_a_foot_of_a_limb_holds_besides_its_load():
+    robot, law = quadruped(), "coulomb"
+    held = shod(robot, Foot(0.8, 1, hold=0.02), limbs=("rear-left", "rear-right"))
+    ways = [
+        (walk(each, undulation("wave"), SURFACES["felt"], 8, 4, law=law, twists=0).displacement[0],
+         measure(simulate(Scene(each, "wave", "felt", friction=law),
+                          Numerics(links=4, twists=0))).displacement * each.length)
+        for each in (robot, held)
+    ]  # fmt: skip
+    for theory, mujoco in ways:
+        assert mujoco == pytest.approx(theory, abs=0.004 * robot.length)
+    assert abs(ways[0][0] - ways[1][0]) > 0.01 * robot.length
