@@ -1,23 +1,24 @@
-"""Friction of the contacts of a robot in space, as rows of MuJoCo's dry friction, three of each.
+"""Friction at points of a robot in space, as rows of MuJoCo's dry friction, three of each.
 
-A contact with area resists by its bound V as it slips and turns about its middle: with the slip u
-of its middle, its turning rate w and its mean distance r from the middle the limit surface is taken
-as an ellipsoid (Howe and Cutkosky 1996),
+A point resists by its bound V as it slips. One that stands for an area also turns: with its slip u,
+its turning rate w and the mean distance r of the area from it the limit surface is taken as an
+ellipsoid (Howe and Cutkosky 1996),
 
     power = V |s|,    s = (u_x, u_y, r w),
 
 exact where it only slips and where it only turns. So its traction lies along s: of its rows the
 first is laid along s, or along the traction where it does not slide, and the others across.
 
-A row is a tendon over all joints that move the contact; its coefficients, set at each step, are the
+A row is a tendon over all joints that move the point; its coefficients, set at each step, are the
 Jacobian of s along the row. On ground with a nap s is the slip as that scales it, and a constant
-force leans on the contact besides (see analytic.friction.dissipation_in_plane.Nap). Contacts that
-do not resist have tendons of no joint, which cost MuJoCo nothing. Plain floats and few calls of
-numpy, which cost more than the few numbers of a step.
+force leans on the point besides (see analytic.friction.dissipation_in_plane.Nap). Points that do
+not resist have tendons of no joint, which cost MuJoCo nothing. Plain floats and few calls of numpy,
+which cost more than the few numbers of a step.
 """
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -36,22 +37,39 @@ _STIFFER = 128.0
 _VISCOUS = 100.0  # b dt; chosen
 _SOFTEST, _STIFFEST = 1e-4, 0.9999  # impedances that MuJoCo takes
 _WHOLE = 0.999  # of the bound: the contact slides
-STANDS = 1e-9  # m/s; N: no contact is anchored by less
+STANDS = 1e-9  # m/s; N: no point is anchored by less
 _AHEAD = (1.0, 0.0, 0.0)
+_AHEAD_AND_LEFT = np.array([0, 3, 6, 1, 4, 7])  # of a rotation, by rows
 _LEVEL = 1e-6  # of a direction: its part in plan is none
 
 
+class Point(NamedTuple):
+    """A point that resists, on its link.
+
+    Attributes:
+        number: its place among all that there may be.
+        body: the link.
+        along, aside: how far it is from the link's beginning, ahead and to the left [m].
+    """
+
+    number: int
+    body: int
+    along: float
+    aside: float
+
+
 class FrictionRows:
-    """The rows of all contacts that there may be, and the motion of those that touch.
+    """The rows of all points that there may be, and the motion of those that touch.
 
     Args:
         model, data: as compiled.
-        names: of the contacts, before the numbers of their rows.
+        names: of the points, before the numbers of their rows.
         joints: how many move each.
 
     Attributes:
-        numbers: places among all of the contacts that touch in the coming step.
-        places: x + i y of their middles [m].
+        numbers: places among all of the points that touch in the coming step.
+        points: those.
+        places: x + i y of them [m].
         speeds: sizes |s| of their slips now [m/s].
         bounds: of their friction [N].
     """
@@ -71,22 +89,22 @@ class FrictionRows:
         self._times = model.tendon_solref_fri.reshape(-1)
         self._impedances = model.tendon_solimp_fri.reshape(-1)
         self._release(every.ravel())
-        # of all contacts: inverse masses that MuJoCo sees in the rows across, in the step before
+        # of all points: inverse masses that MuJoCo sees in the rows across, in the step before
         # [1/kg], and directions of the rows, one after the other
         self._inverse_masses: list[list[float]] = model.tendon_invweight0[every[:, 1:]].tolist()
         self._axes = [_axes(*_AHEAD)] * len(names)
         # of those that touch: Jacobians of the rotation and of the place of each, (C, 6, nv)
         self._jacobians = np.zeros((len(names), 6, model.nv))
         self._spaces = [(both[:3], both[3:]) for both in self._jacobians]
-        self._points = np.zeros((len(names), 3))  # their places [m]
-        self._point_of_each = list(self._points)
+        self._at = np.zeros((len(names), 3))  # their places [m]
+        self._at_of_each = list(self._at)
+        self.points: list[Point] = []
         self._jacobian = self._jacobians[:0].reshape(0, model.nv)
         self.numbers: list[int] = []
         self._before: list[int] = []
         self._bodies: list[int] = []
         self._indices: tuple[Numbers, ...] = ()  # of the links
         self._links: list[tuple[list[float], list[float]]] = []  # their origins and directions
-        self._offsets: list[float] = []
         self._radii: list[float] = []
         self._rates: list[Vector] = []  # (u_x, u_y, r w)
         self._slips: list[Vector] = []  # s
@@ -123,35 +141,32 @@ class FrictionRows:
             if size > 0:
                 self._axes[number] = _axes(x / size, y / size, z / size)
 
-    def move_to(self, numbers: list[int], bodies: list[int], offsets: list[float]) -> None:
-        """Take the contacts that touch in the coming step, with their places now.
-
-        Args:
-            numbers: places of the contacts among all.
-            bodies, offsets: link that the middle of each is of, and where it is along that [m].
-        """
-        model, data, count = self._model, self._data, len(numbers)
-        self._before, self.numbers = self.numbers, numbers
+    def move_to(self, points: list[Point]) -> None:
+        """Take the points that touch in the coming step, with their places now."""
+        model, data, count = self._model, self._data, len(points)
+        self._before, self.numbers = self.numbers, [point.number for point in points]
         self._jacobian = self._jacobians[:count].reshape(6 * count, model.nv)
-        self._offsets = offsets
+        self.points, bodies = points, [point.body for point in points]
         if bodies != self._bodies:
             self._bodies, links = bodies, np.array(bodies, dtype=int)[:, None]
-            # of their origins, and of the first columns of their rotations
-            self._indices = 3 * links + np.arange(3), 9 * links + np.arange(0, 9, 3)
+            # of their origins, and of the first two columns of their rotations
+            self._indices = 3 * links + np.arange(3), 9 * links + _AHEAD_AND_LEFT
             self._look()
         places = [
-            (x + offset * a, y + offset * b, z + offset * c)
-            for offset, ((x, y, z), (a, b, c)) in zip(offsets, self._links, strict=True)
+            (x + along * a + aside * d, y + along * b + aside * e, z + along * c + aside * f)
+            for (_, _, along, aside), ((x, y, z), (a, b, c, d, e, f)) in zip(
+                points, self._links, strict=True
+            )
         ]
         if places:
-            self._points[:count] = places
+            self._at[:count] = places
         self.places = [complex(x, y) for x, y, _ in places]
-        for (rotation, move), point, body in zip(self._spaces, self._point_of_each, bodies,
-                                                 strict=False):  # fmt: skip
-            mujoco.mj_jac(model, data, move, rotation, point, body)
+        for (rotation, move), at, body in zip(self._spaces, self._at_of_each, bodies,
+                                              strict=False):  # fmt: skip
+            mujoco.mj_jac(model, data, move, rotation, at, body)
 
     def slip(self, radii: list[float], naps: list[Directions] | None = None) -> None:
-        """Take the slips now, by which the rows of contacts lie that did not touch before.
+        """Take the slips now, by which the rows of points lie that did not touch before.
 
         Args:
             radii: r of each, 0 of one that cannot turn [m].
@@ -168,14 +183,14 @@ class FrictionRows:
                     _axes(u / speed, v / speed, w / speed) if speed > 0 else _axes(*_AHEAD)
                 )
 
-    def resist(self, bounds: list[float], drags: list[float], viscosity: float) -> None:
-        """Write the rows of the contacts that touch.
+    def resist(self, bounds: list[float], drags: list[float], viscosities: list[float]) -> None:
+        """Write the rows of the points that touch.
 
         Args:
             bounds, drags: dry friction and viscous resistance of each [N, N s/m].
-            viscosity: of all alike, whatever resists besides [N s/m].
+            viscosities: of each, whatever resists besides [N s/m].
         """
-        self.bounds, viscosity = bounds, -viscosity
+        self.bounds = bounds
         wet = any(drags)
         kinds: list[Kind] = []
         along: list[float] = []
@@ -187,13 +202,14 @@ class FrictionRows:
         # the discrete integrator makes of a row f = -D (dv/dt + b v), D = d / (1 - d) / its inverse
         # mass and b = 2 / (d time): with b much above 1 / dt it is viscous, f = -D b v
         stiffness, time = _STIFFER * self._dt / _VISCOUS, 2.0 * self._dt / _VISCOUS
-        for number, bound, drag, radius, (u, v, w), speed in zip(
-            self.numbers, bounds, drags, self._radii, self._rates, self.speeds, strict=True
-        ):
+        for number, bound, drag, viscosity, radius, (u, v, w), speed in zip(
+            self.numbers, bounds, drags, viscosities, self._radii, self._rates, self.speeds,
+            strict=True,
+        ):  # fmt: skip
             kinds.append((number, bound > 0, drag > 0, radius > 0))
             x, y, z, a, b, c, i, j, k = self._axes[number]
             along += (radius * z, x, y, radius * c, a, b, radius * k, i, j)
-            viscous += (viscosity * radius * w, viscosity * u, viscosity * v)
+            viscous += (-viscosity * radius * w, -viscosity * u, -viscosity * v)
             forces += (bound, bound, bound if radius else 0.0)
             if wet:
                 damping += (drag, drag, drag if radius else 0.0)
@@ -229,16 +245,16 @@ class FrictionRows:
         dt, moved = self._dt, []
         self._look()
         self._note_rates()
-        for bound, before, offset, ((x, y, _), (a, b, _)), (u, v, _) in zip(
-            self.bounds, self.places, self._offsets, self._links, self._rates, strict=True
+        for bound, before, (_, _, along, aside), ((x, y, _), (a, b, _, d, e, _)), (u, v, _) in zip(
+            self.bounds, self.places, self.points, self._links, self._rates, strict=True
         ):
-            place = complex(x + offset * a, y + offset * b)
+            place = complex(x + along * a + aside * d, y + along * b + aside * e)
             beyond = place - before - dt * complex(u, v)
             moved.append((bound, place, beyond, math.hypot(u, v)))
         return moved
 
     def _look(self) -> None:
-        """Note where the links of the contacts that touch are now."""
+        """Note where the links of the points that touch are now."""
         origins = self._origins[self._indices[0]].tolist()
         directions = self._frames[self._indices[1]].tolist()
         self._links = list(zip(origins, directions, strict=True))

@@ -1,4 +1,4 @@
-"""Places in MuJoCo of the numbers of contacts, see mjsim.friction.friction_rows."""
+"""Places in MuJoCo of the numbers of points, see mjsim.friction.friction_rows."""
 
 from typing import NamedTuple
 
@@ -10,14 +10,14 @@ from mjsim.model.limbs import ROWS
 
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int_]
-# of a contact: its number, and whether it has a bound, a viscous resistance and a radius
+# of a point: its number, and whether it has a bound, a viscous resistance and a radius
 Kind = tuple[int, bool, bool, bool]
 
 _RESISTED = slice(2, 5)  # of rotation and place: about the vertical, along x and y
 
 
 class Tendons(NamedTuple):
-    """The rows of one contact in MuJoCo.
+    """The rows of one point in MuJoCo.
 
     Attributes:
         rows: tendons, (3,).
@@ -31,7 +31,7 @@ class Tendons(NamedTuple):
 
     @classmethod
     def of(cls, model: mujoco.MjModel, name: str, joints: int) -> "Tendons":
-        """The rows of the contact of a name, which so many joints move."""
+        """The rows of the point of a name, which so many joints move."""
         rows = model.tendon(f"{name}_0").id + np.arange(ROWS)
         begin = int(model.tendon_adr[rows[0]])
         places = begin + np.arange(ROWS * joints).reshape(ROWS, joints)
@@ -39,13 +39,13 @@ class Tendons(NamedTuple):
 
 
 class Layout(NamedTuple):
-    """Where the numbers of the contacts that touch are written and read.
+    """Where the numbers of the points that touch are written and read.
 
     Attributes:
-        kinds: of the contacts.
+        kinds: of the points.
         rows: tendons of all of them, (3 C,).
-        resisting: those of the contacts with a bound or a viscous resistance.
-        along, blocks: matrix from the motions of the contacts to those along the rows, and in its
+        resisting: those of the points with a bound or a viscous resistance.
+        along, blocks: matrix from the motions of the points to those along the rows, and in its
             last row to the viscous force, (3 C + 1, 6 C), and places of what is not 0 in it.
         coefficients, parts: places of the coefficients, and where they are in the Jacobians along
             the rows.
@@ -70,14 +70,14 @@ class Layout(NamedTuple):
 
     @classmethod
     def of(cls, kinds: list[Kind], tendons: list[Tendons], nv: int) -> "Layout":
-        """The places for contacts that touch, by the tendons of all contacts."""
+        """The places for points that touch, by the tendons of all points."""
         own = [tendons[number] for number, *_ in kinds]
         rows, across = _joined([mine.rows for mine in own]), _joined([m.rows[1:] for m in own])
         resists = np.array([bound or drag for _, bound, drag, _ in kinds], dtype=bool)
         in_order = sorted(
             ((slot, number, ROWS if radius else ROWS - 1)
              for slot, (number, bound, _, radius) in enumerate(kinds) if bound),
-            key=lambda contact: contact[1],
+            key=lambda point: point[1],
         )  # fmt: skip
         begins, count = nv * np.arange(ROWS)[:, None], len(kinds)
         entries = np.arange(ROWS * 6 * count**2).reshape(count, ROWS, count, 6)[..., _RESISTED]
