@@ -10,10 +10,11 @@ exact where it only slips and where it only turns. So its traction lies along s:
 first is laid along s, or along the traction where it does not slide, and the others across.
 
 A row is a tendon over all joints that move the point; its coefficients, set at each step, are the
-Jacobian of s along the row. On ground with a nap s is the slip as that scales it, and a constant
-force leans on the point besides (see analytic.friction.dissipation_in_plane.Nap). Points that do
-not resist have tendons of no joint, which cost MuJoCo nothing. Plain floats and few calls of numpy,
-which cost more than the few numbers of a step.
+Jacobian of s along the row, from MuJoCo's motions of the joints about the robot's centre of mass.
+On ground with a nap s is the slip as that scales it, and a constant force leans on the point
+besides (see analytic.friction.dissipation_in_plane.Nap). Points that do not resist have tendons of
+no joint, which cost MuJoCo nothing. Plain floats and few calls of numpy, which cost more than the
+few numbers of a step.
 """
 
 import math
@@ -39,7 +40,9 @@ _SOFTEST, _STIFFEST = 1e-4, 0.9999  # impedances that MuJoCo takes
 _WHOLE = 0.999  # of the bound: the contact slides
 STANDS = 1e-9  # m/s; N: no point is anchored by less
 _AHEAD = (1.0, 0.0, 0.0)
+_ROUND: Directions = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
 _AHEAD_AND_LEFT = np.array([0, 3, 6, 1, 4, 7])  # of a rotation, by rows
+_NONE = np.zeros(0, dtype=int)
 _LEVEL = 1e-6  # of a direction: its part in plan is none
 
 
@@ -93,18 +96,19 @@ class FrictionRows:
         # [1/kg], and directions of the rows, one after the other
         self._inverse_masses: list[list[float]] = model.tendon_invweight0[every[:, 1:]].tolist()
         self._axes = [_axes(*_AHEAD)] * len(names)
-        # of those that touch: Jacobians of the rotation and of the place of each, (C, 6, nv)
-        self._jacobians = np.zeros((len(names), 6, model.nv))
-        self._spaces = [(both[:3], both[3:]) for both in self._jacobians]
-        self._at = np.zeros((len(names), 3))  # their places [m]
-        self._at_of_each = list(self._at)
+        # motions at unit rates of the coordinates, and of the links, about the centre of mass
+        self._motions, self._velocities = data.cdof[:, :5].T, data.cvel
+        self._moving = _moving(model)  # which of them move which links
+        self._moved: Array | None = None  # and which the points of the rows
+        self._centre = data.subtree_com[model.body_rootid[model.jnt_bodyid[0]]]
         self.points: list[Point] = []
-        self._jacobian = self._jacobians[:0].reshape(0, model.nv)
         self.numbers: list[int] = []
         self._before: list[int] = []
         self._bodies: list[int] = []
-        self._indices: tuple[Numbers, ...] = ()  # of the links
+        self._which = _NONE  # links, as an array
+        self._indices: tuple[Numbers, Numbers] = (_NONE, _NONE)  # of numbers of the links
         self._links: list[tuple[list[float], list[float]]] = []  # their origins and directions
+        self._arms: list[Vector] = []  # of the points about the centre of mass [m]
         self._radii: list[float] = []
         self._rates: list[Vector] = []  # (u_x, u_y, r w)
         self._slips: list[Vector] = []  # s
@@ -135,7 +139,7 @@ class FrictionRows:
             if size > 0 and abs(f) > _WHOLE * self.bounds[slot]:
                 x, y, z = self._slips[slot]
             else:
-                a, b, c, d, e, _, i, j, k = self._axes[number]
+                (a, b, c), (d, e, _), (i, j, k) = self._axes[number]
                 x, y, z = f * a + g * d + h * i, f * b + g * e + h * j, f * c + h * k
                 size = math.hypot(x, y, z)
             if size > 0:
@@ -143,27 +147,23 @@ class FrictionRows:
 
     def move_to(self, points: list[Point]) -> None:
         """Take the points that touch in the coming step, with their places now."""
-        model, data, count = self._model, self._data, len(points)
         self._before, self.numbers = self.numbers, [point.number for point in points]
-        self._jacobian = self._jacobians[:count].reshape(6 * count, model.nv)
         self.points, bodies = points, [point.body for point in points]
         if bodies != self._bodies:
-            self._bodies, links = bodies, np.array(bodies, dtype=int)[:, None]
+            self._bodies, self._which = bodies, np.array(bodies, dtype=int)
+            links = self._which[:, None]
+            self._moved = None
             # of their origins, and of the first two columns of their rotations
             self._indices = 3 * links + np.arange(3), 9 * links + _AHEAD_AND_LEFT
             self._look()
-        places = [
-            (x + along * a + aside * d, y + along * b + aside * e, z + along * c + aside * f)
-            for (_, _, along, aside), ((x, y, z), (a, b, c, d, e, f)) in zip(
-                points, self._links, strict=True
-            )
-        ]
-        if places:
-            self._at[:count] = places
-        self.places = [complex(x, y) for x, y, _ in places]
-        for (rotation, move), at, body in zip(self._spaces, self._at_of_each, bodies,
-                                              strict=False):  # fmt: skip
-            mujoco.mj_jac(model, data, move, rotation, at, body)
+        x0, y0, z0 = self._centre.tolist()
+        self._arms, self.places = [], []
+        for (_, _, along, aside), ((x, y, z), (a, b, c, d, e, f)) in zip(
+            points, self._links, strict=True
+        ):
+            x, y = x + along * a + aside * d, y + along * b + aside * e
+            self.places.append(complex(x, y))
+            self._arms.append((x - x0, y - y0, z + along * c + aside * f - z0))
 
     def slip(self, radii: list[float], naps: list[Directions] | None = None) -> None:
         """Take the slips now, by which the rows of points lie that did not touch before.
@@ -173,12 +173,12 @@ class FrictionRows:
             naps: of each, None where all resist alike in all directions.
         """
         self._radii, self._naps, before = radii, naps, self._before
-        self._note_rates()
+        self.note_rates()
         for number, radius, (u, v, w), speed in zip(
             self.numbers, radii, self._slips, self.speeds, strict=True
         ):
             # it was in the air; or it had an area to turn, which is gone
-            if number not in before or (not radius and self._axes[number][2]):
+            if number not in before or (not radius and self._axes[number][0][2]):
                 self._axes[number] = (
                     _axes(u / speed, v / speed, w / speed) if speed > 0 else _axes(*_AHEAD)
                 )
@@ -191,9 +191,8 @@ class FrictionRows:
             viscosities: of each, whatever resists besides [N s/m].
         """
         self.bounds = bounds
-        wet = any(drags)
         kinds: list[Kind] = []
-        along: list[float] = []
+        rows: list[float] = []  # torques about the vertical and level ones, forces along x and y
         viscous: list[float] = []
         forces: list[float] = []
         damping: list[float] = []
@@ -202,19 +201,28 @@ class FrictionRows:
         # the discrete integrator makes of a row f = -D (dv/dt + b v), D = d / (1 - d) / its inverse
         # mass and b = 2 / (d time): with b much above 1 / dt it is viscous, f = -D b v
         stiffness, time = _STIFFER * self._dt / _VISCOUS, 2.0 * self._dt / _VISCOUS
-        for number, bound, drag, viscosity, radius, (u, v, w), speed in zip(
-            self.numbers, bounds, drags, viscosities, self._radii, self._rates, self.speeds,
-            strict=True,
+        for number, bound, drag, viscosity, radius, (dx, dy, dz), nap, (u, v, w), speed in zip(
+            self.numbers, bounds, drags, viscosities, self._radii, self._arms,
+            self._naps or [_ROUND] * len(bounds), self._rates, self.speeds, strict=True,
         ):  # fmt: skip
             kinds.append((number, bound > 0, drag > 0, radius > 0))
-            x, y, z, a, b, c, i, j, k = self._axes[number]
-            along += (radius * z, x, y, radius * c, a, b, radius * k, i, j)
-            viscous += (-viscosity * radius * w, -viscosity * u, -viscosity * v)
-            forces += (bound, bound, bound if radius else 0.0)
-            if wet:
-                damping += (drag, drag, drag if radius else 0.0)
+            x, y = -viscosity * u, -viscosity * v
+            if nap is not _ROUND:
+                x, y = x + nap[4], y + nap[5]
+            viscous += (-dz * y, dz * x, dx * y - dy * x - viscosity * radius * w, x, y)
+            if not (bound or drag):
+                continue
+            axes = self._axes[number]
+            for x, y, z in axes if radius else axes[:-1]:
+                if nap is not _ROUND:
+                    a, b, c, d, _, _ = nap
+                    x, y = a * x + c * y, b * x + d * y
+                rows += (-dz * y, dz * x, dx * y - dy * x + radius * z, x, y)
+                forces.append(bound)
+                damping.append(drag)
             factor = stiffness * bound / (speed if speed > STANDS else STANDS)
-            for inverse in self._inverse_masses[number]:
+            inverses = self._inverse_masses[number]
+            for inverse in inverses if radius else inverses[:-1]:
                 ratio = factor * inverse
                 impedance = ratio / (1.0 + ratio)
                 if impedance < _SOFTEST:
@@ -223,19 +231,20 @@ class FrictionRows:
                     impedance = _STIFFEST
                 impedances.append(impedance)
                 times.append(time / impedance)
-        if self._naps is not None:
-            self._turn_naps(along, viscous)
         layout = self._layout
         if kinds != layout.kinds:
             self._release(layout.rows)
             layout = self._layout = Layout.of(kinds, self._tendons, self._model.nv)
-            self._joints[layout.resisting] = self._joints_of[layout.resisting]
-        layout.along.reshape(-1)[layout.blocks] = along + viscous
-        rows = layout.along.dot(self._jacobian)
-        self._applied[:] = rows[-1]
-        self._coefficients[layout.coefficients] = rows.reshape(-1)[layout.parts]
+            self._joints[layout.rows] = self._joints_of[layout.rows]
+            self._moved = None
+        if self._moved is None:
+            self._moved = self._moving[self._which[layout.points]]
+        motions = np.array(rows + viscous).reshape(-1, 5).dot(self._motions)
+        motions *= self._moved
+        np.add.reduce(motions[len(layout.rows) :], out=self._applied)
+        self._coefficients[layout.coefficients] = motions.reshape(-1)[layout.parts]
         self._frictionloss[layout.rows] = forces
-        if wet:
+        if any(drags):
             self._damping[layout.rows] = damping
         self._times[layout.times] = times
         self._impedances[layout.impedances] = impedances + impedances
@@ -244,7 +253,6 @@ class FrictionRows:
         """Bound, place x + i y, motion beyond dt times its slip, and speed of each [N, m, m/s]."""
         dt, moved = self._dt, []
         self._look()
-        self._note_rates()
         for bound, before, (_, _, along, aside), ((x, y, _), (a, b, _, d, e, _)), (u, v, _) in zip(
             self.bounds, self.places, self.points, self._links, self._rates, strict=True
         ):
@@ -259,12 +267,14 @@ class FrictionRows:
         directions = self._frames[self._indices[1]].tolist()
         self._links = list(zip(origins, directions, strict=True))
 
-    def _note_rates(self) -> None:
-        """Note slips at the rates now, by the Jacobians of the step's beginning [m/s]."""
-        rates = iter(self._jacobian.dot(self._qvel).tolist())
+    def note_rates(self) -> None:
+        """Note slips at the rates now, the places being those that MuJoCo saw last [m/s]."""
+        mujoco.mj_comVel(self._model, self._data)
         self._rates = self._slips = [
-            (u, v, radius * turning)
-            for radius, _, _, turning, u, v, _ in zip(self._radii, *[rates] * 6, strict=True)
+            (u + q * z - r * y, v + r * x - p * z, radius * r)
+            for (p, q, r, u, v, _), (x, y, z), radius in zip(
+                self._velocities[self._which].tolist(), self._arms, self._radii, strict=True
+            )
         ]
         if self._naps is not None:
             self._slips = [
@@ -273,16 +283,6 @@ class FrictionRows:
             ]
         self.speeds = [math.hypot(*slip) for slip in self._slips]
 
-    def _turn_naps(self, along: list[float], viscous: list[float]) -> None:
-        """Take rows along s to those along the slip, and add what leans to what is viscous."""
-        assert self._naps is not None
-        for slot, (a, b, c, d, p, q) in enumerate(self._naps):
-            for row in range(9 * slot, 9 * slot + 9, 3):
-                x, y = along[row + 1 : row + 3]
-                along[row + 1 : row + 3] = a * x + c * y, b * x + d * y
-            viscous[3 * slot + 1] += p
-            viscous[3 * slot + 2] += q
-
     def _release(self, rows: Numbers) -> None:
         """Let rows resist by nothing, and be of no joint."""
         self._frictionloss[rows] = 0.0
@@ -290,11 +290,20 @@ class FrictionRows:
         self._joints[rows] = 0
 
 
-def _axes(x: float, y: float, z: float) -> tuple[float, ...]:
+def _axes(x: float, y: float, z: float) -> tuple[Vector, Vector, Vector]:
     """Three axes at right angles of which the first is given; the second lies in plan."""
     level = math.hypot(x, y)
     if level > _LEVEL:
         a, b = -y / level, x / level
     else:
         a, b = 1.0, 0.0
-    return x, y, z, a, b, 0.0, -z * b, z * a, x * b - y * a
+    return (x, y, z), (a, b, 0.0), (-z * b, z * a, x * b - y * a)
+
+
+def _moving(model: mujoco.MjModel) -> Array:
+    """1 of the coordinates that move each body, else 0, (B, nv)."""
+    moving = np.zeros((model.nbody, model.nv))
+    for body in range(1, model.nbody):  # those that carry others come first
+        moving[body] = moving[model.body_parentid[body]]
+        moving[body, model.dof_bodyid == body] = 1.0
+    return moving

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from analytic.friction.dissipation_in_plane import nap_of
 from analytic.scene.chain import link_lengths
+from analytic.scene.ground import depends_on_speed
 from analytic.scene.surface import Surface, Way
 from analytic.solvers.limbs.contact_search import parts_of
 from analytic.solvers.limbs.contact_state import Contact
@@ -65,6 +66,8 @@ class LimbFooting:
             robot, numerics.links, numerics.twists, scene.incline, scene.ground.at(0.0)
         )
         self._finder = Contacts(self._tree, scene.friction)
+        # whether points of one contact may resist unlike each other
+        self._varies = not isinstance(scene.ground, Surface) or depends_on_speed(scene.ground)
         self._round = self._finder.is_round(scene.ground)
         self.contacts: list[Contact] = []
         self._pressures: list[float] = []
@@ -131,11 +134,11 @@ class LimbFooting:
         points, radii, owners = [], [], []
         for contact in self.contacts:
             limb, number = contact.limb, self._numbers[contact.limb][contact.part]
-            at, aside, starts = contact.at, contact.aside, self._starts[limb]
+            at, aside, radius = contact.at, contact.aside, 0.0
             if contact.length:  # a side
-                at, aside, number = (contact.middle,), _MIDDLE, number + TIP_POINTS
-            links, radius = self._links[limb], self._finder.radius(contact)
-            owner = contact, 1 / len(at)
+                at, aside, radius = (contact.middle,), _MIDDLE, self._finder.radius(contact)
+                number += TIP_POINTS
+            starts, links, owner = self._starts[limb], self._links[limb], (contact, 1 / len(at))
             for along, across in zip(at, aside, strict=True):
                 link = bisect_right(starts, along) - 1
                 points.append(Point(number, links[link], along - starts[link], across))
@@ -173,20 +176,22 @@ class LimbFooting:
         """
         rows, finder, ground, bounds, drags = self._rows, self._finder, self._ground, [], []
         alike = (ground,) if isinstance(ground, Surface) else None
+        bound = drag = 0.0
+        before = None
         for (contact, share), point, place, speed in zip(
             self._owners, rows.points, rows.places, rows.speeds, strict=True
         ):
-            under = alike or [ground.at(x) for x in self._x(contact, point, place.real)]
-            bound = drag = 0.0
-            for surface in under:
-                dry, wet = finder.resistance(
-                    contact, surface.against(way) if way else surface, speed, way or "ahead",
-                    self._pressures,
-                )  # fmt: skip
-                bound, drag = bound + dry, drag + wet
-            part = share / len(under)
-            bounds.append(part * bound)
-            drags.append(part * drag)
+            if self._varies or contact is not before:
+                under = alike or [ground.at(x) for x in self._x(contact, point, place.real)]
+                part, bound, drag, before = share / len(under), 0.0, 0.0, contact
+                for surface in under:
+                    dry, wet = finder.resistance(
+                        contact, surface.against(way) if way else surface, speed, way or "ahead",
+                        self._pressures,
+                    )  # fmt: skip
+                    bound, drag = bound + part * dry, drag + part * wet
+            bounds.append(bound)
+            drags.append(drag)
         return bounds, drags
 
     def _x(self, contact: Contact, point: Point, x: float) -> list[float]:
@@ -272,6 +277,7 @@ class LimbFooting:
         Returns:
             Number of limbs that touched the ground in the step, and the ceiling's push.
         """
+        self._rows.note_rates()
         self._look()
         touching = (float(len({contact.limb for contact in self.contacts})),
                     *self._ceiling.numbers())  # fmt: skip

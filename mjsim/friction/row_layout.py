@@ -13,8 +13,6 @@ Numbers = NDArray[np.int_]
 # of a point: its number, and whether it has a bound, a viscous resistance and a radius
 Kind = tuple[int, bool, bool, bool]
 
-_RESISTED = slice(2, 5)  # of rotation and place: about the vertical, along x and y
-
 
 class Tendons(NamedTuple):
     """The rows of one point in MuJoCo.
@@ -43,14 +41,14 @@ class Layout(NamedTuple):
 
     Attributes:
         kinds: of the points.
-        rows: tendons of all of them, (3 C,).
-        resisting: those of the points with a bound or a viscous resistance.
-        along, blocks: matrix from the motions of the points to those along the rows, and in its
-            last row to the viscous force, (3 C + 1, 6 C), and places of what is not 0 in it.
-        coefficients, parts: places of the coefficients, and where they are in the Jacobians along
-            the rows.
-        times, impedances: places of those of the rows across, (2 C,), and twice for the two ends of
-            an impedance that is constant, (4 C,).
+        rows: tendons of those with a bound or a viscous resistance, (R,): three of a point with a
+            radius, else two.
+        coefficients, parts: places of the coefficients, and where they are in the motions along the
+            rows, (R + C, nv).
+        points: places among those that touch of the points of the rows, and once more of all,
+            (R + C,).
+        times, impedances: places of those of the rows across, (R - C,), and twice for the two ends
+            of an impedance that is constant.
         in_order: place among those that touch, number and rows of each with a bound, in the order
             of MuJoCo's rows of dry friction.
         bounded: how many rows these have.
@@ -58,11 +56,9 @@ class Layout(NamedTuple):
 
     kinds: list[Kind]
     rows: Numbers
-    resisting: Numbers
-    along: Array
-    blocks: Numbers
     coefficients: Numbers
     parts: Numbers
+    points: Numbers
     times: Numbers
     impedances: Numbers
     in_order: list[tuple[int, int, int]]
@@ -72,24 +68,28 @@ class Layout(NamedTuple):
     def of(cls, kinds: list[Kind], tendons: list[Tendons], nv: int) -> "Layout":
         """The places for points that touch, by the tendons of all points."""
         own = [tendons[number] for number, *_ in kinds]
-        rows, across = _joined([mine.rows for mine in own]), _joined([m.rows[1:] for m in own])
-        resists = np.array([bound or drag for _, bound, drag, _ in kinds], dtype=bool)
+        counts = [(bound or drag) * (ROWS if radius else ROWS - 1)
+                  for _, bound, drag, radius in kinds]  # fmt: skip
+        rows = [mine.rows[:count] for mine, count in zip(own, counts, strict=True)]
+        across = _joined([each[1:] for each in rows])
+        every = np.repeat(np.arange(len(kinds)), np.array(counts, dtype=int))  # of the rows
         in_order = sorted(
-            ((slot, number, ROWS if radius else ROWS - 1)
-             for slot, (number, bound, _, radius) in enumerate(kinds) if bound),
+            ((slot, number, count)
+             for slot, ((number, bound, *_), count) in enumerate(zip(kinds, counts, strict=True))
+             if bound),
             key=lambda point: point[1],
         )  # fmt: skip
-        begins, count = nv * np.arange(ROWS)[:, None], len(kinds)
-        entries = np.arange(ROWS * 6 * count**2).reshape(count, ROWS, count, 6)[..., _RESISTED]
-        viscous = ROWS * count * 6 * count + np.arange(6 * count).reshape(count, 6)[:, _RESISTED]
+        first = np.cumsum([0, *counts])
         return cls(
-            kinds, rows, rows[np.repeat(resists, ROWS)], np.zeros((ROWS * count + 1, 6 * count)),
-            _joined([*(entries[slot, :, slot] for slot in range(count)), viscous]),
-            _joined([mine.coefficients for mine in own]),
-            _joined([ROWS * nv * slot + begins + mine.dofs for slot, mine in enumerate(own)]),
-            mujoco.mjNREF * across,
+            kinds, _joined(rows),
+            _joined([mine.coefficients[:count] for mine, count in zip(own, counts, strict=True)]),
+            _joined([
+                nv * (begin + np.arange(count))[:, None] + mine.dofs
+                for mine, begin, count in zip(own, first, counts, strict=False)
+            ]),
+            np.concatenate([every, np.arange(len(kinds))]), mujoco.mjNREF * across,
             np.concatenate([mujoco.mjNIMP * across + end for end in (0, 1)]),
-            in_order, sum(rows_of for *_, rows_of in in_order),
+            in_order, sum(count for *_, count in in_order),
         )  # fmt: skip
 
 
