@@ -19,7 +19,6 @@ few numbers of a step.
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -46,21 +45,6 @@ _NONE = np.zeros(0, dtype=int)
 _LEVEL = 1e-6  # of a direction: its part in plan is none
 
 
-class Point(NamedTuple):
-    """A point that resists, on its link.
-
-    Attributes:
-        number: its place among all that there may be.
-        body: the link.
-        along, aside: how far it is from the link's beginning, ahead and to the left [m].
-    """
-
-    number: int
-    body: int
-    along: float
-    aside: float
-
-
 class FrictionRows:
     """The rows of all points that there may be, and the motion of those that touch.
 
@@ -71,7 +55,7 @@ class FrictionRows:
 
     Attributes:
         numbers: places among all of the points that touch in the coming step.
-        points: those.
+        bodies: links that they are of.
         places: x + i y of them [m].
         speeds: sizes |s| of their slips now [m/s].
         bounds: of their friction [N].
@@ -93,18 +77,18 @@ class FrictionRows:
         self._impedances = model.tendon_solimp_fri.reshape(-1)
         self._release(every.ravel())
         # of all points: inverse masses that MuJoCo sees in the rows across, in the step before
-        # [1/kg], and directions of the rows, one after the other
+        # [1/kg], and directions of the first rows
         self._inverse_masses: list[list[float]] = model.tendon_invweight0[every[:, 1:]].tolist()
-        self._axes = [_axes(*_AHEAD)] * len(names)
+        self._directions = [_AHEAD] * len(names)
         # motions at unit rates of the coordinates, and of the links, about the centre of mass
         self._motions, self._velocities = data.cdof[:, :5].T, data.cvel
         self._moving = _moving(model)  # which of them move which links
         self._moved: Array | None = None  # and which the points of the rows
         self._centre = data.subtree_com[model.body_rootid[model.jnt_bodyid[0]]]
-        self.points: list[Point] = []
         self.numbers: list[int] = []
         self._before: list[int] = []
-        self._bodies: list[int] = []
+        self.bodies: list[int] = []
+        self._offsets: list[tuple[float, float]] = []
         self._which = _NONE  # links, as an array
         self._indices: tuple[Numbers, Numbers] = (_NONE, _NONE)  # of numbers of the links
         self._links: list[tuple[list[float], list[float]]] = []  # their origins and directions
@@ -125,32 +109,41 @@ class FrictionRows:
         if count != layout.bounded:  # before the first step
             return
         forces, inverse_masses = data.efc_force[:count].tolist(), data.efc_diagA[:count].tolist()
-        end, h = 0, 0.0
+        end = 0
         for slot, number, rows in layout.in_order:
             begin, end = end, end + rows
+            size, (x, y, z) = self.speeds[slot], self._directions[number]
             f, g = forces[begin], forces[begin + 1]
+            slides = size > 0 and abs(f) > _WHOLE * self.bounds[slot]
             if rows == ROWS:
-                h = forces[begin + 2]
                 self._inverse_masses[number] = inverse_masses[begin + 1 : end]
+                if not slides:
+                    h, ((a, b, c), (i, j, k)) = forces[begin + 2], _across(x, y, z)
+                    x, y, z = f * x + g * a + h * i, f * y + g * b + h * j, f * z + g * c + h * k
             else:
-                h = 0.0
                 self._inverse_masses[number][0] = inverse_masses[begin + 1]
-            size = self.speeds[slot]
-            if size > 0 and abs(f) > _WHOLE * self.bounds[slot]:
+                if not slides:
+                    x, y = f * x - g * y, f * y + g * x
+            if slides:
                 x, y, z = self._slips[slot]
             else:
-                (a, b, c), (d, e, _), (i, j, k) = self._axes[number]
-                x, y, z = f * a + g * d + h * i, f * b + g * e + h * j, f * c + h * k
                 size = math.hypot(x, y, z)
             if size > 0:
-                self._axes[number] = _axes(x / size, y / size, z / size)
+                self._directions[number] = x / size, y / size, z / size
 
-    def move_to(self, points: list[Point]) -> None:
-        """Take the points that touch in the coming step, with their places now."""
-        self._before, self.numbers = self.numbers, [point.number for point in points]
-        self.points, bodies = points, [point.body for point in points]
-        if bodies != self._bodies:
-            self._bodies, self._which = bodies, np.array(bodies, dtype=int)
+    def move_to(
+        self, numbers: list[int], bodies: list[int], offsets: list[tuple[float, float]]
+    ) -> None:
+        """Take the points that touch in the coming step, with their places now.
+
+        Args:
+            numbers: places of the points among all.
+            bodies: link that each is of.
+            offsets: how far ahead and to the left of the link's beginning each is [m].
+        """
+        self._before, self.numbers, self._offsets = self.numbers, numbers, offsets
+        if bodies != self.bodies:
+            self.bodies, self._which = bodies, np.array(bodies, dtype=int)
             links = self._which[:, None]
             self._moved = None
             # of their origins, and of the first two columns of their rotations
@@ -158,8 +151,8 @@ class FrictionRows:
             self._look()
         x0, y0, z0 = self._centre.tolist()
         self._arms, self.places = [], []
-        for (_, _, along, aside), ((x, y, z), (a, b, c, d, e, f)) in zip(
-            points, self._links, strict=True
+        for (along, aside), ((x, y, z), (a, b, c, d, e, f)) in zip(
+            offsets, self._links, strict=True
         ):
             x, y = x + along * a + aside * d, y + along * b + aside * e
             self.places.append(complex(x, y))
@@ -178,9 +171,9 @@ class FrictionRows:
             self.numbers, radii, self._slips, self.speeds, strict=True
         ):
             # it was in the air; or it had an area to turn, which is gone
-            if number not in before or (not radius and self._axes[number][0][2]):
-                self._axes[number] = (
-                    _axes(u / speed, v / speed, w / speed) if speed > 0 else _axes(*_AHEAD)
+            if number not in before or (not radius and self._directions[number][2]):
+                self._directions[number] = (
+                    (u / speed, v / speed, w / speed) if speed > 0 else _AHEAD
                 )
 
     def resist(self, bounds: list[float], drags: list[float], viscosities: list[float]) -> None:
@@ -212,14 +205,19 @@ class FrictionRows:
             viscous += (-dz * y, dz * x, dx * y - dy * x - viscosity * radius * w, x, y)
             if not (bound or drag):
                 continue
-            axes = self._axes[number]
-            for x, y, z in axes if radius else axes[:-1]:
-                if nap is not _ROUND:
+            x, y, z = self._directions[number]
+            if not radius and nap is _ROUND:
+                a, b, c = dx * y - dy * x, dx * x + dy * y, dz
+                rows += (-c * y, c * x, a, x, y, -c * x, -c * y, b, -y, x)
+                forces += (bound, bound)
+                damping += (drag, drag)
+            else:
+                for i, j, k in ((x, y, z), *_across(x, y, z)[: 2 if radius else 1]):
                     a, b, c, d, _, _ = nap
-                    x, y = a * x + c * y, b * x + d * y
-                rows += (-dz * y, dz * x, dx * y - dy * x + radius * z, x, y)
-                forces.append(bound)
-                damping.append(drag)
+                    x, y = a * i + c * j, b * i + d * j
+                    rows += (-dz * y, dz * x, dx * y - dy * x + radius * k, x, y)
+                    forces.append(bound)
+                    damping.append(drag)
             factor = stiffness * bound / (speed if speed > STANDS else STANDS)
             inverses = self._inverse_masses[number]
             for inverse in inverses if radius else inverses[:-1]:
@@ -253,8 +251,8 @@ class FrictionRows:
         """Bound, place x + i y, motion beyond dt times its slip, and speed of each [N, m, m/s]."""
         dt, moved = self._dt, []
         self._look()
-        for bound, before, (_, _, along, aside), ((x, y, _), (a, b, _, d, e, _)), (u, v, _) in zip(
-            self.bounds, self.places, self.points, self._links, self._rates, strict=True
+        for bound, before, (along, aside), ((x, y, _), (a, b, _, d, e, _)), (u, v, _) in zip(
+            self.bounds, self.places, self._offsets, self._links, self._rates, strict=True
         ):
             place = complex(x + along * a + aside * d, y + along * b + aside * e)
             beyond = place - before - dt * complex(u, v)
@@ -290,14 +288,11 @@ class FrictionRows:
         self._joints[rows] = 0
 
 
-def _axes(x: float, y: float, z: float) -> tuple[Vector, Vector, Vector]:
-    """Three axes at right angles of which the first is given; the second lies in plan."""
+def _across(x: float, y: float, z: float) -> tuple[Vector, Vector]:
+    """Two axes at right angles to a direction and to each other, of which the first is in plan."""
     level = math.hypot(x, y)
-    if level > _LEVEL:
-        a, b = -y / level, x / level
-    else:
-        a, b = 1.0, 0.0
-    return (x, y, z), (a, b, 0.0), (-z * b, z * a, x * b - y * a)
+    a, b = (-y / level, x / level) if level > _LEVEL else (1.0, 0.0)
+    return (a, b, 0.0), (-z * b, z * a, x * b - y * a)
 
 
 def _moving(model: mujoco.MjModel) -> Array:

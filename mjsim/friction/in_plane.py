@@ -26,7 +26,7 @@ from analytic.solvers.limbs.contact_state import Contact
 from analytic.solvers.limbs.contacts import Contacts, axes_of
 from analytic.solvers.limbs.kinematics import Tree
 from mjsim.friction.ceiling import CeilingPush
-from mjsim.friction.friction_rows import STANDS, Directions, FrictionRows, Point
+from mjsim.friction.friction_rows import STANDS, Directions, FrictionRows
 from mjsim.friction.rigid_motion import rigid_motion
 from mjsim.model.limbs import POINTS, TIP_POINTS, joints_to, limbed, link_prefix, point_names
 from mjsim.model.pads import edges, node_of_geom, pads_of
@@ -114,39 +114,47 @@ class LimbFooting:
         rows, (bends, self._pressures) = self._rows, prepared
         self.contacts = self._finder.search(self._pushes(), self._heights, bends)
         rows.turn()
-        points, radii = self._points()
-        rows.move_to(points)
+        radii = self._move_rows()
         rows.slip(radii)
         if self._round:
             bounds, drags = self._resistances()
         else:
             bounds, drags, naps = self._naps()
             radii = [
-                radius * self._part_of_turning(contact, point.body, nap)
-                for radius, (contact, _), point, nap in zip(radii, self._owners, points, naps,
-                                                            strict=True)
+                radius * self._part_of_turning(contact, body, nap)
+                for radius, (contact, _), body, nap in zip(radii, self._owners, rows.bodies, naps,
+                                                           strict=True)
             ]  # fmt: skip
             rows.slip(radii, naps)
         rows.resist(bounds, drags, self._viscosities(sum(bounds), sum(drags)))
 
-    def _points(self) -> tuple[list[Point], list[float]]:
-        """Points that resist in the coming step, and their radii [m]; notes which contacts have."""
-        points, radii, owners = [], [], []
+    def _move_rows(self) -> list[float]:
+        """Take the rows to the points of the contacts; note whose they are, and give their radii."""
+        numbers, bodies, offsets, radii = [], [], [], []
+        self._owners = owners = []
         for contact in self.contacts:
-            limb, number = contact.limb, self._numbers[contact.limb][contact.part]
-            at, aside, radius = contact.at, contact.aside, 0.0
+            limb = contact.limb
+            number, starts = self._numbers[limb][contact.part], self._starts[limb]
             if contact.length:  # a side
-                at, aside, radius = (contact.middle,), _MIDDLE, self._finder.radius(contact)
+                at, aside, radius = contact.middle, _MIDDLE, self._finder.radius(contact)
                 number += TIP_POINTS
-            starts, links, owner = self._starts[limb], self._links[limb], (contact, 1 / len(at))
-            for along, across in zip(at, aside, strict=True):
-                link = bisect_right(starts, along) - 1
-                points.append(Point(number, links[link], along - starts[link], across))
+            else:
+                at, aside, radius = contact.at[0], contact.aside, 0.0
+            link = bisect_right(starts, at) - 1
+            body, along, owner = (
+                self._links[limb][link],
+                at - starts[link],
+                (contact, 1 / len(aside)),
+            )
+            for across in aside:
+                numbers.append(number)
+                bodies.append(body)
+                offsets.append((along, across))
                 radii.append(radius)
                 owners.append(owner)
                 number += 1
-        self._owners = owners
-        return points, radii
+        self._rows.move_to(numbers, bodies, offsets)
+        return radii
 
     def _naps(self) -> tuple[list[float], list[float], list[Directions]]:
         """Bounds, viscous resistances and directions of the points."""
@@ -178,11 +186,11 @@ class LimbFooting:
         alike = (ground,) if isinstance(ground, Surface) else None
         bound = drag = 0.0
         before = None
-        for (contact, share), point, place, speed in zip(
-            self._owners, rows.points, rows.places, rows.speeds, strict=True
+        for (contact, share), body, place, speed in zip(
+            self._owners, rows.bodies, rows.places, rows.speeds, strict=True
         ):
             if self._varies or contact is not before:
-                under = alike or [ground.at(x) for x in self._x(contact, point, place.real)]
+                under = alike or [ground.at(x) for x in self._x(contact, body, place.real)]
                 part, bound, drag, before = share / len(under), 0.0, 0.0, contact
                 for surface in under:
                     dry, wet = finder.resistance(
@@ -194,11 +202,11 @@ class LimbFooting:
             drags.append(drag)
         return bounds, drags
 
-    def _x(self, contact: Contact, point: Point, x: float) -> list[float]:
+    def _x(self, contact: Contact, body: int, x: float) -> list[float]:
         """Places along x of what a point stands for, of a side all that it resists at [m]."""
         if not contact.length:
             return [x]
-        ahead, left = self._data.xmat[point.body, :2].tolist()
+        ahead, left = self._data.xmat[body, :2].tolist()
         return [
             x + (along - contact.middle) * ahead + aside * left
             for along, aside in zip(contact.at, contact.aside, strict=True)
