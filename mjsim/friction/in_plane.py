@@ -39,7 +39,7 @@ _WEAK = 0.005  # of all bounds and drags, that viscosity adds at most; chosen
 _TIPPED = 1.0  # rad of pitch or roll of the trunk as a whole: it fell over; chosen
 _STEEP, _LEANS = math.tan(_TIPPED), math.sin(_TIPPED)
 _YAW = 3  # of the coordinates
-_MIDDLE = (0.0,)  # aside
+_MIDDLE: tuple[float, ...] = (0.0,)  # aside
 
 
 class LimbFooting:
@@ -129,27 +129,22 @@ class LimbFooting:
         rows.resist(bounds, drags, self._viscosities(sum(bounds), sum(drags)))
 
     def _move_rows(self) -> list[float]:
-        """Take the rows to the points of the contacts; note whose they are, and give their radii."""
+        """Take the rows to the points of the contacts; note whose these are, return their radii."""
         numbers, bodies, offsets, radii = [], [], [], []
         self._owners = owners = []
         for contact in self.contacts:
             limb = contact.limb
             number, starts = self._numbers[limb][contact.part], self._starts[limb]
+            at, asides, radius = contact.at[0], contact.aside, 0.0
             if contact.length:  # a side
-                at, aside, radius = contact.middle, _MIDDLE, self._finder.radius(contact)
+                at, asides, radius = contact.middle, _MIDDLE, self._finder.radius(contact)
                 number += TIP_POINTS
-            else:
-                at, aside, radius = contact.at[0], contact.aside, 0.0
-            link = bisect_right(starts, at) - 1
-            body, along, owner = (
-                self._links[limb][link],
-                at - starts[link],
-                (contact, 1 / len(aside)),
-            )
-            for across in aside:
+            link, owner = bisect_right(starts, at) - 1, (contact, 1 / len(asides))
+            body, along = self._links[limb][link], at - starts[link]
+            for aside in asides:
                 numbers.append(number)
                 bodies.append(body)
-                offsets.append((along, across))
+                offsets.append((along, aside))
                 radii.append(radius)
                 owners.append(owner)
                 number += 1

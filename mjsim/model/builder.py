@@ -11,10 +11,8 @@ from mjsim.model.stage import stage
 from mjsim.scene import Resolved, Scene, registry
 
 _CREEP = 0.1  # of friction that sticks; at 0.03 of it walks of the cable change by 4 %; measured
-# of the solver, for limbs: by MuJoCo's own 1e-8 walks are up to 0.006 L and gaits without left and
-_TOLERANCE = (
-    1e-12  # right go aside, as two points of a tip share what holds it; costs 0.1 %; measured
-)
+# of the solver, for limbs: by MuJoCo's own 1e-8 walks on tips err by up to 0.006 L, as points of a
+_TOLERANCE = 1e-12  # tip share what holds it; costs 0.1 % of the time; measured
 
 
 def scene_spec(scene: Scene, numerics: Resolved) -> mujoco.MjSpec:
