@@ -1,16 +1,17 @@
 """Friction of a robot of limbs: each contact resists by a bound in the plane, over its area.
 
 Contacts and their bounds are those of analytic.solvers.limbs.contacts, found from the forces of the
-step before. Each has three rows, see mjsim.friction.friction_rows: dry friction of the whole bound
-V along its slip s, turning included, or along the traction where it does not slide, and across that
-V v / |s|, where s is the slip of the step before: together the tangent of V s / |s|, as in Newton's
-method, so that friction opposes the slip whatever its direction. What the bounds leave open is left
-to viscosity at all contacts alike, as in analytic.friction.dissipation_in_plane; it is small beside
-them.
+step before. A tip resists at its points, a side at its middle as it slips and turns. Each point has
+three rows, see mjsim.friction.friction_rows: dry friction of the whole bound V along its slip s,
+turning included, or along the traction where it does not slide, and across that V v / |s|, where s
+is the slip of the step before: together the tangent of V s / |s|, as in Newton's method, so that
+friction opposes the slip whatever its direction. What the bounds leave open is left to viscosity at
+all contacts alike, as in analytic.friction.dissipation_in_plane; it is small beside them.
 """
 
 import math
 from bisect import bisect_right
+from itertools import chain
 
 import mujoco
 import numpy as np
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 
 from analytic.friction.dissipation_in_plane import nap_of
 from analytic.scene.chain import link_lengths
+from analytic.scene.ground import depends_on_speed
 from analytic.scene.surface import Surface, Way
 from analytic.solvers.limbs.contact_search import parts_of
 from analytic.solvers.limbs.contact_state import TETHER, Contact
@@ -26,7 +28,7 @@ from analytic.solvers.limbs.kinematics import Tree
 from mjsim.friction.ceiling import CeilingPush
 from mjsim.friction.friction_rows import STANDS, Directions, FrictionRows
 from mjsim.friction.rigid_motion import rigid_motion
-from mjsim.model.limbs import contact_name, joints_to, limbed, link_prefix
+from mjsim.model.limbs import POINTS, TIP_POINTS, joints_to, limbed, link_prefix, point_names
 from mjsim.model.pads import edges, node_of_geom, pads_of
 from mjsim.results.status import THROWN
 from mjsim.scene import Resolved, Scene
@@ -37,6 +39,7 @@ _WEAK = 0.005  # of all bounds and drags, that viscosity adds at most; chosen
 _TIPPED = 1.0  # rad of pitch or roll of the trunk as a whole: it fell over; chosen
 _STEEP, _LEANS = math.tan(_TIPPED), math.sin(_TIPPED)
 _YAW = 3  # of the coordinates
+_MIDDLE: tuple[float, ...] = (0.0,)  # aside
 
 
 class LimbFooting:
@@ -63,18 +66,21 @@ class LimbFooting:
             robot, numerics.links, numerics.twists, scene.incline, scene.ground.at(0.0)
         )
         self._finder = Contacts(self._tree, scene.friction)
+        # whether points of one contact may resist unlike each other
+        self._varies = not isinstance(scene.ground, Surface) or depends_on_speed(scene.ground)
         self._round = self._finder.is_round(scene.ground)
         self.contacts: list[Contact] = []
         self._pressures: list[float] = []
-        self._touching = 0.0  # limbs
+        self._owners: list[tuple[Contact, float]] = []  # of the points, and their parts of these
         parts = [(i, part) for i, limb in enumerate(robot.limbs) for part in parts_of(limb, robot)]
+        names = [point_names(robot.names[i], part) for i, part in parts]
+        joints = [len(joints_to(robot, numerics.links, i, numerics.twists)) for i, _ in parts]
         self._rows = FrictionRows(
-            model, data, [contact_name(robot.names[i], part) for i, part in parts],
-            [len(joints_to(robot, numerics.links, i, numerics.twists)) for i, _ in parts],
-        )  # fmt: skip
+            model, data, list(chain.from_iterable(names)), np.repeat(joints, POINTS).tolist()
+        )
         self._numbers: list[dict[str, int]] = [{} for _ in robot.limbs]
         for number, (limb, part) in enumerate(parts):
-            self._numbers[limb][part] = number
+            self._numbers[limb][part] = POINTS * number
         self._links = [
             [model.body(f"{link_prefix(name)}{i}").id for i in range(numerics.links + 1)]
             for name in robot.names
@@ -108,37 +114,46 @@ class LimbFooting:
         rows, (bends, self._pressures) = self._rows, prepared
         self.contacts = self._finder.search(self._pushes(), self._heights, bends)
         rows.turn()
-        numbers, bodies, offsets, radii = [], [], [], []
-        for contact in self.contacts:
-            limb, at = contact.limb, contact.middle
-            starts = self._starts[limb]
-            link = bisect_right(starts, at) - 1
-            numbers.append(self._numbers[limb][contact.part])
-            bodies.append(self._links[limb][link])
-            offsets.append(at - starts[link])
-            radii.append(self._finder.radius(contact))
-        if numbers != rows.numbers:
-            touching = {contact.limb for contact in self.contacts if contact.part != TETHER}
-            self._touching = float(len(touching))
-        rows.move_to(numbers, bodies, offsets)
+        radii = self._move_rows()
         rows.slip(radii)
         if self._round:
-            bounds, drags = self._resistances(bodies)
+            bounds, drags = self._resistances()
         else:
-            bounds, drags, naps = self._naps(bodies)
+            bounds, drags, naps = self._naps()
             radii = [
                 radius * self._part_of_turning(contact, body, nap)
-                for radius, contact, body, nap in zip(radii, self.contacts, bodies, naps,
-                                                      strict=True)
+                for radius, (contact, _), body, nap in zip(radii, self._owners, rows.bodies, naps,
+                                                           strict=True)
             ]  # fmt: skip
             rows.slip(radii, naps)
-        rows.resist(bounds, drags, self._viscosity_of_each(sum(bounds), sum(drags)))
+        rows.resist(bounds, drags, self._viscosities(sum(bounds), sum(drags)))
 
-    def _naps(self, bodies: list[int]) -> tuple[list[float], list[float], list[Directions]]:
-        """Bounds, viscous resistances and directions of the contacts, each on one of the links."""
-        ahead, back, across = (
-            self._resistances(bodies, way) for way in ("ahead", "back", "across")
-        )
+    def _move_rows(self) -> list[float]:
+        """Take the rows to the points of the contacts; note whose these are, return their radii."""
+        numbers, bodies, offsets, radii = [], [], [], []
+        self._owners = owners = []
+        for contact in self.contacts:
+            limb = contact.limb
+            number, starts = self._numbers[limb][contact.part], self._starts[limb]
+            at, asides, radius = contact.at[0], contact.aside, 0.0
+            if contact.length:  # a side
+                at, asides, radius = contact.middle, _MIDDLE, self._finder.radius(contact)
+                number += TIP_POINTS
+            link, owner = bisect_right(starts, at) - 1, (contact, 1 / len(asides))
+            body, along = self._links[limb][link], at - starts[link]
+            for aside in asides:
+                numbers.append(number)
+                bodies.append(body)
+                offsets.append((along, aside))
+                radii.append(radius)
+                owners.append(owner)
+                number += 1
+        self._rows.move_to(numbers, bodies, offsets)
+        return radii
+
+    def _naps(self) -> tuple[list[float], list[float], list[Directions]]:
+        """Bounds, viscous resistances and directions of the points."""
+        ahead, back, across = (self._resistances(way) for way in ("ahead", "back", "across"))
         x = [place.real for place in self._rows.places]
         axes = axes_of(self._ground, x, self._data.qpos.item(_YAW), 0.0)
         bounds, nap = nap_of(np.array(ahead[0]), np.array(back[0]), np.array(across[0]), axes)
@@ -157,44 +172,52 @@ class LimbFooting:
             scaled += math.hypot(a * u + b * v, c * u + d * v)
         return scaled / whole if whole else 1.0
 
-    def _resistances(
-        self, bodies: list[int], way: Way | None = None
-    ) -> tuple[list[float], list[float]]:
-        """Bounds [N] and viscous resistances [N s/m] of the contacts, each on one of the links.
+    def _resistances(self, way: Way | None = None) -> tuple[list[float], list[float]]:
+        """Bounds [N] and viscous resistances [N s/m] of the points.
 
         Against motion one way where the ground or a foot has a nap.
         """
-        ground, finder, bounds, drags = self._ground, self._finder, [], []
-        if isinstance(ground, Surface):
-            ground = ground.against(way) if way else ground
-            for contact, speed in zip(self.contacts, self._rows.speeds, strict=True):
-                bound, drag = finder.resistance(
-                    contact, ground, speed, way or "ahead", self._pressures
-                )
-                bounds.append(bound)
-                drags.append(drag)
-            return bounds, drags
-        for contact, place, body, speed in zip(
-            self.contacts, self._rows.places, bodies, self._rows.speeds, strict=True
+        rows, finder, ground, bounds, drags = self._rows, self._finder, self._ground, [], []
+        alike = (ground,) if isinstance(ground, Surface) else None
+        bound = drag = 0.0
+        before = None
+        for (contact, share), body, place, speed in zip(
+            self._owners, rows.bodies, rows.places, rows.speeds, strict=True
         ):
-            ahead, left = self._data.xmat[body, :2].tolist()
-            along, aside = np.array(contact.at) - contact.middle, np.array(contact.aside)
-            places = place.real + along * ahead + aside * left
-            of_points = finder.resistances([contact], ground, places, speed, way, self._pressures)
-            bounds.append(float(of_points[0].sum()))
-            drags.append(float(of_points[1].sum()))
+            if self._varies or contact is not before:
+                under = alike or [ground.at(x) for x in self._x(contact, body, place.real)]
+                part, bound, drag, before = share / len(under), 0.0, 0.0, contact
+                for surface in under:
+                    dry, wet = finder.resistance(
+                        contact, surface.against(way) if way else surface, speed, way or "ahead",
+                        self._pressures,
+                    )  # fmt: skip
+                    bound, drag = bound + part * dry, drag + part * wet
+            bounds.append(bound)
+            drags.append(drag)
         return bounds, drags
 
-    def _viscosity_of_each(self, bound: float, drag: float) -> float:
-        """Resistance of each contact to what the bounds leave open [N s/m].
+    def _x(self, contact: Contact, body: int, x: float) -> list[float]:
+        """Places along x of what a point stands for, of a side all that it resists at [m]."""
+        if not contact.length:
+            return [x]
+        ahead, left = self._data.xmat[body, :2].tolist()
+        return [
+            x + (along - contact.middle) * ahead + aside * left
+            for along, aside in zip(contact.at, contact.aside, strict=True)
+        ]
+
+    def _viscosities(self, bound: float, drag: float) -> list[float]:
+        """Resistance of each point to what the bounds leave open [N s/m].
 
         Args:
-            bound, drag: of all contacts together [N, N s/m].
+            bound, drag: of all points together [N, N s/m].
         """
-        speeds, whole = self._rows.speeds, self._viscosity
+        whole, fastest = self._viscosity, max(self._rows.speeds, default=0.0)
         if bound > 0.0 or drag > 0.0:
-            whole = min(whole, _WEAK * (bound / max(*speeds, STANDS) + drag))
-        return whole / max(len(speeds), 1)
+            whole = min(whole, _WEAK * (bound / max(fastest, STANDS) + drag))
+        each = whole / max(len(self.contacts), 1)
+        return [each * share for _, share in self._owners]
 
     def _look(self) -> None:
         """Place the links as the coordinates say; note the heights of the limbs' vertices."""
@@ -257,8 +280,11 @@ class LimbFooting:
         Returns:
             Number of limbs that touched the ground in the step, and the ceiling's push.
         """
+        self._rows.note_rates()
         self._look()
-        touching = (self._touching, *self._ceiling.numbers())
+        limbs = {contact.limb for contact in self.contacts if contact.part != TETHER}
+        touching = (float(len(limbs)),
+                    *self._ceiling.numbers())  # fmt: skip
         if not self.contacts:
             return touching
         moved = self._rows.after_step()

@@ -1,4 +1,4 @@
-"""Places in MuJoCo of the numbers of contacts, see mjsim.friction.friction_rows."""
+"""Places in MuJoCo of the numbers of points, see mjsim.friction.friction_rows."""
 
 from typing import NamedTuple
 
@@ -10,14 +10,12 @@ from mjsim.model.limbs import ROWS
 
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int_]
-# of a contact: its number, and whether it has a bound, a viscous resistance and a radius
+# of a point: its number, and whether it has a bound, a viscous resistance and a radius
 Kind = tuple[int, bool, bool, bool]
-
-_RESISTED = slice(2, 5)  # of rotation and place: about the vertical, along x and y
 
 
 class Tendons(NamedTuple):
-    """The rows of one contact in MuJoCo.
+    """The rows of one point in MuJoCo.
 
     Attributes:
         rows: tendons, (3,).
@@ -31,7 +29,7 @@ class Tendons(NamedTuple):
 
     @classmethod
     def of(cls, model: mujoco.MjModel, name: str, joints: int) -> "Tendons":
-        """The rows of the contact of a name, which so many joints move."""
+        """The rows of the point of a name, which so many joints move."""
         rows = model.tendon(f"{name}_0").id + np.arange(ROWS)
         begin = int(model.tendon_adr[rows[0]])
         places = begin + np.arange(ROWS * joints).reshape(ROWS, joints)
@@ -39,18 +37,18 @@ class Tendons(NamedTuple):
 
 
 class Layout(NamedTuple):
-    """Where the numbers of the contacts that touch are written and read.
+    """Where the numbers of the points that touch are written and read.
 
     Attributes:
-        kinds: of the contacts.
-        rows: tendons of all of them, (3 C,).
-        resisting: those of the contacts with a bound or a viscous resistance.
-        along, blocks: matrix from the motions of the contacts to those along the rows, and in its
-            last row to the viscous force, (3 C + 1, 6 C), and places of what is not 0 in it.
-        coefficients, parts: places of the coefficients, and where they are in the Jacobians along
-            the rows.
-        times, impedances: places of those of the rows across, (2 C,), and twice for the two ends of
-            an impedance that is constant, (4 C,).
+        kinds: of the points.
+        rows: tendons of those with a bound or a viscous resistance, (R,): three of a point with a
+            radius, else two.
+        coefficients, parts: places of the coefficients, and where they are in the motions along the
+            rows, (R + C, nv).
+        points: places among those that touch of the points of the rows, and once more of all,
+            (R + C,).
+        times, impedances: places of those of the rows across, (R - C,), and twice for the two ends
+            of an impedance that is constant.
         in_order: place among those that touch, number and rows of each with a bound, in the order
             of MuJoCo's rows of dry friction.
         bounded: how many rows these have.
@@ -58,11 +56,9 @@ class Layout(NamedTuple):
 
     kinds: list[Kind]
     rows: Numbers
-    resisting: Numbers
-    along: Array
-    blocks: Numbers
     coefficients: Numbers
     parts: Numbers
+    points: Numbers
     times: Numbers
     impedances: Numbers
     in_order: list[tuple[int, int, int]]
@@ -70,26 +66,30 @@ class Layout(NamedTuple):
 
     @classmethod
     def of(cls, kinds: list[Kind], tendons: list[Tendons], nv: int) -> "Layout":
-        """The places for contacts that touch, by the tendons of all contacts."""
+        """The places for points that touch, by the tendons of all points."""
         own = [tendons[number] for number, *_ in kinds]
-        rows, across = _joined([mine.rows for mine in own]), _joined([m.rows[1:] for m in own])
-        resists = np.array([bound or drag for _, bound, drag, _ in kinds], dtype=bool)
+        counts = [(bound or drag) * (ROWS if radius else ROWS - 1)
+                  for _, bound, drag, radius in kinds]  # fmt: skip
+        rows = [mine.rows[:count] for mine, count in zip(own, counts, strict=True)]
+        across = _joined([each[1:] for each in rows])
+        every = np.repeat(np.arange(len(kinds)), np.array(counts, dtype=int))  # of the rows
         in_order = sorted(
-            ((slot, number, ROWS if radius else ROWS - 1)
-             for slot, (number, bound, _, radius) in enumerate(kinds) if bound),
-            key=lambda contact: contact[1],
+            ((slot, number, count)
+             for slot, ((number, bound, *_), count) in enumerate(zip(kinds, counts, strict=True))
+             if bound),
+            key=lambda point: point[1],
         )  # fmt: skip
-        begins, count = nv * np.arange(ROWS)[:, None], len(kinds)
-        entries = np.arange(ROWS * 6 * count**2).reshape(count, ROWS, count, 6)[..., _RESISTED]
-        viscous = ROWS * count * 6 * count + np.arange(6 * count).reshape(count, 6)[:, _RESISTED]
+        first = np.cumsum([0, *counts])
         return cls(
-            kinds, rows, rows[np.repeat(resists, ROWS)], np.zeros((ROWS * count + 1, 6 * count)),
-            _joined([*(entries[slot, :, slot] for slot in range(count)), viscous]),
-            _joined([mine.coefficients for mine in own]),
-            _joined([ROWS * nv * slot + begins + mine.dofs for slot, mine in enumerate(own)]),
-            mujoco.mjNREF * across,
+            kinds, _joined(rows),
+            _joined([mine.coefficients[:count] for mine, count in zip(own, counts, strict=True)]),
+            _joined([
+                nv * (begin + np.arange(count))[:, None] + mine.dofs
+                for mine, begin, count in zip(own, first, counts, strict=False)
+            ]),
+            np.concatenate([every, np.arange(len(kinds))]), mujoco.mjNREF * across,
             np.concatenate([mujoco.mjNIMP * across + end for end in (0, 1)]),
-            in_order, sum(rows_of for *_, rows_of in in_order),
+            in_order, sum(count for *_, count in in_order),
         )  # fmt: skip
 
 

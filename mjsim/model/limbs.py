@@ -20,7 +20,7 @@ from analytic.scene import pneunet
 from analytic.scene.chain import joint_springs, link_lengths
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb, limbs_of, rotation
 from analytic.solvers.limbs.contact_search import parts_of
-from analytic.solvers.limbs.resting_limb import ripple
+from analytic.solvers.limbs.resting_limb import ASIDE, ripple
 from mjsim.model import parts
 from mjsim.model.ceiling import add_ceiling, add_upper_edge
 from mjsim.model.links import UP, add_links
@@ -30,7 +30,9 @@ from mjsim.scene import Resolved, Scene
 Array = NDArray[np.float64]
 
 ROOT = ("x", "y", "z", "yaw", "pitch", "roll")
-ROWS = 3  # of friction at each contact, see mjsim.friction.friction_rows
+ROWS = 3  # of friction at each point, see mjsim.friction.friction_rows
+TIP_POINTS = len(ASIDE)
+POINTS = TIP_POINTS + 1  # that a contact has as a tip, and as a side
 _THIN = 1e-9  # MuJoCo wants A + B >= C of inertias, of which a plate has A + B = C
 _TOWARDS = 3.0  # times the centripetal acceleration that contacts yield to; measured
 _STIFFEST = 1e-4  # that MuJoCo takes
@@ -169,19 +171,19 @@ def _add_root(body: mujoco.MjsBody, angle: float) -> None:
             joint.axis[:2] = np.array(axis[:2]) @ rotation(angle)
 
 
-def contact_name(limb: str, part: str) -> str:
-    """Name of the friction of a contact of a limb, see analytic.solvers.limbs.contacts."""
-    return f"{PREFIX}{limb}_friction_{part}"
+def point_names(limb: str, part: str) -> list[str]:
+    """Names of friction at the points of a contact, see analytic.solvers.limbs.contacts."""
+    return [f"{PREFIX}{limb}_friction_{part}_{point}" for point in range(POINTS)]
 
 
 def _add_friction(spec: mujoco.MjSpec, scene: Scene, numerics: Resolved) -> None:
-    """Add a tendon for each contact and row of mjsim.friction.friction_rows."""
+    """Add a tendon for each point and row of mjsim.friction.friction_rows."""
     robot = limbed(scene)
     for number, limb in enumerate(robot.limbs):
         joints = joints_to(robot, numerics.links, number, numerics.twists)
-        for part, row in itertools.product(parts_of(limb, robot), range(ROWS)):
-            name = f"{contact_name(limb.name, part)}_{row}"
-            tendon = parts.friction_tendon(spec, name, parts.NO_BOUND)
+        names = [name for part in parts_of(limb, robot) for name in point_names(limb.name, part)]
+        for name, row in itertools.product(names, range(ROWS)):
+            tendon = parts.friction_tendon(spec, f"{name}_{row}", parts.NO_BOUND)
             for joint in joints:
                 tendon.wrap_joint(joint, float(joint == PREFIX + ROOT[0]))
 

@@ -46,6 +46,8 @@ class ContactSearch:
     def __init__(self, tree: Tree, law: str = "constant", all_on_tips: bool = False) -> None:
         self._tree, self._law, self._all_on_tips = tree, LAWS[law], all_on_tips
         robot, self._limbs = tree.robot, resting_limbs(tree)
+        vertices = len(self._limbs[0].arclength)
+        self._steps = np.zeros((len(self._limbs), vertices + 1))  # none beyond the ends
         self._least = _TOUCHES * robot.weight
         parts = chambers_by_limb(robot)
         self._flat = flat_pressures(robot, tree.surface)
@@ -98,9 +100,8 @@ class ContactSearch:
         heights = np.minimum(right, left)
         if not self._tree.twists:
             return heights
-        across = (left - right).reshape(len(self._limbs), -1)
-        steps = np.zeros((len(across), across.shape[1] + 1))
-        steps[:, 1:-1] = np.abs(np.diff(across))
+        across, steps = (left - right).reshape(len(self._limbs), -1), self._steps
+        np.abs(across[:, 1:] - across[:, :-1], out=steps[:, 1:-1])
         lifted: Array = _BY_TWIST * np.maximum(steps[:, 1:], steps[:, :-1])
         return heights - lifted.ravel()
 

@@ -159,11 +159,9 @@ class Contacts(ContactSearch):
         return float(bound)
 
     def radius(self, contact: Contact) -> float:
-        """Mean distance from its middle of what resists, 0 of a point [m]."""
+        """Mean distance from its middle of a side's area, 0 of a tip or of a point [m]."""
         a, b = 0.5 * contact.length, 0.5 * self._limbs[contact.limb].width
-        if not a:
-            return 0.5 * b if len(contact.at) > 1 else 0.0  # a tip: a line across
-        if len(contact.at) == 1:
+        if not a or len(contact.at) == 1:
             return 0.0
         far = math.hypot(a, b)  # over a rectangle
         halves = a * a / b * math.log((b + far) / a) + b * b / a * math.log((a + far) / b)

@@ -11,7 +11,7 @@ from analytic.scene.robot import Robot
 from analytic.solvers.limbs.kinematics import Tree
 
 # of the width of a side, or of a tip: they resist turning as a line across does
-_ASIDE = (-0.25, 0.25)
+ASIDE = (-0.25, 0.25)
 _NEAR = 2  # elements from an end that count as there
 
 
@@ -66,7 +66,7 @@ def resting_limbs(tree: Tree) -> list[RestingLimb]:
             ripple(limb.strip, tree.elements),
             FlatLoad(limb.strip, press, tree.incline.normal),
             len(limb.strip.segments),
-            tuple(limb.strip.width * part for part in _ASIDE),
+            tuple(limb.strip.width * part for part in ASIDE),
         )
         for limb, vertices, press in zip(
             robot.limbs, tree.vertices, tree.press.tolist(), strict=True
