@@ -1,0 +1,277 @@
+"""Distance per cycle as a sum over the ends of slides, and its derivatives.
+
+Where a slide ends, or the other end begins to slide, the separation is Lambda_e and the slip
+fraction of the left end changes from s_e to s_{e+1}. The displacement of the left end along a cycle
+is the sum of (s_{e+1} - s_e) Lambda_e, all else telescopes, so that
+
+    dD/dq = sum_e (s_{e+1} - s_e) dLambda_e/dq,
+
+each by the implicit function theorem from balance and the condition that ends the slide, by one
+transposed system per end for all fields. Residuals are differentiated by differences.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.gradient.equilibrium import Balance, Condition, Contacts
+from analytic.gradient.inputs import Derivative, Inputs, Number
+from analytic.gradient.run_ends import RunEnd, Search, UnclearError, bordered, frozen
+from analytic.shapes import ContactShapes, Flag
+
+Array = NDArray[np.float64]
+
+_STILL = 1e-9  # change of the separation over L that is none; chosen
+_SHORT = 1e-7  # of a slide over L, so short that it does not count; chosen
+_FRACTION = 2e-3  # of a slip fraction, from 0, 1/2 and 1; chosen
+_AGREES = 3e-6  # over L, of the walk's distance and that of the ends of slides; chosen
+_AT_ONCE = 1e-6  # of a ramp, by which conditions may part per change of a number; chosen
+_SLIDERS = {0.0: "right", 0.5: "both", 1.0: "left"}
+_NONE = Flag.BRANCH_END | Flag.ROLLED_UP | Flag.JUMPED | Flag.NOT_CONVERGED
+
+
+class Run(NamedTuple):
+    """Increments in which the same end slides.
+
+    Attributes:
+        slip: fraction of the left end.
+        first, last: rows where it begins and ends.
+        change: of the separation [m].
+        counts: whether it is in the cycle that is measured.
+    """
+
+    slip: float
+    first: int
+    last: int
+    change: float
+    counts: bool
+
+
+class Term(NamedTuple):
+    """End of a slide, and what its separation counts in the distance."""
+
+    end: RunEnd
+    weight: float
+
+
+def terms(
+    inputs: Inputs, shapes: ContactShapes, left: Array, times: Array, cycles: int,
+    chamber: str = "linearized",
+) -> list[Term]:
+    """Ends of slides in the last of some cycles.
+
+    Args:
+        inputs: the scene.
+        shapes, left, times: of its walk, see analytic.prediction.Prediction.
+        cycles: of it.
+        chamber: law of the chambers.
+
+    Raises:
+        UnclearError: there are none, with the reason.
+    """
+    if shapes.status[-1] & int(_NONE) or (shapes.status & int(_NONE)).any():
+        raise UnclearError("the strip jumps on the way, or its branch of equilibria ends")
+    runs = _runs(shapes.separation, left, times, times[-1] / cycles * (cycles - 1),
+                 inputs.robot.length)  # fmt: skip
+    if not runs:
+        return []
+    walk = _Walk(inputs, shapes, times, chamber)
+    counted = [run for run in runs if run.counts]
+    before = [run for run in runs if not run.counts]
+    found = []
+    if counted:
+        begin = walk.end(before[-1], counted[0]) if before else walk.begin(counted[0])
+        found.append(Term(begin, counted[0].slip))
+    for run, after in zip(counted, [*counted[1:], None], strict=True):
+        weight = (after.slip if after else 0.0) - run.slip
+        tie = run.slip == 0.5
+        if weight or tie:
+            found.append(Term(walk.end(run, after), weight))
+    return found
+
+
+def distance(found: Sequence[Term]) -> float:
+    """Displacement per cycle from the ends of slides [m]."""
+    return sum(term.weight * term.end.separation for term in found)
+
+
+def _runs(separation: Array, left: Array, times: Array, start: float, length: float) -> list[Run]:
+    """Slides along a walk, but for those so short that they do not count."""
+    change, moved = np.diff(separation), np.diff(left)
+    runs: list[Run] = []
+    for row in np.flatnonzero(np.abs(change) > _STILL * length):
+        slip = -moved[row] / change[row]
+        near = round(2 * slip) / 2
+        if abs(slip - near) > _FRACTION or near not in _SLIDERS:
+            continue
+        counts = bool(times[row] >= start * (1 - 1e-12) - 1e-9)
+        run = Run(near, int(row), int(row) + 1, float(change[row]), counts)
+        if runs and (runs[-1].slip, runs[-1].counts) == (near, counts):
+            total = runs[-1].change + abs(run.change)
+            runs[-1] = runs[-1]._replace(last=run.last, change=total)
+        else:
+            runs.append(run._replace(change=abs(run.change)))
+    long = [run for run in runs if run.change > _SHORT * length]
+    merged: list[Run] = []
+    for run in long:
+        if merged and (merged[-1].slip, merged[-1].counts) == (run.slip, run.counts):
+            run = run._replace(first=merged[-1].first, change=merged.pop().change + run.change)
+        merged.append(run)
+    return merged
+
+
+class _Walk:
+    """States of a walk, from which the ends of its slides are found."""
+
+    def __init__(
+        self, inputs: Inputs, shapes: ContactShapes, times: Array, chamber: str
+    ) -> None:
+        self._inputs, self._shapes, self._times = inputs, shapes, times
+        self._chamber, self._links = chamber, len(shapes.nodes) - 2
+        self._stages = np.concatenate([[0.0], np.cumsum(inputs.gait.ramp_times)])
+        self._turns = bool(inputs.friction.tension) or not inputs.surface.is_round
+
+    def begin(self, run: Run) -> RunEnd:
+        """The first state of a walk, where its first slide begins."""
+        return self._at(0, 0, 0.0, run, None)
+
+    def end(self, run: Run, after: Run | None) -> RunEnd:
+        """The state in which a slide ends, before another one."""
+        row = run.last
+        ramp, x = self._place(row, 0.5 * (self._times[row - 1] + self._times[row]))
+        until = 1.0
+        if row + 1 < len(self._times):
+            later = row + 1 if self._inputs.friction.tension or not after else after.first
+            until = min(1.0, self._part(ramp, max(self._times[later], self._times[row]), row))
+        return self._at(row, ramp, x, run, until if x < 1.0 - 1e-9 else None)
+
+    def _at(self, row: int, ramp: int, x: float, run: Run, until: float | None) -> RunEnd:
+        balance = Balance(self._inputs, self._links, self._chamber, ramp)
+        u, active = self._unknowns(balance, row, x)
+        before = max(row - 1, 0), max(row, 1)
+        grows = self._shapes.separation[before[1]] > self._shapes.separation[before[0]]
+        contacts = frozen(balance, u, active, _SLIDERS[run.slip], bool(grows))
+        search = Search(balance, self._turns)
+        if until is None:
+            return search.corner(u, contacts, ramp)
+        return search.next(u, contacts, ramp, until)
+
+    def _place(self, row: int, middle: float) -> tuple[int, float]:
+        """Ramp of the increment that ends at a row, and the place on it."""
+        period = self._stages[-1]
+        ramp = int(np.searchsorted(self._stages, middle % period, side="right")) - 1
+        return ramp, self._part(ramp, self._times[row], row)
+
+    def _part(self, ramp: int, time: float, row: int) -> float:
+        """Place of a time on a ramp of the cycle that a row ends an increment of."""
+        period = self._stages[-1]
+        middle = 0.5 * (self._times[row - 1] + self._times[row])
+        within = time - period * np.floor(middle / period)
+        begin, end = self._stages[ramp : ramp + 2]
+        return float((within - begin) / (end - begin))
+
+    def _unknowns(self, balance: Balance, row: int, x: float) -> tuple[Array, NDArray[np.bool_]]:
+        """Unknowns of a state of the walk, and its nodes on the ground."""
+        shapes, chain = self._shapes, balance.chain
+        places, heights = (part[row] / self._inputs.robot.length
+                           for part in shapes.curve(shapes.nodes))  # fmt: skip
+        theta = np.arctan2(np.diff(heights), np.diff(places))
+        force = shapes.force[row] / chain.force_unit
+        shear = np.cumsum(chain.weight - force)[:-1]
+        u = np.concatenate([heights, theta, shear, [0.0, x]])
+        if self._inputs.friction.tension:
+            free = Contacts(force != 0, (0, 0), "left", True, "none")
+            torque = balance.residual(u, free)[len(heights) : len(heights) + len(theta)]
+            arms = chain.length * np.sin(theta)
+            u[-2] = -float(torque @ arms) / max(float(arms @ arms), 1e-30)
+        return u, force != 0
+
+
+def derivatives(
+    inputs: Inputs, found: Sequence[Term], names: Sequence[str], links: int, chamber: str
+) -> dict[str, Derivative]:
+    """Derivatives of the distance by fields.
+
+    Args:
+        inputs: the scene.
+        found: ends of its slides.
+        names: of the fields, as in robot.length.
+        links, chamber: of the chain.
+
+    Raises:
+        ValueError: there is no such field, or it has no number.
+    """
+    ends = [_Adjoint(inputs, term, links, chamber) for term in found]
+    result = {}
+    for name in names:
+        numbers = inputs.numbers(name)
+        shape = tuple(1 + max(number.index[axis] for number in numbers)
+                      for axis in range(len(numbers[0].index)))  # fmt: skip
+        values, reasons = np.full(shape, np.nan), []
+        for number in numbers:
+            values[number.index], reason = _by(inputs, number, ends)
+            if reason and reason not in reasons:
+                reasons.append(reason)
+        result[name] = Derivative(values, "; ".join(reasons))
+    return result
+
+
+def _by(inputs: Inputs, number: Number, ends: "Sequence[_Adjoint]") -> tuple[float, str]:
+    """Derivative by one number, and why there is none or what holds of it."""
+    if not number.step:
+        return np.nan, f"{number.name} cannot be changed alone"
+    total = 0.0
+    for end in ends:
+        change, reason = end.by(number)
+        if reason:
+            return np.nan, reason
+        total += change
+    if not number.way or (number.name == "gait.stages" and number.value):
+        return total, ""
+    return total, f"of {'greater' if number.way > 0 else 'smaller'} values alone where it is 0"
+
+
+class _Adjoint:
+    """What the end of a slide contributes to derivatives."""
+
+    def __init__(self, inputs: Inputs, term: Term, links: int, chamber: str) -> None:
+        self._inputs, self._term, self._options = inputs, term, (links, chamber, term.end.ramp)
+        end = term.end
+        balance = Balance(inputs, *self._options)
+        system, _ = bordered(balance, end.u, end.contacts, end.place)
+        goals = [balance.slope(end.u, end.contacts, None) * inputs.robot.length]
+        self._conditions: list[tuple[Condition, float]] = list(end.also)
+        if end.contacts.slider == "both":
+            self._conditions.append((Condition("bounds", 0, "ties"), 0.0))
+        goals += [balance.slope(end.u, end.contacts, what) for what, _ in self._conditions]
+        self._adjoint = np.linalg.solve(system.T, np.array(goals).T).T
+        self._bound = max(float(balance.bound(end.u, end.contacts, e)) for e in (0, 1))
+
+    def by(self, number: Number) -> tuple[float, str]:
+        """Change of the distance per change of a number, and why there is none."""
+        explicit = number.derivative(self._residual, self._inputs)
+        size = len(self._term.end.u)
+        total = explicit[size:] - self._adjoint @ explicit[:size]
+        scale = abs(number.value) or 1.0
+        for (what, rate), change in zip(self._conditions, total[1:], strict=True):
+            if what.what == "ties":
+                if abs(change) * scale > 1e-7 * self._bound:
+                    return 0.0, "both ends resist alike, and would not beyond a change of it"
+            elif abs(change) * scale > _AT_ONCE * abs(rate):
+                return 0.0, f"two changes of contacts meet at {self._term.end.cause}"
+        return self._term.weight * float(total[0]), ""
+
+    def _residual(self, inputs: Inputs) -> Array:
+        """Balance, place, separation and conditions of the state in a scene that is changed."""
+        end, balance = self._term.end, Balance(inputs, *self._options)
+        place = 0.0
+        if end.place is not None:
+            place = float(balance.condition(end.u, end.contacts, end.place))
+        others = [float(balance.condition(end.u, end.contacts, what))
+                  for what, _ in self._conditions]  # fmt: skip
+        return np.concatenate([
+            balance.residual(end.u, end.contacts),
+            [place, float(balance.separation(end.u)), *others],
+        ])  # fmt: skip

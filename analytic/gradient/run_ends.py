@@ -1,0 +1,310 @@
+"""States in which a slide ends: solved for together with the condition that ends it.
+
+A walk gives each to 1e-7 of the length. From there the state and its tangent along the ramp tell
+what happens first: a side lifts or lands, an end's pressure no longer lets it lie flat, the other
+end's bound is less, the separation turns, smoothly or as a node lands, or the ramp ends.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.friction.contact_length import flat_nodes, flat_pressures, ripple
+from analytic.gradient.equilibrium import Balance, Condition, Contacts
+
+Array = NDArray[np.float64]
+
+_CONVERGED = 1e-12  # change of unknowns in a step of Newton's method
+_STEPS, _EVENTS, _TURNS = 12, 8, 12  # at most; chosen
+_SAME = 1e-7  # of a ramp, within which two conditions are met at once; chosen
+_BEFORE = 1e-5  # of a ramp, by which the condition may have been met already; chosen
+_LENGTH = 1e-9  # over L, by which a length of contact changes where a node counts no more; chosen
+_NEAR = 1e-4  # over L, so near to the height that counts as in the air; chosen
+_BOUND = 1e-4  # of the greatest bound, by which the tension may be off the slider's; chosen
+_ENDS = ("left", "right")
+
+
+class UnclearError(Exception):
+    """What ends a slide is not clear; the text says why there is no derivative."""
+
+
+class RunEnd(NamedTuple):
+    """State in which a slide ends.
+
+    Attributes:
+        u: unknowns, see Balance.
+        contacts: until there.
+        ramp: number of the ramp in the cycle.
+        place: condition that ends it; None at a corner of the path and where the separation turns.
+        also: conditions that are met there too, each with its rate along the ramp.
+        separation: Lambda [m].
+        cause: in words.
+    """
+
+    u: Array
+    contacts: Contacts
+    ramp: int
+    place: Condition | None
+    also: tuple[tuple[Condition, float], ...]
+    separation: float
+    cause: str
+
+
+def solved(
+    balance: Balance, u: Array, contacts: Contacts, place: Condition | None
+) -> Array:
+    """Unknowns that balance, at the place of u or where a condition is met.
+
+    Raises:
+        UnclearError: Newton's method finds none.
+    """
+    for _ in range(_STEPS):
+        system, right = bordered(balance, u, contacts, place)
+        try:
+            step = np.linalg.solve(system, -right)
+        except np.linalg.LinAlgError:
+            break
+        u = u + step
+        size = np.abs(step / np.maximum(1.0, np.abs(u))).max()
+        if not size < 10.0:
+            break
+        if size < _CONVERGED or (size < 1e-9 and _ == _STEPS - 1):
+            return u
+    raise UnclearError("a state where contacts change is not found")
+
+
+def bordered(
+    balance: Balance, u: Array, contacts: Contacts, place: Condition | None
+) -> tuple[Array, Array]:
+    """Jacobian (M, M) and residual (M,) of balance and place, which is fixed if None."""
+    right = np.append(balance.residual(u, contacts), 0.0)
+    row = np.eye(len(u))[-1]
+    if place is not None:
+        row = balance.slope(u, contacts, place)
+        right[-1] = balance.condition(u, contacts, place)
+    return np.vstack([balance.jacobian(u, contacts), row]), right
+
+
+def frozen(
+    balance: Balance, u: Array, active: NDArray[np.bool_], slider: str, grows: bool
+) -> Contacts:
+    """Contacts of a state that slides or is about to stop.
+
+    Raises:
+        UnclearError: the tension is not one with which an end slides.
+    """
+    robot, friction = balance.inputs.robot, balance.inputs.friction
+    y, theta = balance.split(u)[:2]
+    force = balance.forces(u) * active
+    air = y * robot.length > ripple(robot, balance.nodes)
+    lies = (np.abs(balance.pressure(float(u[-1]))) <= flat_pressures(robot, balance.inputs.surface))
+    sides = tuple(
+        flat_nodes(force[::order], air[::order], bool(lies[::order][0])) for order in (1, -1)
+    )
+    contacts = Contacts(active, sides, slider, grows, "none")  # type: ignore[arg-type]
+    sides = tuple(
+        count if count is None or balance.side(u, contacts, end) > 0 else 0
+        for end, count in enumerate(sides)
+    )
+    contacts = contacts._replace(sides=sides)  # type: ignore[arg-type]
+    if not friction.tension:
+        return contacts
+    bounds = [float(balance.bound(u, contacts, end)) for end in (0, 1)]
+    off = abs(float(balance.sliding(u, contacts)) - float(u[-2]))
+    straight = np.abs(np.sin(theta)).max() < 1e-9  # a tension does nothing there
+    if straight or off <= _BOUND * max(*bounds, 1e-12):
+        return contacts._replace(tension="slides")
+    edges = [end for end in (0, 1)
+             if abs(float(balance.at_edge(u, end, active))) < _BOUND * balance.chain.weight[1]]  # fmt: skip
+    if len(edges) != 1:
+        raise UnclearError("the friction of a slide's last state is not that of one of its ends")
+    return contacts._replace(tension="edge", edge=edges[0])
+
+
+class Search:
+    """What ends a slide, from its last state in a walk on.
+
+    Args:
+        balance: of the ramp it is on.
+        turns: whether a slide ends where the separation turns.
+    """
+
+    def __init__(self, balance: Balance, turns: bool) -> None:
+        self._balance, self._turns = balance, turns
+
+    def corner(self, u: Array, contacts: Contacts, ramp: int) -> RunEnd:
+        """The state at the end of the ramp, or at its beginning."""
+        u = solved(self._balance, u, contacts, None)
+        return self._end(u, contacts, ramp, None, "a stage")
+
+    def next(self, u: Array, contacts: Contacts, ramp: int, until: float) -> RunEnd:
+        """The first end of the slide from a state on.
+
+        Args:
+            u, contacts: of the state.
+            ramp: number of the ramp.
+            until: place on the ramp where the slide has ended.
+
+        Raises:
+            UnclearError: nothing that is known ends it there.
+        """
+        u = solved(self._balance, u, contacts, None)
+        begin = float(u[-1])
+        for _ in range(_EVENTS):
+            tangent = self._tangent(u, contacts)
+            rows = [(self._distance(u, contacts, c, tangent), c, ends)
+                    for c, ends in self._conditions(u, contacts)]  # fmt: skip
+            rows = [row for row in rows if row[0] > begin - float(u[-1]) - _BEFORE]
+            first = min(rows, key=lambda row: row[0], default=None)
+            turn = self._turn(u, contacts, tangent) if self._turns else np.inf
+            if first is None or turn < first[0]:
+                return self._turned(u, contacts, ramp, turn, until)
+            distance, condition, ends = first
+            if float(u[-1]) + distance > until + _BEFORE:
+                break
+            u = solved(self._balance, u + distance * tangent, contacts, condition)
+            if ends:
+                return self._end(u, contacts, ramp, condition, condition.what)
+            after = self._passed(contacts, condition)
+            if self._turns and self._rate(u, contacts) * self._rate(u, after) < 0:
+                return self._end(u, contacts, ramp, condition, "a turn as a node lands or lifts")
+            contacts = after
+        raise UnclearError("what ends a slide is not found")
+
+    def _end(
+        self, u: Array, contacts: Contacts, ramp: int, place: Condition | None, cause: str
+    ) -> RunEnd:
+        also = []
+        tangent = self._tangent(u, contacts)
+        for condition, ends in self._conditions(u, contacts):
+            rate = float(self._balance.slope(u, contacts, condition) @ tangent)
+            value = float(self._balance.condition(u, contacts, condition))
+            if ends and condition != place and abs(value) <= _SAME * abs(rate):
+                also.append((condition, rate))
+        separation = float(self._balance.separation(u))
+        return RunEnd(u, contacts, ramp, place, tuple(also), separation, cause)
+
+    def _tangent(self, u: Array, contacts: Contacts) -> Array:
+        """Change of the unknowns per ramp."""
+        system = self._balance.jacobian(u, contacts)
+        return np.append(np.linalg.solve(system[:, :-1], -system[:, -1]), 1.0)
+
+    def _rate(self, u: Array, contacts: Contacts) -> float:
+        """Change of the separation over L per ramp."""
+        slope = self._balance.slope(u, contacts, None)
+        return float(slope @ self._tangent(u, contacts))
+
+    def _distance(
+        self, u: Array, contacts: Contacts, condition: Condition, tangent: Array
+    ) -> float:
+        """Part of the ramp to where a condition is met; infinite if it never is."""
+        value = float(self._balance.condition(u, contacts, condition))
+        rate = float(self._balance.slope(u, contacts, condition) @ tangent)
+        return -value / rate if rate else np.inf
+
+    def _conditions(self, u: Array, contacts: Contacts) -> list[tuple[Condition, bool]]:
+        """Conditions that may be met next, and whether a slide ends there."""
+        found = []
+        y = self._balance.split(u)[0]
+        last = len(y) - 1
+        pressure = np.abs(self._balance.pressure(float(u[-1])))
+        robot = self._balance.inputs.robot
+        flat = flat_pressures(robot, self._balance.inputs.surface)
+        for node in self._near(u, contacts):
+            end = 0 if node == 1 else 1
+            beside = node in (1, last - 1) and pressure[-end] <= flat[-end]
+            kind = "force" if contacts.active[node] else "height"
+            what = f"the {_ENDS[end]} end changes between a tip and a side"
+            found.append((Condition(kind, node, what), beside))
+        for end, name in enumerate(_ENDS):
+            as_side = self._as_side(u, contacts, end)
+            if contacts.sides[end] != 0 or as_side > 0:
+                what = f"the pressure of the {name} end lets it lie flat or not"
+                found.append((Condition("pressure", end, what), True))
+        if contacts.slider != "both" and contacts.tension != "edge":
+            found.append((Condition("bounds", 0, "both ends resist alike"), True))
+        if contacts.tension == "edge":
+            found += [(Condition("tip", 0, "an end is a tip again"), True),
+                      (Condition("other", 0, "both ends resist alike"), True)]  # fmt: skip
+        return found + [(Condition("ripple", node, "a flat stretch lifts off"), True)
+                        for node in self._that_count(u, contacts)]  # fmt: skip
+
+    def _near(self, u: Array, contacts: Contacts) -> list[int]:
+        """Nodes on the ground and in the air beside such ones."""
+        active = contacts.active
+        beside = np.zeros_like(active)
+        beside[1:] |= active[:-1]
+        beside[:-1] |= active[1:]
+        y = self._balance.split(u)[0]
+        low = y < _NEAR
+        border = np.zeros_like(active)
+        border[1:] |= ~active[:-1]
+        border[:-1] |= ~active[1:]
+        force = self._balance.forces(u)
+        few = active & (border | (force < 0.1 * self._balance.chain.weight))
+        return list(np.flatnonzero(few | (~active & (beside | low))))
+
+    def _as_side(self, u: Array, contacts: Contacts, end: int) -> float:
+        """Length of side contact that an end has if its pressure lets it lie flat [m]."""
+        robot = self._balance.inputs.robot
+        air = self._balance.split(u)[0] * robot.length > ripple(robot, self._balance.nodes)
+        order = -1 if end else 1
+        force = self._balance.forces(u) * contacts.active
+        count = flat_nodes(force[::order], air[::order], True)
+        sides = (count, count)
+        return float(self._balance.side(u, contacts._replace(sides=sides), end))
+
+    def _that_count(self, u: Array, contacts: Contacts) -> list[int]:
+        """Nodes as high as a flat stretch ripples whose height decides a length of contact."""
+        robot = self._balance.inputs.robot
+        level = ripple(robot, self._balance.nodes)
+        height = self._balance.split(u)[0] * robot.length
+        near = np.flatnonzero((np.abs(height - level) < _NEAR * robot.length) & ~contacts.active)
+        force, air = self._balance.forces(u) * contacts.active, height > level
+        nodes = []
+        for node in near:
+            other = air.copy()
+            other[node] = not air[node]
+            for end, order in enumerate((1, -1)):
+                if contacts.sides[end] == 0:
+                    continue
+                lengths = []
+                for mask in (air, other):
+                    count = flat_nodes(force[::order], mask[::order], True)
+                    as_it = contacts._replace(sides=(count, count))
+                    lengths.append(float(self._balance.side(u, as_it, end)))
+                if abs(lengths[1] - lengths[0]) > _LENGTH * robot.length:
+                    nodes.append(int(node))
+                    break
+        return nodes
+
+    @staticmethod
+    def _passed(contacts: Contacts, condition: Condition) -> Contacts:
+        """Contacts after a node that ends no slide has landed or lifted off."""
+        active = contacts.active.copy()
+        active[condition.place] = not active[condition.place]
+        return contacts._replace(active=active)
+
+    def _turn(self, u: Array, contacts: Contacts, tangent: Array) -> float:
+        """Part of the ramp to where the separation seems to turn; infinite if it does not."""
+        step = -1e-4 if u[-1] > 0.5 else 1e-4
+        there = solved(self._balance, u + step * tangent, contacts, None)
+        rate = float(self._balance.slope(u, contacts, None) @ tangent)
+        change = (self._rate(there, contacts) - rate) / step
+        distance = -rate / change if change else np.inf
+        return distance if distance > -_BEFORE - abs(step) else np.inf
+
+    def _turned(
+        self, u: Array, contacts: Contacts, ramp: int, distance: float, until: float
+    ) -> RunEnd:
+        """The state in which the separation turns."""
+        for _ in range(_TURNS):
+            if not -0.1 <= float(u[-1]) + distance <= until + _BEFORE:
+                break
+            tangent = self._tangent(u, contacts)
+            u = solved(self._balance, u + distance * tangent, contacts, None)
+            if abs(distance) < 1e-9:
+                return self._end(u, contacts, ramp, None, "a turn")
+            distance = self._turn(u, contacts, self._tangent(u, contacts))
+        raise UnclearError("where the separation turns is not found")
