@@ -28,6 +28,7 @@ _SHORT = 1e-7  # of a slide over L, so short that it does not count; chosen
 _FRACTION = 2e-3  # of a slip fraction, from 0, 1/2 and 1; chosen
 _AGREES = 3e-6  # over L, of the walk's distance and that of the ends of slides; chosen
 _AT_ONCE = 1e-6  # of a ramp, by which conditions may part per change of a number; chosen
+_FLAT = 1e-9  # over L, height of a strip that lies flat; chosen
 _SLIDERS = {0.0: "right", 0.5: "both", 1.0: "left"}
 _NONE = Flag.BRANCH_END | Flag.ROLLED_UP | Flag.JUMPED | Flag.NOT_CONVERGED
 
@@ -140,12 +141,28 @@ class _Walk:
     def end(self, run: Run, after: Run | None) -> RunEnd:
         """The state in which a slide ends, before another one."""
         row = run.last
+        if after is None and self.lies_flat(len(self._times) - 1):
+            row = len(self._times) - 1
+        elif after and after.counts > run.counts and self.lies_flat(after.first):
+            row = after.first
         ramp, x = self._place(row, 0.5 * (self._times[row - 1] + self._times[row]))
         until = 1.0
         if row + 1 < len(self._times):
             later = row + 1 if self._inputs.friction.tension or not after else after.first
             until = min(1.0, self._part(ramp, max(self._times[later], self._times[row]), row))
-        return self._at(row, ramp, x, run, until if x < 1.0 - 1e-9 else None)
+        if x >= 1.0 - 1e-9:
+            return self._at(row, ramp, x, run, None)
+        try:
+            return self._at(row, ramp, x, run, until)
+        except UnclearError:
+            # the contacts may have changed in this state, which is as near behind as before it
+            if row - 1 <= run.first:
+                raise
+            return self._at(row - 1, ramp, self._part(ramp, self._times[row - 1], row), run, until)
+
+    def lies_flat(self, row: int) -> bool:
+        """Tell whether the strip lies flat as a whole."""
+        return bool(self._shapes.amplitude[row] < _FLAT * self._inputs.robot.length)
 
     def _at(self, row: int, ramp: int, x: float, run: Run, until: float | None) -> RunEnd:
         balance = Balance(self._inputs, self._links, self._chamber, ramp)

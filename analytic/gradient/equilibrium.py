@@ -84,6 +84,11 @@ class Balance:
         self._begin, self._end = robot.peak_pressure * stages[ramp : ramp + 2]
         self._sizes = np.cumsum([links + 2, links + 1, links + 1, 1, 1])
 
+    @property
+    def rigidity(self) -> float:
+        """D0 [N m^2]."""
+        return self.chain.force_unit * self.inputs.robot.length**2
+
     def pressure(self, x: float) -> Array:
         """Of the segments at a place on the ramp [Pa]."""
         return np.asarray(self._begin + x * (self._end - self._begin))

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.contact_length import flat_nodes, flat_pressures, ripple
+from analytic.friction.laws import friction_number
 from analytic.gradient.equilibrium import Balance, Condition, Contacts
 
 Array = NDArray[np.float64]
@@ -110,10 +111,9 @@ def frozen(
     contacts = contacts._replace(sides=sides)  # type: ignore[arg-type]
     if not friction.tension:
         return contacts
-    bounds = [float(balance.bound(u, contacts, end)) for end in (0, 1)]
     off = abs(float(balance.sliding(u, contacts)) - float(u[-2]))
     straight = np.abs(np.sin(theta)).max() < 1e-9  # a tension does nothing there
-    if straight or off <= _BOUND * max(*bounds, 1e-12):
+    if straight or off <= _BOUND * friction_number(balance.inputs.surface, robot, balance.rigidity):
         return contacts._replace(tension="slides")
     edges = [end for end in (0, 1)
              if abs(float(balance.at_edge(u, end, active))) < _BOUND * balance.chain.weight[1]]  # fmt: skip
@@ -211,7 +211,10 @@ class Search:
         pressure = np.abs(self._balance.pressure(float(u[-1])))
         robot = self._balance.inputs.robot
         flat = flat_pressures(robot, self._balance.inputs.surface)
+        at_edge = {0: 1, 1: last - 1}[contacts.edge] if contacts.tension == "edge" else None
         for node in self._near(u, contacts):
+            if node == at_edge:
+                continue
             end = 0 if node == 1 else 1
             beside = node in (1, last - 1) and pressure[-end] <= flat[-end]
             kind = "force" if contacts.active[node] else "height"
