@@ -24,9 +24,8 @@ from analytic.shapes import ContactShapes, Flag
 Array = NDArray[np.float64]
 
 _STILL = 1e-9  # change of the separation over L that is none; chosen
-_SHORT = 1e-7  # of a slide over L, so short that it does not count; chosen
+_SHORT = 1e-6  # of a slide over L, so short that it does not count; chosen
 _FRACTION = 2e-3  # of a slip fraction, from 0, 1/2 and 1; chosen
-_AGREES = 3e-6  # over L, of the walk's distance and that of the ends of slides; chosen
 _AT_ONCE = 1e-6  # of a ramp, by which conditions may part per change of a number; chosen
 _FLAT = 1e-9  # over L, height of a strip that lies flat; chosen
 _SLIDERS = {0.0: "right", 0.5: "both", 1.0: "left"}

@@ -1,7 +1,7 @@
 """Fields of a scene by name, and small changes of their numbers."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, fields, is_dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,7 +11,7 @@ from analytic.checks import meant
 from analytic.friction.laws import Friction
 from analytic.scene.gait import Gait
 from analytic.scene.robot import Robot
-from analytic.scene.surface import Surface
+from analytic.scene.surface import Ground
 
 Array = NDArray[np.float64]
 
@@ -29,7 +29,7 @@ class Inputs:
 
     robot: Robot
     gait: Gait
-    surface: Surface
+    surface: Ground
     friction: Friction
 
     def of(self, name: str) -> Any:
@@ -42,7 +42,7 @@ class Inputs:
         if table not in _TABLES:
             raise ValueError(f"gradient must be of {', '.join(_TABLES)}, as in robot.length; got "
                              f"{name!r}")  # fmt: skip
-        part = getattr(self, table)
+        part: Any = getattr(self, table)
         keys = [item.name for item in fields(part)]
         if key not in keys:
             raise ValueError(f"gradient: {name!r} is unknown; known are {', '.join(keys)}"
@@ -134,7 +134,6 @@ class Derivative:
 
     value: Array
     reason: str = ""
-    error: Array = field(default_factory=lambda: np.zeros(()))
 
 
 def _is_numbers(value: Any) -> bool:

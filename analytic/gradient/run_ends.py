@@ -20,6 +20,7 @@ _CONVERGED = 1e-12  # change of unknowns in a step of Newton's method
 _STEPS, _EVENTS, _TURNS = 12, 8, 12  # at most; chosen
 _SAME = 1e-7  # of a ramp, within which two conditions are met at once; chosen
 _BEFORE = 1e-5  # of a ramp, by which the condition may have been met already; chosen
+_JUST = 1e-9  # of a ramp; chosen
 _LENGTH = 1e-9  # over L, by which a length of contact changes where a node counts no more; chosen
 _NEAR = 1e-4  # over L, so near to the height that counts as in the air; chosen
 _BOUND = 1e-4  # of the greatest bound, by which the tension may be off the slider's; chosen
@@ -99,7 +100,8 @@ def frozen(
     y, theta = balance.split(u)[:2]
     force = balance.forces(u) * active
     air = y * robot.length > ripple(robot, balance.nodes)
-    lies = (np.abs(balance.pressure(float(u[-1]))) <= flat_pressures(robot, balance.inputs.surface))
+    pressure = np.abs(balance.pressure(float(u[-1]) - _JUST))  # until there
+    lies = pressure <= flat_pressures(robot, balance.inputs.surface)
     sides = tuple(
         flat_nodes(force[::order], air[::order], bool(lies[::order][0])) for order in (1, -1)
     )
@@ -201,7 +203,8 @@ class Search:
         """Part of the ramp to where a condition is met; infinite if it never is."""
         value = float(self._balance.condition(u, contacts, condition))
         rate = float(self._balance.slope(u, contacts, condition) @ tangent)
-        return -value / rate if rate else np.inf
+        leaves = condition.kind in ("force", "height") and rate > 0
+        return -value / rate if rate and not leaves else np.inf
 
     def _conditions(self, u: Array, contacts: Contacts) -> list[tuple[Condition, bool]]:
         """Conditions that may be met next, and whether a slide ends there."""

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 _VANISHING = 1e-6  # viscous resistance that decides between equal bounds, over the greatest; chosen
+_TOLD = 1e-9  # of the greatest bound, that it comes to at least, so that rounding decides nothing
 _GIVE = 1e-11  # of a contact that sticks, under the greatest bound; keeps a flat strip's K regular
 _ROUNDING = 1e-13
 _ALL_AT_ONCE, _ATTEMPTS = 10, 200
@@ -72,7 +73,8 @@ def tractions(
     scale = float(strongest.max(initial=0.0)) or 1.0
     give, limit, gap, row = _GIVE / scale, strongest.tolist(), gaps.tolist(), compliance.tolist()
     ahead, behind = bounds.tolist(), (bounds if back is None else back).tolist()
-    drag = [c + _VANISHING * scale for c in viscosity.tolist()]
+    vanishing = max(_VANISHING, _TOLD / max(float(np.ptp(gaps)), _TOLD)) if count else 0.0
+    drag = [c + vanishing * scale for c in viscosity.tolist()]
     slips = [0] * count if guess is None else guess.tolist()
     for attempt in range(_ATTEMPTS):
         stick = [v > 0 and not slip for v, slip in zip(limit, slips, strict=True)]
