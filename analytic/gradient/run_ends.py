@@ -24,6 +24,8 @@ _JUST = 1e-9  # of a ramp; chosen
 _LENGTH = 1e-9  # over L, by which a length of contact changes where a node counts no more; chosen
 _NEAR = 1e-4  # over L, so near to the height that counts as in the air; chosen
 _BOUND = 1e-4  # of the greatest bound, by which the tension may be off the slider's; chosen
+_ALIKE = 1e-9  # likewise, by which two bounds may differ and be alike; chosen
+_EDGE_FORCE, _EDGE_HEIGHT = 1e-4, 1e-6  # of a node's weight, over L, at the edge of a tip; chosen
 _ENDS = ("left", "right")
 
 
@@ -113,15 +115,21 @@ def frozen(
     contacts = contacts._replace(sides=sides)  # type: ignore[arg-type]
     if not friction.tension:
         return contacts
-    off = abs(float(balance.sliding(u, contacts)) - float(u[-2]))
+    scale = friction_number(balance.inputs.surface, robot, balance.rigidity)
+    left, right = (float(balance.bound(u, contacts, end)) for end in (0, 1))
+    slides = abs(float(balance.sliding(u, contacts)) - float(u[-2])) <= _BOUND * scale
     straight = np.abs(np.sin(theta)).max() < 1e-9  # a tension does nothing there
-    if straight or off <= _BOUND * friction_number(balance.inputs.surface, robot, balance.rigidity):
+    alike = abs(left - right) <= _ALIKE * scale and slider != "both"  # which of them would slide?
+    if straight or (slides and not alike):
         return contacts._replace(tension="slides")
-    edges = [end for end in (0, 1)
-             if abs(float(balance.at_edge(u, end, active))) < _BOUND * balance.chain.weight[1]]  # fmt: skip
-    if len(edges) != 1:
-        raise UnclearError("the friction of a slide's last state is not that of one of its ends")
-    return contacts._replace(tension="edge", edge=edges[0])
+    edges = [end for end, node in enumerate((1, -2))
+             if abs(float(balance.at_edge(u, end, active)))
+             < (_EDGE_FORCE * balance.chain.weight[1] if active[node] else _EDGE_HEIGHT)]  # fmt: skip
+    if len(edges) == 1:
+        return contacts._replace(tension="edge", edge=edges[0])
+    if slides:
+        return contacts._replace(tension="slides")
+    raise UnclearError("the friction of a slide's last state is not that of one of its ends")
 
 
 class Search:
