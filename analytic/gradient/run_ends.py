@@ -263,35 +263,42 @@ class Search:
         """Length of side contact that an end has if its pressure lets it lie flat [m]."""
         robot = self._balance.inputs.robot
         air = self._balance.split(u)[0] * robot.length > ripple(robot, self._balance.nodes)
-        order = -1 if end else 1
         force = self._balance.forces(u) * contacts.active
-        count = flat_nodes(force[::order], air[::order], True)
-        sides = (count, count)
-        return float(self._balance.side(u, contacts._replace(sides=sides), end))
+        return self._length(u, contacts, force, air, end)
 
     def _that_count(self, u: Array, contacts: Contacts) -> list[int]:
-        """Nodes as high as a flat stretch ripples whose height decides a length of contact."""
-        robot = self._balance.inputs.robot
-        level = ripple(robot, self._balance.nodes)
-        height = self._balance.split(u)[0] * robot.length
-        near = np.flatnonzero((np.abs(height - level) < _NEAR * robot.length) & ~contacts.active)
-        force, air = self._balance.forces(u) * contacts.active, height > level
-        nodes = []
-        for node in near:
-            other = air.copy()
-            other[node] = not air[node]
-            for end, order in enumerate((1, -1)):
-                if contacts.sides[end] == 0:
-                    continue
-                lengths = []
-                for mask in (air, other):
-                    count = flat_nodes(force[::order], mask[::order], True)
-                    as_it = contacts._replace(sides=(count, count))
-                    lengths.append(float(self._balance.side(u, as_it, end)))
-                if abs(lengths[1] - lengths[0]) > _LENGTH * robot.length:
-                    nodes.append(int(node))
-                    break
-        return nodes
+        """Nodes as high as a flat stretch ripples whose height decides a length of contact.
+
+        One of the stretch that rises, and the highest of those beside it that come down.
+        """
+        robot, y = self._balance.inputs.robot, self._balance.split(u)[0]
+        level = ripple(robot, self._balance.nodes) / robot.length
+        force, air = self._balance.forces(u) * contacts.active, y > level
+        nodes = set()
+        for end, order in enumerate((1, -1)):
+            count = contacts.sides[end]
+            if not count:
+                continue
+            places = np.arange(len(y))[::order]
+            beside = places[count:]
+            beside = beside[: int((~air[beside]).argmax())]
+            near = np.abs(y[places[:count]] - level) < _NEAR
+            rising = [[node] for node in places[:count][near] if not contacts.active[node]]
+            for group in [*rising, list(beside)]:
+                other = air.copy()
+                other[group] = ~air[group]
+                lengths = [self._length(u, contacts, force, mask, end) for mask in (air, other)]
+                if group and abs(lengths[1] - lengths[0]) > _LENGTH * robot.length:
+                    nodes.add(int(max(group, key=lambda node: y[node])))
+        return sorted(nodes)
+
+    def _length(
+        self, u: Array, contacts: Contacts, force: Array, air: NDArray[np.bool_], end: int
+    ) -> float:
+        """Length of side contact of an end that may lie flat, with some nodes in the air [m]."""
+        order = -1 if end else 1
+        count = flat_nodes(force[::order], air[::order], True)
+        return float(self._balance.side(u, contacts._replace(sides=(count, count)), end))
 
     @staticmethod
     def _passed(contacts: Contacts, condition: Condition) -> Contacts:
