@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.gradient.bordered import solve_bordered
 from analytic.gradient.equilibrium import Balance, Condition, Contacts
 from analytic.gradient.inputs import Derivative, Inputs, Number
 from analytic.gradient.run_ends import RunEnd, Search, UnclearError, bordered, frozen
@@ -262,7 +263,7 @@ class _Adjoint:
         if end.contacts.slider == "both":
             self._conditions.append((Condition("bounds", 0, "ties"), 0.0))
         goals += [balance.slope(end.u, end.contacts, what) for what, _ in self._conditions]
-        self._adjoint = np.linalg.solve(system.T, np.array(goals).T).T
+        self._adjoint = solve_bordered(system.T, np.array(goals).T).T
         self._bound = max(float(balance.bound(end.u, end.contacts, e)) for e in (0, 1))
 
     def by(self, number: Number) -> tuple[float, str]:

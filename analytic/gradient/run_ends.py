@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from analytic.friction.contact_length import flat_nodes, flat_pressures, ripple
 from analytic.friction.laws import friction_number
+from analytic.gradient.bordered import solve_bordered
 from analytic.gradient.equilibrium import Balance, Condition, Contacts
 
 Array = NDArray[np.float64]
 
-_CONVERGED = 1e-12  # change of unknowns in a step of Newton's method
+_CONVERGED, _ENOUGH = 1e-12, 1e-9  # change of unknowns in a step, and in the last; chosen
 _STEPS, _EVENTS, _TURNS = 12, 8, 12  # at most; chosen
 _SAME = 1e-7  # of a ramp, within which two conditions are met at once; chosen
 _BEFORE = 1e-5  # of a ramp, by which the condition may have been met already; chosen
@@ -63,17 +64,17 @@ def solved(
     Raises:
         UnclearError: Newton's method finds none.
     """
-    for _ in range(_STEPS):
+    for step_number in range(_STEPS):
         system, right = bordered(balance, u, contacts, place)
         try:
-            step = np.linalg.solve(system, -right)
+            step = solve_bordered(system, -right)
         except np.linalg.LinAlgError:
             break
         u = u + step
         size = np.abs(step / np.maximum(1.0, np.abs(u))).max()
         if not size < 10.0:
             break
-        if size < _CONVERGED or (size < 1e-9 and _ == _STEPS - 1):
+        if size < _CONVERGED or (size < _ENOUGH and step_number == _STEPS - 1):
             return u
     raise UnclearError("a state where contacts change is not found")
 
@@ -197,8 +198,8 @@ class Search:
 
     def _tangent(self, u: Array, contacts: Contacts) -> Array:
         """Change of the unknowns per ramp."""
-        system = self._balance.jacobian(u, contacts)
-        return np.append(np.linalg.solve(system[:, :-1], -system[:, -1]), 1.0)
+        right = np.eye(len(u))[-1]  # nothing but the place changes
+        return solve_bordered(np.vstack([self._balance.jacobian(u, contacts), right]), right)
 
     def _rate(self, u: Array, contacts: Contacts) -> float:
         """Change of the separation over L per ramp."""

@@ -15,6 +15,7 @@ On a stiff body (K = 0) it is the least dissipation of analytic.friction.dissipa
 viscosity decides, as there, what equal bounds leave open.
 """
 
+import itertools
 from typing import NamedTuple
 
 import numpy as np
@@ -26,6 +27,7 @@ _VANISHING = 1e-6  # viscous resistance that decides between equal bounds, over 
 _TOLD = 1e-10  # of the greatest bound, which it comes to at least where a contact slides; chosen
 _SLIDES = 1e-10  # slip over L of what does not stick; chosen
 _GIVE = 1e-11  # of a contact that sticks, under the greatest bound; keeps a flat strip's K regular
+_ALIKE = 1e-12  # part of a bound by which two differ by rounding; chosen
 _ROUNDING = 1e-13
 _ALL_AT_ONCE, _ATTEMPTS = 10, 200
 
@@ -71,11 +73,17 @@ def tractions(
     """
     found = _increment(gaps, compliance, bounds, viscosity, pull, guess, back, _VANISHING)
     most = float(np.abs(found.slid).max(initial=0.0)) if found else 0.0
-    if found is None or not _SLIDES < most < _TOLD / _VANISHING:
+    if found is None or not _SLIDES < most < _TOLD / _VANISHING or not _any_alike(bounds):
         return found
-    # of slips so short rounding would decide between equal bounds
+    # of slips so short rounding would decide between the two
     surer = _increment(gaps, compliance, bounds, viscosity, pull, found.slips, back, _TOLD / most)
     return surer or found
+
+
+def _any_alike(bounds: Array) -> bool:
+    """Tell whether two contacts resist alike but for a rounding."""
+    ordered = sorted(bounds.tolist())
+    return any(b - a <= _ALIKE * b for a, b in itertools.pairwise(ordered))
 
 
 def _increment(
