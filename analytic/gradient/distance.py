@@ -87,9 +87,10 @@ def terms(
         found.append(Term(begin, counted[0].slip))
     for run, after in zip(counted, [*counted[1:], None], strict=True):
         weight = (after.slip if after else 0.0) - run.slip
-        tie = run.slip == 0.5
-        if weight or tie:
+        if weight:
             found.append(Term(walk.end(run, after), weight))
+        if run.slip == 0.5:
+            found += [Term(state, 0.0) for state in walk.tied_sides(run)]
     return found
 
 
@@ -159,6 +160,17 @@ class _Walk:
             if row - 1 <= run.first:
                 raise
             return self._at(row - 1, ramp, self._part(ramp, self._times[row - 1], row), run, until)
+
+    def tied_sides(self, run: Run) -> list[RunEnd]:
+        """A state in which both ends slide as sides that resist alike, if there is any."""
+        rows = np.arange(run.first + 1, run.last)
+        sides = self._shapes.contact_left[rows] * self._shapes.contact_right[rows] > 0
+        rows = rows[sides & (self._shapes.amplitude[rows] > _FLAT * self._inputs.robot.length)]
+        if not len(rows):
+            return []
+        row = int(rows[len(rows) // 2])
+        ramp, x = self._place(row, 0.5 * (self._times[row - 1] + self._times[row]))
+        return [self._at(row, ramp, x, run, None)]
 
     def lies_flat(self, row: int) -> bool:
         """Tell whether the strip lies flat as a whole."""
@@ -247,7 +259,8 @@ def _by(inputs: Inputs, number: Number, ends: "Sequence[_Adjoint]") -> tuple[flo
         total += change
     if not number.way or (number.name == "gait.stages" and number.value):
         return total, ""
-    return total, f"of {'greater' if number.way > 0 else 'smaller'} values alone where it is 0"
+    where = "where a stage is 0, " if number.name == "gait.stages" else ""
+    return total, f"{where}of {'greater' if number.way > 0 else 'smaller'} values alone"
 
 
 class _Adjoint:
