@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -88,9 +88,9 @@ def predict(
             gait.stages or friction.tension, see analytic.gradient.
 
     Raises:
-        ValueError: there is no such solver, law or field, the solver does not know what it needs for them,
-            the gait is divided into no states, or the ground resists by speed and friction bends
-            nothing or the path has no times.
+        ValueError: there is no such solver, law or field, the solver does not know what it needs
+            for them, the gait is divided into no states, or the ground resists by speed and
+            friction bends nothing or the path has no times.
     """
     if not isinstance(robot, Robot):
         raise ValueError(
@@ -127,7 +127,7 @@ def predict(
         raise ValueError("gradient must be of a gait, not of a path that is given")
     from analytic.gradient.gradient import gradient as found
 
-    inputs = Inputs(robot, gait, ground, friction)
+    inputs = Inputs(robot, gait, cast(Surface, ground), friction)  # others are told apart
     return walked._replace(
         gradient=found(inputs, solver, walked.shapes, walked.locomotion.left, walked.times, cycles,
                        gradient)

@@ -19,35 +19,16 @@ from numpy.typing import NDArray
 from analytic.gradient.bordered import solve_bordered
 from analytic.gradient.equilibrium import Balance, Condition, Contacts
 from analytic.gradient.inputs import Derivative, Inputs, Number
-from analytic.gradient.run_ends import RunEnd, Search, UnclearError, bordered, frozen
+from analytic.gradient.run_ends import RunEnd, Search, frozen
+from analytic.gradient.runs import SLIDERS, Run, runs_of
+from analytic.gradient.solved import UnclearError, bordered
 from analytic.shapes import ContactShapes, Flag
 
 Array = NDArray[np.float64]
 
-_STILL = 1e-9  # change of the separation over L that is none; chosen
-_SHORT = 1e-6  # of a slide over L, so short that it does not count; chosen
-_FRACTION = 2e-3  # of a slip fraction, from 0, 1/2 and 1; chosen
 _AT_ONCE = 1e-6  # of a ramp, by which conditions may part per change of a number; chosen
 _FLAT = 1e-9  # over L, height of a strip that lies flat; chosen
-_SLIDERS = {0.0: "right", 0.5: "both", 1.0: "left"}
 _NONE = Flag.BRANCH_END | Flag.ROLLED_UP | Flag.JUMPED | Flag.NOT_CONVERGED
-
-
-class Run(NamedTuple):
-    """Increments in which the same end slides.
-
-    Attributes:
-        slip: fraction of the left end.
-        first, last: rows where it begins and ends.
-        change: of the separation [m].
-        counts: whether it is in the cycle that is measured.
-    """
-
-    slip: float
-    first: int
-    last: int
-    change: float
-    counts: bool
 
 
 class Term(NamedTuple):
@@ -58,7 +39,11 @@ class Term(NamedTuple):
 
 
 def terms(
-    inputs: Inputs, shapes: ContactShapes, left: Array, times: Array, cycles: int,
+    inputs: Inputs,
+    shapes: ContactShapes,
+    left: Array,
+    times: Array,
+    cycles: int,
     chamber: str = "linearized",
 ) -> list[Term]:
     """Ends of slides in the last of some cycles.
@@ -74,8 +59,9 @@ def terms(
     """
     if shapes.status[-1] & int(_NONE) or (shapes.status & int(_NONE)).any():
         raise UnclearError("the strip jumps on the way, or its branch of equilibria ends")
-    runs = _runs(shapes.separation, left, times, times[-1] / cycles * (cycles - 1),
-                 inputs.robot.length)  # fmt: skip
+    runs = runs_of(
+        shapes.separation, left, times, times[-1] / cycles * (cycles - 1), inputs.robot.length
+    )
     if not runs:
         return []
     walk = _Walk(inputs, shapes, times, chamber)
@@ -99,37 +85,10 @@ def distance(found: Sequence[Term]) -> float:
     return sum(term.weight * term.end.separation for term in found)
 
 
-def _runs(separation: Array, left: Array, times: Array, start: float, length: float) -> list[Run]:
-    """Slides along a walk, but for those so short that they do not count."""
-    change, moved = np.diff(separation), np.diff(left)
-    runs: list[Run] = []
-    for row in np.flatnonzero(np.abs(change) > _STILL * length):
-        slip = -moved[row] / change[row]
-        near = round(2 * slip) / 2
-        if abs(slip - near) > _FRACTION or near not in _SLIDERS:
-            continue
-        counts = bool(times[row] >= start * (1 - 1e-12) - 1e-9)
-        run = Run(near, int(row), int(row) + 1, float(change[row]), counts)
-        if runs and (runs[-1].slip, runs[-1].counts) == (near, counts):
-            total = runs[-1].change + abs(run.change)
-            runs[-1] = runs[-1]._replace(last=run.last, change=total)
-        else:
-            runs.append(run._replace(change=abs(run.change)))
-    long = [run for run in runs if run.change > _SHORT * length]
-    merged: list[Run] = []
-    for run in long:
-        if merged and (merged[-1].slip, merged[-1].counts) == (run.slip, run.counts):
-            run = run._replace(first=merged[-1].first, change=merged.pop().change + run.change)
-        merged.append(run)
-    return merged
-
-
 class _Walk:
     """States of a walk, from which the ends of its slides are found."""
 
-    def __init__(
-        self, inputs: Inputs, shapes: ContactShapes, times: Array, chamber: str
-    ) -> None:
+    def __init__(self, inputs: Inputs, shapes: ContactShapes, times: Array, chamber: str) -> None:
         self._inputs, self._shapes, self._times = inputs, shapes, times
         self._chamber, self._links = chamber, len(shapes.nodes) - 2
         self._stages = np.concatenate([[0.0], np.cumsum(inputs.gait.ramp_times)])
@@ -181,7 +140,7 @@ class _Walk:
         u, active = self._unknowns(balance, row, x)
         before = max(row - 1, 0), max(row, 1)
         grows = self._shapes.separation[before[1]] > self._shapes.separation[before[0]]
-        contacts = frozen(balance, u, active, _SLIDERS[run.slip], bool(grows))
+        contacts = frozen(balance, u, active, SLIDERS[run.slip], bool(grows))
         search = Search(balance, self._turns)
         if until is None:
             return search.corner(u, contacts, ramp)
@@ -236,11 +195,11 @@ def derivatives(
     result = {}
     for name in names:
         numbers = inputs.numbers(name)
-        shape = tuple(1 + max(number.index[axis] for number in numbers)
-                      for axis in range(len(numbers[0].index)))  # fmt: skip
+        shape = tuple(1 + max(number.place[axis] for number in numbers)
+                      for axis in range(len(numbers[0].place)))  # fmt: skip
         values, reasons = np.full(shape, np.nan), []
         for number in numbers:
-            values[number.index], reason = _by(inputs, number, ends)
+            values[number.place], reason = _by(inputs, number, ends)
             if reason and reason not in reasons:
                 reasons.append(reason)
         result[name] = Derivative(values, "; ".join(reasons))

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from analytic.friction.laws import LAWS
 from analytic.gradient.distance import derivatives, distance, terms
 from analytic.gradient.inputs import Derivative, Inputs
-from analytic.gradient.run_ends import UnclearError
+from analytic.gradient.solved import UnclearError
 from analytic.scene.ground import depends_on_speed
 from analytic.scene.surface import Surface
 from analytic.shapes import ContactShapes, Shapes
@@ -24,7 +24,12 @@ _OTHERS = {  # fields at whose present value, nothing, no effect of theirs is di
 
 
 def gradient(
-    inputs: Inputs, solver: Solver, shapes: Shapes, left: Array, times: Array, cycles: int,
+    inputs: Inputs,
+    solver: Solver,
+    shapes: Shapes,
+    left: Array,
+    times: Array,
+    cycles: int,
     names: Sequence[str],
 ) -> dict[str, Derivative]:
     """Derivatives of the distance of the last of some cycles.
@@ -50,8 +55,11 @@ def gradient(
                                    "distance")  # fmt: skip
             known = [name for name in names if name not in _OTHERS]
             result = derivatives(inputs, found, known, solver.links, solver.chamber)
-            return {name: result.get(name) or _none(inputs, name, f"{_OTHERS.get(name)} is not "
-                                                    "differentiated") for name in names}  # fmt: skip
+            return {
+                name: result.get(name)
+                or _none(inputs, name, f"{_OTHERS.get(name)} is not differentiated")
+                for name in names
+            }
         except UnclearError as error:
             reason = str(error)
     return {name: _none(inputs, name, reason) for name in names}

@@ -11,7 +11,7 @@ from analytic.checks import meant
 from analytic.friction.laws import Friction
 from analytic.scene.gait import Gait
 from analytic.scene.robot import Robot
-from analytic.scene.surface import Ground
+from analytic.scene.surface import Surface
 
 Array = NDArray[np.float64]
 
@@ -29,7 +29,7 @@ class Inputs:
 
     robot: Robot
     gait: Gait
-    surface: Ground
+    surface: Surface
     friction: Friction
 
     def of(self, name: str) -> Any:
@@ -99,14 +99,14 @@ class Number(NamedTuple):
     """One number of a field.
 
     Attributes:
-        name, index: of the field, and its place in it.
+        name, place: of the field, and its place in it.
         value: of it.
         step: of differences; 0 if it cannot be changed.
         way: 1 or -1 if it can be changed that way only, or has a corner there; 0 if both.
     """
 
     name: str
-    index: tuple[int, ...]
+    place: tuple[int, ...]
     value: float
     step: float
     way: int
@@ -117,8 +117,8 @@ class Number(NamedTuple):
         if self.way:
             weights = ((0, -1.5 * self.way), (self.way, 2.0 * self.way),
                        (2 * self.way, -0.5 * self.way))  # fmt: skip
-        values = [weight * function(inputs.changed(self.name, self.index, place * self.step))
-                  for place, weight in weights]  # fmt: skip
+        values = [weight * function(inputs.changed(self.name, self.place, steps * self.step))
+                  for steps, weight in weights]  # fmt: skip
         return np.asarray(sum(values) / self.step)
 
 

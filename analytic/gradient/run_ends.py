@@ -13,25 +13,19 @@ from numpy.typing import NDArray
 from analytic.friction.contact_length import flat_nodes, flat_pressures, ripple
 from analytic.friction.laws import friction_number
 from analytic.gradient.bordered import solve_bordered
+from analytic.gradient.conditions import possible
 from analytic.gradient.equilibrium import Balance, Condition, Contacts
+from analytic.gradient.solved import UnclearError, solved
 
 Array = NDArray[np.float64]
 
-_CONVERGED, _ENOUGH = 1e-12, 1e-9  # change of unknowns in a step, and in the last; chosen
-_STEPS, _EVENTS, _TURNS = 12, 8, 12  # at most; chosen
+_EVENTS, _TURNS = 8, 12  # at most; chosen
 _SAME = 1e-7  # of a ramp, within which two conditions are met at once; chosen
 _BEFORE = 1e-5  # of a ramp, by which the condition may have been met already; chosen
 _JUST = 1e-9  # of a ramp; chosen
-_LENGTH = 1e-9  # over L, by which a length of contact changes where a node counts no more; chosen
-_NEAR = 1e-4  # over L, so near to the height that counts as in the air; chosen
 _BOUND = 1e-4  # of the greatest bound, by which the tension may be off the slider's; chosen
 _ALIKE = 1e-9  # likewise, by which two bounds may differ and be alike; chosen
 _EDGE_FORCE, _EDGE_HEIGHT = 1e-4, 1e-6  # of a node's weight, over L, at the edge of a tip; chosen
-_ENDS = ("left", "right")
-
-
-class UnclearError(Exception):
-    """What ends a slide is not clear; the text says why there is no derivative."""
 
 
 class RunEnd(NamedTuple):
@@ -54,41 +48,6 @@ class RunEnd(NamedTuple):
     also: tuple[tuple[Condition, float], ...]
     separation: float
     cause: str
-
-
-def solved(
-    balance: Balance, u: Array, contacts: Contacts, place: Condition | None
-) -> Array:
-    """Unknowns that balance, at the place of u or where a condition is met.
-
-    Raises:
-        UnclearError: Newton's method finds none.
-    """
-    for step_number in range(_STEPS):
-        system, right = bordered(balance, u, contacts, place)
-        try:
-            step = solve_bordered(system, -right)
-        except np.linalg.LinAlgError:
-            break
-        u = u + step
-        size = np.abs(step / np.maximum(1.0, np.abs(u))).max()
-        if not size < 10.0:
-            break
-        if size < _CONVERGED or (size < _ENOUGH and step_number == _STEPS - 1):
-            return u
-    raise UnclearError("a state where contacts change is not found")
-
-
-def bordered(
-    balance: Balance, u: Array, contacts: Contacts, place: Condition | None
-) -> tuple[Array, Array]:
-    """Jacobian (M, M) and residual (M,) of balance and place, which is fixed if None."""
-    right = np.append(balance.residual(u, contacts), 0.0)
-    row = np.eye(len(u))[-1]
-    if place is not None:
-        row = balance.slope(u, contacts, place)
-        right[-1] = balance.condition(u, contacts, place)
-    return np.vstack([balance.jacobian(u, contacts), row]), right
 
 
 def frozen(
@@ -123,9 +82,9 @@ def frozen(
     alike = abs(left - right) <= _ALIKE * scale and slider != "both"  # which of them would slide?
     if straight or (slides and not alike):
         return contacts._replace(tension="slides")
-    edges = [end for end, node in enumerate((1, -2))
-             if abs(float(balance.at_edge(u, end, active)))
-             < (_EDGE_FORCE * balance.chain.weight[1] if active[node] else _EDGE_HEIGHT)]  # fmt: skip
+    least = [_EDGE_FORCE * balance.chain.weight[1] if active[node] else _EDGE_HEIGHT
+             for node in (1, -2)]  # fmt: skip
+    edges = [end for end in (0, 1) if abs(float(balance.at_edge(u, end, active))) < least[end]]
     if len(edges) == 1:
         return contacts._replace(tension="edge", edge=edges[0])
     if slides:
@@ -165,7 +124,7 @@ class Search:
         for _ in range(_EVENTS):
             tangent = self._tangent(u, contacts)
             rows = [(self._distance(u, contacts, c, tangent), c, ends)
-                    for c, ends in self._conditions(u, contacts)]  # fmt: skip
+                    for c, ends in possible(self._balance, u, contacts)]  # fmt: skip
             rows = [row for row in rows if row[0] > begin - float(u[-1]) - _BEFORE]
             first = min(rows, key=lambda row: row[0], default=None)
             turn = self._turn(u, contacts, tangent) if self._turns else np.inf
@@ -188,7 +147,7 @@ class Search:
     ) -> RunEnd:
         also = []
         tangent = self._tangent(u, contacts)
-        for condition, ends in self._conditions(u, contacts):
+        for condition, ends in possible(self._balance, u, contacts):
             rate = float(self._balance.slope(u, contacts, condition) @ tangent)
             value = float(self._balance.condition(u, contacts, condition))
             if ends and condition != place and abs(value) <= _SAME * abs(rate):
@@ -214,92 +173,6 @@ class Search:
         rate = float(self._balance.slope(u, contacts, condition) @ tangent)
         leaves = condition.kind in ("force", "height") and rate > 0
         return -value / rate if rate and not leaves else np.inf
-
-    def _conditions(self, u: Array, contacts: Contacts) -> list[tuple[Condition, bool]]:
-        """Conditions that may be met next, and whether a slide ends there."""
-        found = []
-        y = self._balance.split(u)[0]
-        last = len(y) - 1
-        pressure = np.abs(self._balance.pressure(float(u[-1])))
-        robot = self._balance.inputs.robot
-        flat = flat_pressures(robot, self._balance.inputs.surface)
-        at_edge = {0: 1, 1: last - 1}[contacts.edge] if contacts.tension == "edge" else None
-        for node in self._near(u, contacts):
-            if node == at_edge:
-                continue
-            end = 0 if node == 1 else 1
-            beside = node in (1, last - 1) and pressure[-end] <= flat[-end]
-            kind = "force" if contacts.active[node] else "height"
-            what = f"the {_ENDS[end]} end changes between a tip and a side"
-            found.append((Condition(kind, node, what), beside))
-        for end, name in enumerate(_ENDS):
-            as_side = self._as_side(u, contacts, end)
-            if contacts.sides[end] != 0 or as_side > 0:
-                what = f"the pressure of the {name} end lets it lie flat or not"
-                found.append((Condition("pressure", end, what), True))
-        if contacts.slider != "both" and contacts.tension != "edge":
-            found.append((Condition("bounds", 0, "both ends resist alike"), True))
-        if contacts.tension == "edge":
-            found += [(Condition("tip", 0, "an end is a tip again"), True),
-                      (Condition("other", 0, "both ends resist alike"), True)]  # fmt: skip
-        return found + [(Condition("ripple", node, "a flat stretch lifts off"), True)
-                        for node in self._that_count(u, contacts)]  # fmt: skip
-
-    def _near(self, u: Array, contacts: Contacts) -> list[int]:
-        """Nodes on the ground and in the air beside such ones."""
-        active = contacts.active
-        beside = np.zeros_like(active)
-        beside[1:] |= active[:-1]
-        beside[:-1] |= active[1:]
-        y = self._balance.split(u)[0]
-        low = y < _NEAR
-        border = np.zeros_like(active)
-        border[1:] |= ~active[:-1]
-        border[:-1] |= ~active[1:]
-        force = self._balance.forces(u)
-        few = active & (border | (force < 0.1 * self._balance.chain.weight))
-        return list(np.flatnonzero(few | (~active & (beside | low))))
-
-    def _as_side(self, u: Array, contacts: Contacts, end: int) -> float:
-        """Length of side contact that an end has if its pressure lets it lie flat [m]."""
-        robot = self._balance.inputs.robot
-        air = self._balance.split(u)[0] * robot.length > ripple(robot, self._balance.nodes)
-        force = self._balance.forces(u) * contacts.active
-        return self._length(u, contacts, force, air, end)
-
-    def _that_count(self, u: Array, contacts: Contacts) -> list[int]:
-        """Nodes as high as a flat stretch ripples whose height decides a length of contact.
-
-        One of the stretch that rises, and the highest of those beside it that come down.
-        """
-        robot, y = self._balance.inputs.robot, self._balance.split(u)[0]
-        level = ripple(robot, self._balance.nodes) / robot.length
-        force, air = self._balance.forces(u) * contacts.active, y > level
-        nodes = set()
-        for end, order in enumerate((1, -1)):
-            count = contacts.sides[end]
-            if not count:
-                continue
-            places = np.arange(len(y))[::order]
-            beside = places[count:]
-            beside = beside[: int((~air[beside]).argmax())]
-            near = np.abs(y[places[:count]] - level) < _NEAR
-            rising = [[node] for node in places[:count][near] if not contacts.active[node]]
-            for group in [*rising, list(beside)]:
-                other = air.copy()
-                other[group] = ~air[group]
-                lengths = [self._length(u, contacts, force, mask, end) for mask in (air, other)]
-                if group and abs(lengths[1] - lengths[0]) > _LENGTH * robot.length:
-                    nodes.add(int(max(group, key=lambda node: y[node])))
-        return sorted(nodes)
-
-    def _length(
-        self, u: Array, contacts: Contacts, force: Array, air: NDArray[np.bool_], end: int
-    ) -> float:
-        """Length of side contact of an end that may lie flat, with some nodes in the air [m]."""
-        order = -1 if end else 1
-        count = flat_nodes(force[::order], air[::order], True)
-        return float(self._balance.side(u, contacts._replace(sides=(count, count)), end))
 
     @staticmethod
     def _passed(contacts: Contacts, condition: Condition) -> Contacts:

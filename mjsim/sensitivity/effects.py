@@ -126,9 +126,7 @@ def _differentiated(scene: Scene, names: Sequence[str]) -> tuple[Prediction | No
     return None, found[0].reason
 
 
-def _exact(
-    scene: Scene, name: str, derivative: Derivative, distance: float
-) -> Iterable[Effect]:
+def _exact(scene: Scene, name: str, derivative: Derivative, distance: float) -> Iterable[Effect]:
     """Effects of the numbers of a field, by its derivative."""
     values = np.array(value_of(scene, name), dtype=float)
     for index in np.ndindex(derivative.value.shape):
@@ -144,8 +142,8 @@ def _exact(
         change = step * float(derivative.value[index])
         told = math.isfinite(change)
         note = derivative.reason if not told or (name == STAGES and value == 0.0) else ""
-        yield Effect(label, value, unit, change if told else None,
-                     _part(change, distance, scene) if told else None, 0.0, EXACT, note)  # fmt: skip
+        part = _part(change, distance, scene) if told else None
+        yield Effect(label, value, unit, change if told else None, part, 0.0, EXACT, note)
 
 
 def value_of(scene: Scene, name: str) -> Any:
@@ -168,8 +166,8 @@ def _compared(
     near, far = 0.5 * (away[1] - away[-1]), 0.25 * (away[2] - away[-2])
     error = abs(near - far) + 0.5 * abs(away[1] + away[-1])
     if not math.isfinite(near + error):
-        return Effect(name, value, unit_of(name), None, None, 0.0, DIFFERENCES,
-                      "a robot with one or two per cent more or less has no predicted distance")  # fmt: skip
+        none = "with one or two per cent more or less there is no predicted distance"
+        return Effect(name, value, unit_of(name), None, None, 0.0, DIFFERENCES, none)
     return Effect(name, value, unit_of(name), near, _part(near, distance, scene), error,
                   DIFFERENCES, why)  # fmt: skip
 
