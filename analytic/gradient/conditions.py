@@ -42,7 +42,7 @@ def possible(balance: Balance, u: Array, contacts: Contacts) -> list[tuple[Condi
     if contacts.tension == "edge":
         found += [(Condition("tip", 0, "an end is a tip again"), True),
                   (Condition("other", 0, "both ends resist alike"), True)]  # fmt: skip
-    return found + [(Condition("ripple", node, "a flat stretch lifts off"), True)
+    return found + [(Condition("ripple", node, "a flat stretch lifts off or comes down"), True)
                     for node in _that_count(balance, u, contacts)]  # fmt: skip
 
 
@@ -78,9 +78,12 @@ def _that_count(balance: Balance, u: Array, contacts: Contacts) -> list[int]:
     robot, y = balance.inputs.robot, balance.split(u)[0]
     level = ripple(robot, balance.nodes) / robot.length
     force, air = balance.forces(u) * contacts.active, y > level
+    lies = np.abs(balance.pressure(float(u[-1]))) <= flat_pressures(robot, balance.inputs.surface)
     nodes = set()
     for end, order in enumerate((1, -1)):
         count = contacts.sides[end]
+        if count == 0 and lies[-end]:  # a tip that may be part of a side
+            count = flat_nodes(force[::order], air[::order], True)
         if not count:
             continue
         places = np.arange(len(y))[::order]
