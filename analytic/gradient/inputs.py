@@ -40,16 +40,16 @@ class Inputs:
         """
         table, _, key = name.partition(".")
         if table not in _TABLES:
-            raise ValueError(f"gradient must be of {', '.join(_TABLES)}, as in robot.length; got "
-                             f"{name!r}")  # fmt: skip
+            raise ValueError(f"a field to differentiate by must be of {', '.join(_TABLES)}, as "
+                             f"robot.length is; got {name!r}")  # fmt: skip
         part: Any = getattr(self, table)
         keys = [item.name for item in fields(part)]
         if key not in keys:
-            raise ValueError(f"gradient: {name!r} is unknown; known are {', '.join(keys)}"
+            raise ValueError(f"field {name!r} is unknown; known of {table} are {', '.join(keys)}"
                              f"{meant(key, keys)}")  # fmt: skip
         value = getattr(part, key)
         if not _is_numbers(value):
-            raise ValueError(f"gradient: {name} has no number to change, got {value!r}")
+            raise ValueError(f"field {name} must have a number to differentiate by, got {value!r}")
         return value
 
     def changed(self, name: str, index: tuple[int, ...], by: float) -> "Inputs":

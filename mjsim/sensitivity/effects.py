@@ -51,7 +51,7 @@ class Effect(NamedTuple):
     """
 
     field: str
-    value: float
+    value: float | None
     unit: str
     distance: float | None
     part: float | None
@@ -81,7 +81,7 @@ def sensitivity(
         advance: called with the number of fields that are done.
 
     Raises:
-        ValueError: there is no such field, it is 0, or there is no distance.
+        ValueError: there is no such field, or no distance.
     """
     tables = as_tables(scene, numerics or Numerics())
     names = list(fields) or usual(scene)
@@ -97,7 +97,7 @@ def sensitivity(
             raise ValueError("the scene has no predicted distance, and so no sensitivity of it")
         effects = []
         for name in names:
-            effects.append(_compared(tables, name, distance, scene, why))
+            effects.append(compared(tables, name, distance, scene, why))
             advance(1)
     effects.sort(key=lambda effect: -abs(effect.distance or 0.0))
     return Effects(distance, tuple(effects))
@@ -131,8 +131,7 @@ def _exact(scene: Scene, name: str, derivative: Derivative, distance: float) -> 
     values = np.array(value_of(scene, name), dtype=float)
     for index in np.ndindex(derivative.value.shape):
         value = float(values[index])
-        label, unit = name, unit_of(name) if name.partition(".")[0] != "gait" else "1"
-        step = PER_CENT * value
+        label, step = name, PER_CENT * value
         if name == STAGES:
             stage, chamber = index
             label = f"stage {stage + 1}, {scene.robot.chambers[chamber]}"
@@ -143,7 +142,7 @@ def _exact(scene: Scene, name: str, derivative: Derivative, distance: float) -> 
         told = math.isfinite(change)
         note = derivative.reason if not told or (name == STAGES and value == 0.0) else ""
         part = _part(change, distance, scene) if told else None
-        yield Effect(label, value, unit, change if told else None, part, 0.0, EXACT, note)
+        yield Effect(label, value, unit_of(name), change if told else None, part, 0.0, EXACT, note)
 
 
 def value_of(scene: Scene, name: str) -> Any:
@@ -152,24 +151,47 @@ def value_of(scene: Scene, name: str) -> Any:
     return getattr({"robot": scene.robot, "surface": scene.ground, "gait": scene.gait}[table], key)
 
 
-def _compared(
-    tables: Tables, name: str, distance: float, scene: Scene, why: str
-) -> Effect:  # fmt: skip
-    """Effect of a field by differences of the reference."""
-    if name == STAGES:
-        return Effect(name, math.nan, "1", None, None, 0.0, DIFFERENCES, why)
-    value = nominal(tables, name)
+def compared(tables: Tables, name: str, distance: float, scene: Scene, why: str = "") -> Effect:
+    """Effect of a field by differences of the reference.
+
+    Args:
+        tables: of the scene.
+        name: of the field.
+        distance: per cycle of the reference [m].
+        scene: what walks.
+        why: there is no derivative.
+
+    Raises:
+        ValueError: there is no such field.
+    """
+    if name.partition(".")[0] == "gait":
+        return Effect(name, None, "1", None, None, 0.0, DIFFERENCES, why)
+    unit = unit_of(name)
+    try:
+        value = nominal(tables, name)
+    except ValueError:
+        return Effect(name, None, unit, None, None, 0.0, DIFFERENCES, why or "it is nothing here")
     away = {}
     for steps in (-2, -1, 1, 2):
-        changed = with_values(tables, {name: value * (1 + steps * PER_CENT)})
+        changed = _scaled(tables, name, value, 1 + steps * PER_CENT)
         away[steps] = _distance(build(changed)[0]) - distance
     near, far = 0.5 * (away[1] - away[-1]), 0.25 * (away[2] - away[-2])
     error = abs(near - far) + 0.5 * abs(away[1] + away[-1])
     if not math.isfinite(near + error):
         none = "with one or two per cent more or less there is no predicted distance"
-        return Effect(name, value, unit_of(name), None, None, 0.0, DIFFERENCES, none)
-    return Effect(name, value, unit_of(name), near, _part(near, distance, scene), error,
-                  DIFFERENCES, why)  # fmt: skip
+        return Effect(name, value, unit, None, None, 0.0, DIFFERENCES, none)
+    part = _part(near, distance, scene)
+    return Effect(name, value, unit, near, part, error, DIFFERENCES, why)
+
+
+def _scaled(tables: Tables, name: str, value: float, factor: float) -> Tables:
+    """Tables of a scene with a field so many times as great, of all limbs that have it."""
+    table, _, key = name.partition(".")
+    limbs = tables["robot"].get("limbs", ())
+    if table != "robot" or not any(limb.get(key) for limb in limbs):
+        return with_values(tables, {name: factor * value})
+    scaled = [{**limb, key: factor * limb[key]} if limb.get(key) else limb for limb in limbs]
+    return {**tables, "robot": {**tables["robot"], "limbs": scaled}}
 
 
 def _part(change: float, distance: float, scene: Scene) -> float | None:
