@@ -30,6 +30,7 @@ _attribute, __dir__, __all__ = lazily(
         "analytic.scene.quadruped_gaits": ("QUADRUPED_GAITS", "undulation"),
         "analytic.scene.robot": ("Robot",),
         "analytic.scene.surface": ("SURFACES", "Ground", "Surface"),
+        "mjsim.effects.sensitivity": ("sensitivity",),
         "mjsim.env.settings": ("Settings",),
         "mjsim.files.tables": ("build", "read_tables"),
         "mjsim.files.written": ("as_tables", "as_toml"),
