@@ -57,6 +57,8 @@ _attribute, __dir__, __all__ = lazily(
         "mjsim.simulation.simulation": ("Simulation", "simulate"),
         "mjsim.sweeps.plan": ("Plan", "read_plan"),
         "mjsim.sweeps.store": ("Store",),
+        "mjsim.uncertainty.fields": ("read_spreads",),
+        "mjsim.uncertainty.interval": ("distance_interval",),
     },
 )
 

@@ -18,14 +18,17 @@ from mjsim.files.extras import MissingExtraError
 from mjsim.files.files import check_folder
 from mjsim.files.files import whole as whole_file
 from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import build
+from mjsim.files.tables import Tables, build
 from mjsim.files.text_table import Column, text_table
 from mjsim.scene import Numerics, Scene
 
 if TYPE_CHECKING:
+    from analytic.scene.limbs import AnyRobot
     from mjsim.optimising.confirm import Confirmation
     from mjsim.optimising.objective import Objective
     from mjsim.optimising.search import Generation
+
+    Corners = tuple[tuple[AnyRobot, tuple[Surface, ...]], ...]
 
 PROGRAM = "undulator optimise"
 EXAMPLES = (
@@ -41,8 +44,9 @@ class Options(SceneOptions):
 
     Of several grounds the worst counts, and of friction at the ends alone or at all contacts the
     worse, unless --contacts says which. Prints how finer models walk it, and with pressure and
-    friction 10 % off; docs/output.md explains the columns. Writes best.toml, a gait for --gait, and
-    best.png. Exit code 0: done; 2: bad input; 3: nothing goes that way.
+    friction 10 % off; docs/output.md explains the columns. Ramps are no faster than the flow limit
+    of the valves, if one is given. Writes best.toml, a gait for --gait, best_valves.csv, when each
+    valve fills or vents, and best.png. Exit code 0: done; 2: bad input; 3: nothing goes that way.
     """
 
     aim: Literal["displacement", "speed", "air", "work"] = "displacement"
@@ -53,6 +57,9 @@ class Options(SceneOptions):
     """search for the best gait towards -x"""
     model: Literal["elastica", "lifted", "obstacle", "modes", "mujoco"] | None = None
     """of the search; elastica if not given, for speed and for robots of limbs mujoco"""
+    uncertain: str = ""
+    """fields that are not known, and within what they lie, as surface.tip_force=20%: the gait that
+    is best where all of them, at most three, are off so that it goes least"""
     evaluations: int = 800
     """gaits to try"""
     seed: int = 0
@@ -73,8 +80,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         whole("seed", options.seed, 0)
         workers = os.cpu_count() or 1 if options.workers is None else options.workers
         whole("workers", workers, 1)
-        built = [build(tables) for tables in tables_of(options)]
-        objective = _objective(options, [scene for scene, _ in built], built[0][1])
+        tables = tables_of(options)
+        built = [build(table) for table in tables]
+        objective = _objective(options, [scene for scene, _ in built], built[0][1], tables)
         check_folder(options.out)
         began = time.perf_counter()
         history: list[Generation] = []
@@ -106,7 +114,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     return 0 if record["objective"] > -math.inf else FAILED
 
 
-def _objective(options: Options, scenes: Sequence[Scene], numerics: Numerics) -> "Objective":
+def _objective(
+    options: Options, scenes: Sequence[Scene], numerics: Numerics, tables: Sequence[Tables]
+) -> "Objective":
     from mjsim.optimising.objective import Objective
 
     grounds = []
@@ -122,8 +132,28 @@ def _objective(options: Options, scenes: Sequence[Scene], numerics: Numerics) ->
         raise ValueError(f"friction must be constant, got {scenes[0].friction}")
     model = _model(options, scenes[0].in_space)
     return Objective(
-        scenes[0], tuple(grounds), options.aim, options.backward, model, numerics=numerics
-    )
+        scenes[0], tuple(grounds), options.aim, options.backward, model, numerics=numerics,
+        others=_corners(options.uncertain, tables) if options.uncertain else (),
+    )  # fmt: skip
+
+
+def _corners(text: str, tables: Sequence[Tables]) -> "Corners":
+    """Robots and their surfaces at the corners of what is not known."""
+    from mjsim.fitting.parameters import with_values
+    from mjsim.uncertainty.fields import corners, read_spreads
+
+    for word in ("valves.", ".json"):
+        if word in text:
+            raise ValueError(
+                f"uncertain must be fields of robot and surface in a search, got {text!r}"
+            )
+    by_robot: dict[AnyRobot, list[Surface]] = {}
+    for table in tables:
+        for values in corners(read_spreads(table, text)):
+            scene, _ = build(with_values(table, values))
+            assert isinstance(scene.ground, Surface)
+            by_robot.setdefault(scene.robot, []).append(scene.ground)
+    return tuple((robot, tuple(surfaces)) for robot, surfaces in by_robot.items())
 
 
 def _model(options: Options, in_space: bool) -> str:
@@ -163,6 +193,7 @@ def _write(options: Options, objective: "Objective", history: "list[Generation]"
     """Paths of the gait's file and its picture, each once it is written."""
     from mjsim.files.written import as_toml
     from mjsim.optimising.picture import draw
+    from mjsim.optimising.valve_times import write
 
     gait = history[-1].best
     table = {"name": "best", "stages": [list(stage) for stage in gait.stages],
@@ -174,6 +205,10 @@ def _write(options: Options, objective: "Objective", history: "list[Generation]"
         text = as_toml({"gait": table}, words)
         part.write_text(text.replace("[gait]\n", ""), "utf-8")
     yield str(path)
+    times = options.out / "best_valves.csv"
+    with whole_file(times) as part:
+        write(gait, objective.scene.robot, part)
+    yield str(times)
     draw(gait, objective.scene.gait, history, options.out / "best.png")
     yield str(options.out / "best.png")
 
@@ -190,6 +225,7 @@ def _record(
         "aim": options.aim, "backward": options.backward, "model": objective.model,
         "evaluations": generation.evaluations, "objective": generation.value,
         "searched_on": [surface.name for surface in objective.surfaces],
+        "uncertain": options.uncertain,
         "stages": gait.stages, "ramp_times_s": gait.ramp_times, "period_s": gait.period,
         "air_litres_per_cycle": 1e3 * air.volume, "work_J_per_cycle": air.work,
         "surfaces": [row._asdict() for row in best],
@@ -202,6 +238,8 @@ def _text(record: dict[str, Any]) -> str:
 
     unit = {"displacement": "L per cycle", "speed": "m/s", "air": "-l/m", "work": "-J/m"}
     where = ", ".join(record["searched_on"])
+    if record["uncertain"]:
+        where += f" in the worst case of {record['uncertain']}"
     model = record["model"] + f", {WEAK}," * (record["model"] != "mujoco")
     head = (
         f"{record['evaluations']} gaits by {model} in {record['wall_time_s']:.0f} s; "

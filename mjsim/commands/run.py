@@ -26,6 +26,7 @@ from mjsim.scene.auto import check_tolerance
 
 if TYPE_CHECKING:
     from mjsim.results.trajectory import Trajectory
+    from mjsim.uncertainty.fields import Spread
 
 PROGRAM = "undulator run"
 AUTO = "auto"  # the body that is picked from measurements on many scenes
@@ -49,6 +50,9 @@ class Options(SceneOptions):
     tolerance: Optional[float] = None  # noqa: UP045
     """of body auto, which walks body chain ever finer until two walks agree: relative error of the
     displacement by links and time step, or 0.001 L; from 0.005; 0.02 if not given"""
+    uncertain: str = ""
+    """fields that are not known, and within what they lie, as surface.tip_force=20%,
+    robot.length=1mm: the interval of the reference's distance, and which field causes how much"""
     out: Path = Path("videos")
     """folder for the video and the trajectory, made if need be"""
     json: bool = False
@@ -71,7 +75,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if records and not options.json:
         from mjsim.results.record import table
 
-        say(table(records))
+        say("\n".join([table(records), *_intervals(records)]))
         sys.stdout.flush()  # the numbers come before any video is made
     if end is None and not options.no_video:
         try:
@@ -85,6 +89,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     if end is not None:
         fail(PROGRAM, str(end))
     return 0 if all(row["status"] in WALKED for row in records) else FAILED
+
+
+def _intervals(records: list[dict[str, Any]]) -> list[str]:
+    """Lines on what is not known of the scenes."""
+    told = {row["surface"]: row["uncertain"] for row in records if "uncertain" in row}
+    lines = [f"{surface}: {interval['text']}" for surface, interval in told.items()]
+    return [*{interval["known"] for interval in told.values()}, *lines]
 
 
 def _print(options: Options, records: list[dict[str, Any]], joint: Path | None) -> None:
@@ -132,10 +143,15 @@ def _walk(options: Options, records: list[dict[str, Any]], walks: "list[Trajecto
     """
     tables, tolerance = _bodies(tables_of(options), options.tolerance)
     cases = [build(table) for table in tables]
+    unknown: list[tuple[Spread, ...]] = [()] * len(tables)
+    if options.uncertain:
+        from mjsim.uncertainty.fields import read_spreads
+
+        unknown = [read_spreads(table, options.uncertain) for table in tables]
     check_folder(options.out)
     from mjsim.results.provenance import provenance
 
-    for scene, numerics in cases:
+    for table, (scene, numerics), spreads in zip(tables, cases, unknown, strict=True):
         try:
             walk, note = _simulate(scene, numerics, tolerance)
         except KeyboardInterrupt as error:
@@ -163,6 +179,19 @@ def _walk(options: Options, records: list[dict[str, Any]], walks: "list[Trajecto
         walks.append(walk)
         if end is not None:
             raise end
+        if spreads:
+            _not_known(row, table, spreads)
+
+
+def _not_known(row: dict[str, Any], tables: Tables, spreads: "tuple[Spread, ...]") -> None:
+    """Add to a record within what its distance lies for what is not known of its scene."""
+    from mjsim.uncertainty.interval import distance_interval, walks_for
+    from mjsim.uncertainty.report import known, record, sentence
+
+    centre = row["predicted_displacement_over_L"]
+    with bar(f"what is not known, {row['surface']}", walks_for(spreads)) as advance:
+        interval = distance_interval(tables, spreads, centre=centre, advance=advance)
+    row["uncertain"] = {"known": known(spreads), "text": sentence(interval), **record(interval)}
 
 
 def _recorded(walk: "Trajectory") -> tuple[dict[str, Any], bool]:

@@ -75,7 +75,7 @@ def parameters(
     if len(set(names)) < len(names):
         raise ValueError(f"free must name each field once, got {free!r}")
     for name in names:
-        _check(name)
+        check_free(name)
     starts = _assigned("start", start, names)
     limits, priors = _assigned("bounds", bounds, names), _assigned("prior", prior, names)
     free_parameters = []
@@ -93,28 +93,36 @@ def parameters(
 
 
 def nominal(base: Tables, name: str) -> float:
-    """Value of a field in the scene.
+    """Value of a field in the scene, where a fit may begin.
 
     Raises:
         ValueError: it is 0 or not given.
     """
+    value = value_of(base, name)
+    if not value:
+        raise ValueError(
+            f"{name} is not above 0 in the scene: give it a start, --start {name}=VALUE"
+        )
+    return value
+
+
+def value_of(base: Tables, name: str) -> float | None:
+    """Value of a field in the scene, None where it is not given."""
     table, _, key = name.partition(".")
     if table == "robot":
         whole = robot_of(base)
         robot = whole if hasattr(whole, key) else limbs_of(whole)[0].strip
         value = getattr(robot, key, None)
-        if key == "mass" and value is None:
+        if value is None and key in base.get("robot", {}):  # and was turned into another at once
+            value = in_unit(name, str(base["robot"][key]), unit_of(name))
+        elif key == "mass" and value is None:
             value = whole.weight / GRAVITY
     elif table == "valves":
         value = getattr(make(Valves, base.get("valves", {}), "[valves] "), key)
     else:
         ground = SURFACES[table] if table in SURFACES else ground_of(base)
         value = getattr(ground, key, None)
-    if not (isinstance(value, float) and value > 0):
-        raise ValueError(
-            f"{name} is not above 0 in the scene: give it a start, --start {name}=VALUE"
-        )
-    return value
+    return value if isinstance(value, float) and value >= 0 else None
 
 
 def robot_of(tables: Tables) -> AnyRobot:
@@ -163,15 +171,18 @@ def _ground(ground: Table, surface: str | None) -> Table:
     return {**spelled_out(ground, _SUFFIX), "surface": surface}
 
 
-def _check(name: str) -> None:
+def check_free(name: str, option: str = "free") -> None:
+    """Raise ValueError, which names an option, for what is no field with a number to vary."""
     table, dot, key = name.partition(".")
     if not dot:
-        raise ValueError(f"free must name tables and fields, such as robot.modulus; got {name!r}")
+        raise ValueError(
+            f"{option} must name tables and fields, such as robot.modulus; got {name!r}"
+        )
     if table in ("robot", "valves"):
         check_keys(table, {key: None})
     elif table in NAMES:
         raise ValueError(
-            f"free must be of robot, valves, surface or a surface's name; got {name!r}"
+            f"{option} must be of robot, valves, surface or a surface's name; got {name!r}"
         )
     elif key not in SURFACE_FIELDS:
         raise ValueError(
@@ -180,7 +191,7 @@ def _check(name: str) -> None:
     if name == "robot.actuator":
         raise ValueError("robot.actuator must be fitted alone, from a bench's files")
     if key in ("segments", "material", "feet", "nap"):
-        raise ValueError(f"{name} cannot be fitted")
+        raise ValueError(f"{option}: {name} is no number")
 
 
 def unit_of(name: str) -> str:

@@ -44,6 +44,7 @@ _TIE = 0.03  # of the strongest bound, that of the friction on the mean of the e
 _LINKS, _STATES = 60, 12  # of the elastica, and its states in a ramp; see mjsim.results.prediction
 _NEAR = 0.02  # of L, within which a fit of l sees where it decides who slides; chosen
 _FLAT = 0.02  # of the peak: with less in all chambers the whole strip lies flat; chosen
+_REGULAR = 1e-9  # of the step between the gait's states, within which a state is one of them
 _ROUNDS = 20  # of a fit at most
 
 
@@ -91,13 +92,17 @@ def _of_end(scene: Scene, walk: Prediction, end: int, contact: Array) -> SignedL
     """Weighted least squares over the states in which an end's own chamber is not inflated.
 
     States with a contact of length 0 only count where l is above 0. Weights are largest where l
-    decides: near 0, and where the side resists as a tip does.
+    decides: near 0, and where the side resists as a tip does. States that were located between
+    those of the gait are left out: how many there are hangs on the last digit.
     """
     strip, surface = scene.strip, scene.ground.at(0.0)
     length, pressure = strip.length, np.abs(walk.pressures) / strip.peak_pressure
     chambers = pressure.shape[1]
     own = end % chambers
+    parts = pressure * _STATES
+    regular = (np.abs(parts - np.round(parts)) < _REGULAR).all(axis=1)
     seen = (pressure[:, own] <= PASSIVE) & (pressure.max(axis=1) > _FLAT) & np.isfinite(contact)
+    seen &= regular
     slopes, rest = np.zeros(chambers), 0.5 * length
     if seen.any():
         part = contact[seen] / length

@@ -57,6 +57,7 @@ class Objective:
         model: mujoco, coarse, or one of the quasi-static solvers.
         states: of a quasi-static solver in a ramp from no pressure to the peak.
         numerics: whose links a reference in space takes, see mjsim.results.prediction.
+        others: robots and their surfaces that count too, as the scene's may be off so far.
 
     Raises:
         ValueError: the model cannot walk the scene.
@@ -69,6 +70,7 @@ class Objective:
     model: str = "elastica"
     states: int = 10
     numerics: Numerics | None = None
+    others: tuple[tuple[AnyRobot, tuple[Surface, ...]], ...] = ()
 
     def __post_init__(self) -> None:
         if self.scene.in_space and self.model != "mujoco":
@@ -91,7 +93,8 @@ class Objective:
 
     def __call__(self, gait: Gait) -> float:
         """Value of a gait; minus infinity for one that is not sure to go the right way."""
-        return self.value(gait, min(self.sure(self.scene.robot, gait, self.surfaces)))
+        cases = ((self.scene.robot, self.surfaces), *self.others)
+        return self.value(gait, min(min(self.sure(robot, gait, on)) for robot, on in cases))
 
     def value(self, gait: Gait, shift: float) -> float:
         """Value of a gait with a displacement over L the right way."""

@@ -11,6 +11,7 @@ from analytic.scene.gait import Gait
 from mjsim.files.extras import optional
 from mjsim.optimising.objective import Objective
 from mjsim.optimising.space import Space
+from mjsim.optimising.valve_times import within_supply
 
 Array = NDArray[np.float64]
 
@@ -59,7 +60,8 @@ def search(
     cma = optional("cma", "the search")
     evaluate = pool.map if pool else map
     starts = list(begin) or [space.middle()]
-    best, most, count = space.gait(starts[0]), -np.inf, 0
+    robot, valves = objective.scene.robot, objective.scene.valves
+    best, most, count = within_supply(space.gait(starts[0]), robot, valves), -np.inf, 0
     low = [None] * space.lags + [0.0] * (space.size - space.lags)
     high = [None] * space.lags + [1.0] * (space.size - space.lags)
     for run, start in enumerate(_all_starts(starts, space, seed)):
@@ -70,7 +72,7 @@ def search(
         )  # fmt: skip
         while not strategy.stop():
             points = strategy.ask()
-            gaits = [space.gait(point, "best") for point in points]
+            gaits = [within_supply(space.gait(point, "best"), robot, valves) for point in points]
             values = list(evaluate(objective, gaits))
             strategy.tell(points, [-v if np.isfinite(v) else _FAILED for v in values])
             count += len(values)

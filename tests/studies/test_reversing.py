@@ -71,6 +71,7 @@ def test_backwards_a_gait_goes_as_far_back_so_no_map_helps_who_only_reverses(pla
     assert forward == pytest.approx(-backward, abs=3e-3 * L)
 
 
+@pytest.mark.slow
 def test_the_wave_stalls_at_the_seam_and_so_does_a_map_of_two_ways_but_not_the_controller(cycles):
     alone = cycles.without(60).left[-1] / L
     two = Cycles(Robot(), seam(1.15), (GAITS["wave"], GAITS["wave"].reversed()))

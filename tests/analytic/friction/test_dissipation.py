@@ -153,7 +153,7 @@ def test_the_reversed_gait_goes_the_opposite_way(surface):
 def test_the_mirrored_gait_goes_the_mirrored_way():
     mirrored = Gait("mirrored", tuple(stage[::-1] for stage in STAGES))
     one, other = (
-        predict(LONG, gait, SURFACES["gelatin"], Elastica(links=96), 20, friction=ALL)
+        predict(LONG, gait, SURFACES["gelatin"], Elastica(links=48), 10, friction=ALL)
         for gait in (WAVES, mirrored)
     )
     assert one.locomotion.right[-1] == pytest.approx(-other.locomotion.left[-1], rel=0.02)

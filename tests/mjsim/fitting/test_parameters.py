@@ -54,7 +54,7 @@ def test_a_surfaces_parameter_changes_runs_on_it_alone():
     [
         ("", {}, "free must name fields"),
         ("robot", {}, "such as robot.modulus"),
-        ("robot.segments", {}, "cannot be fitted"),
+        ("robot.segments", {}, "is no number"),
         ("robot.modulus,robot.modulus", {}, "each field once"),
         ("robot.colour", {}, "key 'colour'"),
         ("felt.colour", {}, "key 'colour'"),

@@ -21,7 +21,8 @@ def climbing(degrees, uphill):
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("uphill", [0.0, pytest.param(180.0, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("uphill", [0.0, 180.0])
 def test_on_a_slope_it_goes_as_far_as_by_its_reference(uphill):
     scene = climbing(1.0, uphill)
     level = reference(climbing(0.0, 0.0)).displacement[0]
@@ -31,7 +32,8 @@ def test_on_a_slope_it_goes_as_far_as_by_its_reference(uphill):
 
 
 def test_where_no_bound_holds_its_weight_it_slid_and_says_so(tmp_path, capsys):
-    options = ["--robot", "quadruped", "--surface", "polyethylene", "--slope", "6"]
+    options = ["--robot", "quadruped", "--surface", "polyethylene", "--slope", "6",
+               "--gait.ramp-time", "0.5"]  # fmt: skip
     assert main([*options, "--no-video", "--out", str(tmp_path)]) == 0
     assert "slid" in capsys.readouterr().out
     assert simulate(climbing(6.0, 90.0)).status == "slid"

@@ -41,7 +41,7 @@ def test_on_the_way_every_node_pushes_up_and_none_is_below_the_ground():
 )
 def test_jumps_of_what_resists_are_located_whatever_the_states(ground):
     few, many = (walk(QUADRUPED, undulation("wave"), ground, states, 4) for states in (7, 28))
-    assert len(few.rests) < 0.5 * len(many.rests)
+    assert len(many.rests) - len(few.rests) > 60  # states, whatever the chance of what is located
     assert few.displacement[0] == pytest.approx(many.displacement[0], abs=(1e-4 * QUADRUPED.length))
 
 

@@ -1,0 +1,1 @@
+"""What is not known of a scene, and how sure its distance is for that."""
