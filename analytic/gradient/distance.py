@@ -10,7 +10,8 @@ each by the implicit function theorem from balance and the condition that ends t
 transposed system per end for all fields. Residuals are differentiated by differences.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -26,6 +27,8 @@ from analytic.shapes import ContactShapes, Flag
 
 Array = NDArray[np.float64]
 
+_TIES = "ties"
+_BREAKS = 1e-7  # of a bound, by which two that are alike may part per change of a number; chosen
 _AT_ONCE = 1e-6  # of a ramp, by which conditions may part per change of a number; chosen
 _FLAT = 1e-9  # over L, height of a strip that lies flat; chosen
 _NONE = Flag.BRANCH_END | Flag.ROLLED_UP | Flag.JUMPED | Flag.NOT_CONVERGED
@@ -191,7 +194,8 @@ def derivatives(
     Raises:
         ValueError: there is no such field, or it has no number.
     """
-    ends = [_Adjoint(inputs, term, links, chamber) for term in found]
+    ends = [_Adjoint(term, Balance(inputs, links, chamber, term.end.ramp)) for term in found]
+    make = partial(Balance, links=links, chamber=chamber)
     result = {}
     for name in names:
         numbers = inputs.numbers(name)
@@ -199,23 +203,34 @@ def derivatives(
                       for axis in range(len(numbers[0].place)))  # fmt: skip
         values, reasons = np.full(shape, np.nan), []
         for number in numbers:
-            values[number.place], reason = _by(inputs, number, ends)
+            values[number.place], reason = _by(inputs, number, ends, make)
             if reason and reason not in reasons:
                 reasons.append(reason)
         result[name] = Derivative(values, "; ".join(reasons))
     return result
 
 
-def _by(inputs: Inputs, number: Number, ends: "Sequence[_Adjoint]") -> tuple[float, str]:
+def _by(
+    inputs: Inputs, number: Number, ends: "Sequence[_Adjoint]", make: Callable[..., Balance]
+) -> tuple[float, str]:
     """Derivative by one number, and why there is none or what holds of it."""
     if not number.step:
         return np.nan, f"{number.name} cannot be changed alone"
+    moved = [end for end in ends if number.acts_on(end.ramp, inputs.gait.ramps)]
+
+    def residuals(changed: Inputs) -> Array:
+        balances = {ramp: make(changed, ramp=ramp) for ramp in {end.ramp for end in moved}}
+        return np.concatenate([end.residual(balances[end.ramp]) for end in moved])
+
     total = 0.0
-    for end in ends:
-        change, reason = end.by(number)
-        if reason:
-            return np.nan, reason
-        total += change
+    if moved:
+        explicit = number.derivative(residuals, inputs)
+        sizes = np.cumsum([end.size for end in moved])[:-1]
+        for end, part in zip(moved, np.split(explicit, sizes), strict=True):
+            change, reason = end.by(part, abs(number.value) or 1.0)
+            if reason:
+                return np.nan, reason
+            total += change
     if not number.way or (number.name == "gait.stages" and number.value):
         return total, ""
     where = "where a stage is 0, " if number.name == "gait.stages" else ""
@@ -223,39 +238,45 @@ def _by(inputs: Inputs, number: Number, ends: "Sequence[_Adjoint]") -> tuple[flo
 
 
 class _Adjoint:
-    """What the end of a slide contributes to derivatives."""
+    """What the end of a slide contributes to derivatives.
 
-    def __init__(self, inputs: Inputs, term: Term, links: int, chamber: str) -> None:
-        self._inputs, self._term, self._options = inputs, term, (links, chamber, term.end.ramp)
-        end = term.end
-        balance = Balance(inputs, *self._options)
+    Attributes:
+        ramp: of the cycle, that it is on.
+        size: of its residuals.
+    """
+
+    def __init__(self, term: Term, balance: Balance) -> None:
+        self._term, end = term, term.end
         system, _ = bordered(balance, end.u, end.contacts, end.place)
-        goals = [balance.slope(end.u, end.contacts, None) * inputs.robot.length]
+        goals = [balance.slope(end.u, end.contacts, None) * balance.inputs.robot.length]
         self._conditions: list[tuple[Condition, float]] = list(end.also)
         if end.contacts.slider == "both":
-            self._conditions.append((Condition("bounds", 0, "ties"), 0.0))
+            self._conditions.append((Condition("bounds", 0, _TIES), 0.0))
         goals += [balance.slope(end.u, end.contacts, what) for what, _ in self._conditions]
         self._adjoint = solve_bordered(system.T, np.array(goals).T).T
         self._bound = max(float(balance.bound(end.u, end.contacts, e)) for e in (0, 1))
+        self.ramp, self.size = end.ramp, len(end.u) + len(goals)
 
-    def by(self, number: Number) -> tuple[float, str]:
-        """Change of the distance per change of a number, and why there is none."""
-        explicit = number.derivative(self._residual, self._inputs)
+    def by(self, explicit: Array, scale: float) -> tuple[float, str]:
+        """Change of the distance per change of a number, and why there is none.
+
+        Args:
+            explicit: change of `residual` with the unknowns as they are.
+            scale: of the number.
+        """
         size = len(self._term.end.u)
         total = explicit[size:] - self._adjoint @ explicit[:size]
-        scale = abs(number.value) or 1.0
         for (what, rate), change in zip(self._conditions, total[1:], strict=True):
-            if what.what == "ties":
-                if abs(change) * scale > 1e-7 * self._bound:
+            if what.what == _TIES:
+                if abs(change) * scale > _BREAKS * self._bound:
                     return 0.0, "both ends resist alike, and would not beyond a change of it"
             elif abs(change) * scale > _AT_ONCE * abs(rate):
                 return 0.0, f"two changes of contacts meet at {self._term.end.cause}"
         return self._term.weight * float(total[0]), ""
 
-    def _residual(self, inputs: Inputs) -> Array:
+    def residual(self, balance: Balance) -> Array:
         """Balance, place, separation and conditions of the state in a scene that is changed."""
-        end, balance = self._term.end, Balance(inputs, *self._options)
-        place = 0.0
+        end, place = self._term.end, 0.0
         if end.place is not None:
             place = float(balance.condition(end.u, end.contacts, end.place))
         others = [float(balance.condition(end.u, end.contacts, what))

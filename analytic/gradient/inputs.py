@@ -111,6 +111,12 @@ class Number(NamedTuple):
     step: float
     way: int
 
+    def acts_on(self, ramp: int, ramps: int) -> bool:
+        """Tell whether it changes anything on a ramp of a gait of so many."""
+        if self.name != "gait.stages":
+            return True
+        return self.place[0] % ramps in (ramp, (ramp + 1) % ramps)
+
     def derivative(self, function: Callable[[Inputs], Array], inputs: Inputs) -> Array:
         """Derivative of a smooth function, by differences of second order."""
         weights: Sequence[tuple[int, float]] = ((-1, -0.5), (1, 0.5))
