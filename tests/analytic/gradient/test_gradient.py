@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from gradients import GOALS, compared
 
 from analytic import GAITS, SURFACES, Friction, Gait, Robot, Surface, predict
 from analytic.gradient.distance import distance, terms
@@ -184,3 +185,13 @@ def test_what_is_not_differentiated_is_told(friction, robot, reason):
 def test_a_field_that_cannot_be_changed_is_refused_by_name(name, words):
     with pytest.raises(ValueError, match=words):
         walked(inputs(), name)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("friction", list(GOALS))
+def test_derivatives_of_random_scenes_are_those_by_differences(friction):
+    """Three scenes; benchmarks/gradients.csv holds a hundred."""
+    rows = [compared(friction, seed) for seed in range(3)]
+    assert all(row.compared or row.reason for row in rows)
+    assert sum(row.compared for row in rows) >= 10
+    assert max(row.error for row in rows if row.compared) < GOALS[friction]
