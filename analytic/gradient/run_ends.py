@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 
 _EVENTS, _TURNS = 8, 12  # at most; chosen
 _SAME = 1e-7  # of a ramp, within which two conditions are met at once; chosen
+_ABOUT = 0.02  # of a ramp, by which a turn may be off the place where a walk has it; chosen
 _BEFORE = 1e-5  # of a ramp, by which the condition may have been met already; chosen
 _JUST = 1e-9  # of a ramp; chosen
 _BOUND = 1e-4  # of the greatest bound, by which the tension may be off the slider's; chosen
@@ -195,7 +196,7 @@ class Search:
     ) -> RunEnd:
         """The state in which the separation turns."""
         for _ in range(_TURNS):
-            if not -0.1 <= float(u[-1]) + distance <= until + _BEFORE:
+            if not -_ABOUT <= float(u[-1]) + distance <= until + _ABOUT:
                 break
             tangent = self._tangent(u, contacts)
             u = solved(self._balance, u + distance * tangent, contacts, None)

@@ -14,6 +14,7 @@ LENGTHS = ("robot.length", "robot.width", "robot.thickness", "robot.chamber_heig
 FORCES = ("robot.modulus", "robot.weight_per_length", "robot.peak_pressure", "surface.tip_force",
           "surface.shear_strength")  # fmt: skip
 TWO_WAYS = Surface("two-ways", 0.03, 12.0)
+BRISTLES = Surface("bristles", 0.02, 15.0, tip_force_back=0.04, shear_strength_back=30.0)
 UNLIKE = Robot(segments=(1.2, 0.8, 1.0))
 
 
@@ -80,7 +81,7 @@ def test_a_gait_of_mirrored_stages_has_a_mirrored_gradient():
 @pytest.mark.parametrize(
     ("surface", "tension", "gait"),
     [("polyethylene", 0.0, "pulse"), ("polyethylene", 1.0, "wave"), ("gelatin", 1.0, "full-wave"),
-     (TWO_WAYS, 1.0, "pulse")],
+     (TWO_WAYS, 1.0, "pulse"), (BRISTLES, 0.0, "pulse")],
 )  # fmt: skip
 def test_derivatives_are_those_by_differences_of_the_located_distance(surface, tension, gait):
     given = inputs(surface, tension, gait=gait)
