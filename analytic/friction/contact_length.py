@@ -79,9 +79,19 @@ def end_contact(
     count = flat_nodes(push, air, flat)
     if count is None:
         return 0.5 * robot.length
-    push = push[:count]
-    moment = float(push @ np.abs(nodes[:count] - nodes[0])) if count else 0.0
-    return float(flat_length(robot.weight_per_length + press, float(push.sum()), moment))
+    return float(length_on(robot, nodes[:count], push[:count], press)) if count else 0.0
+
+
+def length_on(robot: Robot, nodes: Array, push: Array, press: float = 0.0) -> Any:
+    """Length of a flat end from the forces on its nodes, (...) [m].
+
+    Args:
+        robot, press: see end_contact.
+        nodes: arclength of the end's nodes, the outermost first, (S,) [m].
+        push: force on each, (..., S) [N].
+    """
+    moment = push @ np.abs(nodes - nodes[0])
+    return flat_length(robot.weight_per_length + press, push.sum(axis=-1), moment)
 
 
 def flat_nodes(push: Array, air: NDArray[np.bool_], flat: bool) -> int | None:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.friction.contact_length import flat_length, flat_pressures, ripple
+from analytic.friction.contact_length import flat_pressures, length_on, ripple
 from analytic.friction.laws import LAWS
 from analytic.gradient.inputs import Inputs
 from analytic.scene.chain import node_positions
@@ -112,12 +112,13 @@ class Balance:
 
     def side(self, u: Array, contacts: Contacts, end: int) -> Array:
         """Length of side contact of an end [m], below 0 beyond where it is a tip."""
-        count, robot = contacts.sides[end], self.inputs.robot
+        count, robot, order = contacts.sides[end], self.inputs.robot, -1 if end else 1
         if count is None:
             return np.full(u.shape[:-1], 0.5 * robot.length)
-        push = self.forces(u)[..., :: -1 if end else 1][..., :count] * self.chain.force_unit
-        arms = np.abs(self.nodes[:: -1 if end else 1][:count] - self.nodes[-1 if end else 0])
-        return np.asarray(flat_length(robot.weight_per_length, push.sum(axis=-1), push @ arms))
+        if not count:
+            return np.zeros(u.shape[:-1])
+        push = self.forces(u)[..., ::order][..., :count] * self.chain.force_unit
+        return np.asarray(length_on(robot, self.nodes[::order][:count], push))
 
     def bound(self, u: Array, contacts: Contacts, end: int) -> Array:
         """Greatest friction of an end against the way that it would slide [D0 / L^2]."""
