@@ -174,6 +174,12 @@ def _both_ways(
     return left, right
 
 
+def weaker_bound(shapes: Shapes, surface: Surface, law: str) -> Array:
+    """Lesser of the bounds of the two ends, each the way it holds more, (B,) [N]."""
+    left, right = _both_ways(shapes, surface, law)
+    return np.minimum(np.maximum(*left), np.maximum(*right))
+
+
 def _stretches(shapes: Shapes) -> tuple[Array, Array]:
     """Arclengths between which the left and the right end touch, (B, 2) each [m]."""
     zero, length = np.zeros(len(shapes)), np.full(len(shapes), shapes.robot.length)

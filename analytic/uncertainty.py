@@ -3,9 +3,16 @@
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
+from analytic.locomotion import weaker_bound
 from analytic.prediction import Prediction
+from analytic.scene import pneunet
+from analytic.scene.surface import Surface
 from analytic.shapes import Flag
+
+_POINTS = 81  # of a shape, whose integrals they are; chosen
+_STILL = 1e-9  # of the length, that no separation changes by
 
 # flags of shapes that are no equilibrium: somewhere the ground would have to pull, or exert a
 # moment. Several roots alone are no such thing, the one taken is the stable one
@@ -40,3 +47,49 @@ def modes_error(prediction: Prediction) -> float:
     Solvers with exact contact raise none of these flags: 0.
     """
     return flagged_change(prediction, UNSOUND)
+
+
+def small_slopes(prediction: Prediction) -> float:
+    """Estimate of the error that small slopes make in the modes' displacement per cycle [m].
+
+    The modes shorten the strip by half the integral of the slope squared, which leaves out an
+    eighth of that of its fourth power, and bend it linearly: of the shortening L - Lambda a part
+    of about the steepest slope squared. What counts is where one end ceases to slide and the other
+    begins, as between the two the displacement is a difference of separations.
+    """
+    shapes = prediction.shapes
+    s = np.linspace(0.0, shapes.robot.length, _POINTS)
+    _, y = shapes.curve(s)
+    slope = np.abs(np.gradient(y, s, axis=1)).max(axis=1)
+    return _at_changes(prediction, slope**2 * (shapes.robot.length - shapes.separation))
+
+
+def bending_by_friction(prediction: Prediction, surface: Surface, law: str = "constant") -> float:
+    """Bound on what bending by friction changes in a displacement per cycle without it [m].
+
+    The ground pulls at most with the lesser bound b of the two ends. A pull H changes the
+    separation of an arch of height y by H times the integral of y^2 / D0 (its virtual work;
+    contacts and pressure make it stiffer), which counts where one end ceases to slide and the other
+    begins.
+
+    Args:
+        prediction: by a solver of weak friction.
+        surface, law: under it.
+    """
+    shapes = prediction.shapes
+    s = np.linspace(0.0, shapes.robot.length, _POINTS)
+    _, y = shapes.curve(s)
+    yielding = np.trapezoid(y**2, s, axis=1) / pneunet.base_rigidity(shapes.robot)
+    return _at_changes(prediction, yielding * weaker_bound(shapes, surface, law))
+
+
+def _at_changes(prediction: Prediction, change: NDArray[np.float64]) -> float:
+    """Sum of changes of separation (B,), each times how much the slip of an end changes there."""
+    shift, slid = np.diff(prediction.shapes.separation), np.diff(prediction.locomotion.left)
+    moves = np.abs(shift) > _STILL * prediction.shapes.robot.length
+    if not moves.any():
+        return 0.0
+    part = -slid[moves] / shift[moves]
+    jump = np.abs(np.diff(part, append=part[0]))
+    before, after = change[1:][moves], np.roll(change[:-1][moves], -1)
+    return float((jump * np.maximum(before, after)).sum()) / prediction.cycles

@@ -1,25 +1,20 @@
 """A walk in MuJoCo beside the theory: `undulator run`."""
 
-import hashlib
-import json
 import math
 import sys
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Optional
 
-from analytic.scene.gait import GAITS
-from analytic.scene.limbs import ORDER, quadruped
-from analytic.scene.quadruped_gaits import QUADRUPED_GAITS, for_robot
-from analytic.scene.robot import Robot
-from analytic.scene.surface import SURFACES
 from mjsim.files.cli import FAILED, bar, fail, parse, reference_bar, say, strict_json, warn
+from mjsim.files.dataclass_options import given
 from mjsim.files.files import check_folder
 from mjsim.files.interruption import uninterrupted
 from mjsim.files.options import SceneOptions, tables_of
 from mjsim.files.tables import Tables, build
 from mjsim.pictures import gl
+from mjsim.results.file_names import file_name
 from mjsim.results.status import WALKED
 from mjsim.scene import Numerics, Scene, resolved
 from mjsim.scene.auto import check_tolerance
@@ -48,8 +43,9 @@ class Options(SceneOptions):
     """
 
     tolerance: Optional[float] = None  # noqa: UP045
-    """of body auto, which walks body chain ever finer until two walks agree: relative error of the
-    displacement by links and time step, or 0.001 L; from 0.005; 0.02 if not given"""
+    """relative error of the displacement, or 0.001 L; from 0.005. Without a body: the answer of the
+    smallest model that is sure within it, and why. With body auto, which walks body chain ever
+    finer until two walks agree: that of links and time step; 0.02 if not given"""
     uncertain: str = ""
     """fields that are not known, and within what they lie, as surface.tip_force=20%,
     robot.length=1mm: the interval of the reference's distance, and which field causes how much"""
@@ -64,6 +60,13 @@ class Options(SceneOptions):
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv, EXAMPLES)
+    if options.tolerance is not None and given(options.numerics_).get("body") is None:
+        try:
+            cases = [build(table) for table in tables_of(options)]
+            if all(scene.body == Scene.body for scene, _ in cases):
+                return _smallest(options, cases, options.tolerance)
+        except ValueError as error:
+            fail(PROGRAM, str(error))
     gl.prepare()
     records: list[dict[str, Any]] = []
     walks: list[Trajectory] = []
@@ -89,6 +92,24 @@ def main(argv: Sequence[str] | None = None) -> int:
     if end is not None:
         fail(PROGRAM, str(end))
     return 0 if all(row["status"] in WALKED for row in records) else FAILED
+
+
+def _smallest(options: Options, cases: list[tuple[Scene, Numerics]], tolerance: float) -> int:
+    """Print the smallest answers that are sure; returns the exit code."""
+    from mjsim.simulation.sufficient import record, smallest_sure, table
+
+    if options.uncertain:
+        raise ValueError("uncertain is for runs without tolerance, got both")
+    rows = []
+    with bar("asking models", len(cases)) as advance:
+        for scene, numerics in cases:
+            rows.append(record(scene, smallest_sure(scene, tolerance, numerics)))
+            advance(1)
+    if options.json:
+        say(strict_json({"runs": rows} if len(rows) > 1 else rows[0]))
+    else:
+        say(table(rows))
+    return 0 if all(row["sure"] for row in rows) else FAILED
 
 
 def _intervals(records: list[dict[str, Any]]) -> list[str]:
@@ -256,32 +277,6 @@ def _of_film(error: OSError | KeyboardInterrupt) -> OSError | KeyboardInterrupt:
     if isinstance(error, OSError):
         return OSError(f"a video cannot be written: {error}; --no-video makes none")
     return KeyboardInterrupt("undulator replay makes the video of a walk that is saved")
-
-
-def file_name(scene: Scene, numerics: Numerics) -> str:
-    """File name of a run, alike for the same scene and numerics alone.
-
-    The surface, after "limbs" for a robot of them; what of gait, body and friction is not the
-    default; and, where anything else is not, a digest of everything.
-    """
-    gait = for_robot(Scene.gait, scene.robot)
-    words = ["limbs"] * scene.in_space + [scene.ground.name]
-    words += [w for w, d in ((scene.gait.name, gait.name), (scene.body, Scene.body),
-                             (scene.friction, Scene.friction)) if w != d]  # fmt: skip
-    named = [
-        for_robot(known, scene.robot) for known in (*GAITS.values(), *QUADRUPED_GAITS.values())
-    ]
-    usual = Scene(
-        robot=quadruped() if scene.in_space else Robot(),
-        gait=scene.gait if scene.gait in [*named, *(gait.reversed() for gait in named)] else gait,
-        ground=SURFACES.get(scene.ground.name, Scene.ground),
-        body=scene.body,
-        friction=scene.friction,
-    ) if scene.robot.chambers in (ORDER, Robot().chambers) else None  # fmt: skip
-    if usual is None or (scene, numerics) != (usual, resolved(usual)):
-        described = json.dumps([repr(scene), asdict(numerics)], sort_keys=True)
-        words.append(hashlib.sha256(described.encode()).hexdigest()[:8])
-    return "-".join(words)
 
 
 def _failure(walk: "Trajectory", path: Path) -> str:

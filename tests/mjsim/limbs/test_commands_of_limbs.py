@@ -15,11 +15,11 @@ from analytic.scene.pneunet import base_rigidity
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import SURFACES, Surface
 from mjsim.commands import run
-from mjsim.commands.run import file_name
 from mjsim.files.limb_tables import build_robot
 from mjsim.files.tables import build, merged, read_tables
 from mjsim.model.standalone import standalone_spec, write
 from mjsim.results import record
+from mjsim.results.file_names import file_name
 from mjsim.scene import Numerics, Scene, resolved
 from mjsim.scene.numerics import OF_THE_PLANE
 
@@ -91,7 +91,10 @@ def test_json_has_both_numbers_and_the_file_opens(tmp_path, capsys):
         ),
         (["--robot", "quadruped", "--links", "3"], "must be even, got 3"),
         (["--robot", "quadruped", "--gait", "gallop"], "must be one of wave"),
-        (["--robot", "quadruped", "--tolerance", "0.1"], "tolerance is for body auto"),
+        (
+            ["--robot", "quadruped", "--body", "chain", "--tolerance", "0.1"],
+            "tolerance is for body auto",
+        ),
         (["--limbs.left", "0.5"], "key 'left' is unknown"),
     ],
 )
