@@ -9,7 +9,7 @@ times the named surfaces'; those whose walk jumps or ends are drawn again, and t
 than a thousandth of their length. Of each scene six numbers are compared, of fields that are drawn,
 one of the stages among them. Differences are those of the distance with its changes of contacts
 solved for, by a step of 1e-4, or where that is off by 1e-5, since a change of contacts may come or
-go within a step; where neither exists the number is not compared. Ten minutes of CPU, or five on two idle cores.
+go within a step; where neither exists the number is not compared. Ten minutes of CPU.
 """
 
 import csv
