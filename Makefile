@@ -5,7 +5,7 @@ MUJOCO_4 := 4.0.0
 # the oldest that reads models/
 MUJOCO_OLD := 3.13.0
 
-.PHONY: run test check check-mujoco4 check-mujoco-old numbers scenes reach auto promises fast quadruped trees loop price startup \
+.PHONY: run test check check-mujoco4 check-mujoco-old numbers scenes gradients reach auto promises fast quadruped trees loop price startup \
 	bench regression \
 	identify models gallery figures charts chart maps reference architecture clean
 
@@ -37,6 +37,9 @@ numbers: .venv/ready
 
 scenes: .venv/ready
 	$(PY) benchmarks/scenes.py
+
+gradients: .venv/ready
+	$(PY) benchmarks/gradients.py
 
 reach: .venv/ready
 	$(PY) benchmarks/reach.py

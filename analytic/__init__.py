@@ -16,6 +16,7 @@ __getattr__, __dir__, __all__ = lazily(
         "analytic.fitting.actuator": ("fit_actuator",),
         "analytic.fitting.bench": ("Bench",),
         "analytic.friction.laws": ("LAWS", "Friction", "TractionLaw"),
+        "analytic.gradient.inputs": ("Derivative",),
         "analytic.locomotion": ("Direction", "Locomotion", "direction", "displacements"),
         "analytic.prediction": ("Prediction", "predict"),
         "analytic.scene.actuator": ("Actuator",),

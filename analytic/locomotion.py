@@ -19,6 +19,7 @@ Mask = NDArray[np.bool_]
 Direction = Literal["forward", "backward", "none"]
 
 STANDSTILL = 0.002  # |Delta|/L below which a cycle counts as no travel; chosen, 0.26 mm on 130 mm
+_ROUNDING = 1e-12  # of the greatest bound, by which those of two ends differ that are alike; chosen
 WEAK = Friction()
 
 
@@ -92,7 +93,8 @@ def _on_uniform(shapes: Shapes, surface: Surface, friction: Friction) -> tuple[A
     """See `left_end`."""
     change, downhill = np.diff(shapes.separation), friction.downhill(shapes.robot)
     sides = _resisting(shapes, surface, friction.law, change > 0)
-    before, after = (slip_fraction(*ends, downhill, change > 0) for ends in sides)
+    near = _ROUNDING * float(np.nanmax(sides, initial=0.0))
+    before, after = (slip_fraction(*ends, downhill, change > 0, near) for ends in sides)
     slip = 0.5 * (before + after)
     switches = before != after
     if not Grip(shapes.robot, LAWS[friction.law]).is_round(surface):

@@ -1,14 +1,16 @@
 """Displacement of a robot in a cycle, by any solver, with the changes of anchor resolved."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from types import MappingProxyType
+from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from analytic.checks import one_of, times_of, whole
 from analytic.friction.laws import Friction
+from analytic.gradient.inputs import Derivative, Inputs
 from analytic.locomotion import WEAK, Locomotion, displacements, left_end
 from analytic.scene.gait import Gait
 from analytic.scene.ground import depends_on_speed
@@ -37,6 +39,7 @@ class Prediction(NamedTuple):
         by_cycle: displacement of the left end in each cycle, shape (C,) [m]. On uniform ground the
             last one is locomotion.per_cycle; the first may differ where a gait starts inflated or
             chambers lag. On ground that changes along x per_cycle is their mean.
+        gradient: derivatives of the last cycle's displacement, by the names that were asked for.
     """
 
     pressures: Array
@@ -45,6 +48,7 @@ class Prediction(NamedTuple):
     locomotion: Locomotion
     flags: Flag
     by_cycle: Array
+    gradient: Mapping[str, Derivative] = MappingProxyType({})
 
     @property
     def cycles(self) -> int:
@@ -62,6 +66,7 @@ def predict(
     path: ArrayLike | None = None,
     cycles: int = 1,
     times: ArrayLike | None = None,
+    gradient: Sequence[str] = (),
 ) -> Prediction:
     """Walk quasi-statically, one cycle or along a path.
 
@@ -79,11 +84,13 @@ def predict(
         path: pressures to follow instead of the gait's, (B, S) [Pa].
         cycles: number of cycles in the path, of equal duration or of equally many rows.
         times: of the path's states, (B,) [s]; the gait's if there is no path.
+        gradient: fields to differentiate the distance by, as in robot.length, surface.tip_force,
+            gait.stages or friction.tension, see analytic.gradient.
 
     Raises:
-        ValueError: there is no such solver or law, the solver does not know what it needs for them,
-            the gait is divided into no states, or the ground resists by speed and friction bends
-            nothing or the path has no times.
+        ValueError: there is no such solver, law or field, the solver does not know what it needs
+            for them, the gait is divided into no states, or the ground resists by speed and
+            friction bends nothing or the path has no times.
     """
     if not isinstance(robot, Robot):
         raise ValueError(
@@ -95,6 +102,7 @@ def predict(
         solver = SOLVERS[solver]()
     whole("states per ramp", states_per_ramp, 1)
     whole("cycles", cycles, 1)
+    own = path is None
     if path is None:
         if depends_on_speed(ground):  # which may creep while a pressure is constant
             fractions = gait.pressures(states_per_ramp, cycles)
@@ -112,7 +120,18 @@ def predict(
             "path its times"
         )
     walk = _Walk(robot, solver, friction, cycles, timed=times is not None)
-    return walk.on([ground], path, clock)[0]
+    walked = walk.on([ground], path, clock)[0]
+    if not gradient:
+        return walked
+    if not own:
+        raise ValueError("gradient must be of a gait, not of a path that is given")
+    from analytic.gradient.gradient import gradient as found
+
+    inputs = Inputs(robot, gait, cast(Surface, ground), friction)  # others are told apart
+    return walked._replace(
+        gradient=found(inputs, solver, walked.shapes, walked.locomotion.left, walked.times, cycles,
+                       gradient)
+    )  # fmt: skip
 
 
 def predict_grounds(

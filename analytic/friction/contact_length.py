@@ -77,17 +77,29 @@ def end_contact(
     """
     if not np.isfinite(push[0]):
         return np.nan
-    if not flat:
+    count = flat_nodes(push, air, flat)
+    if count is None:
+        return 0.5 * load.whole
+    if not count:
         return 0.0
+    carried = push[:count]
+    moment = float(carried @ np.abs(nodes[:count] - nodes[0]))
+    return load.length(float(carried.sum()), moment)
+
+
+def flat_nodes(push: Array, air: NDArray[np.bool_], flat: bool) -> int | None:
+    """Number of an end's nodes, 0 where it is a tip; None where no node of the strip is in the air.
+
+    Args:
+        push, air, flat: see end_contact.
+    """
+    if not flat:
+        return 0
     first = int((push > 0).argmax())  # the outermost node may hover by a rounding of h
     end = first + int(air[first:].argmax())
-    if not air[end]:
-        if not air.any():
-            return 0.5 * load.whole
-        end = len(push)
-    push = push[:end]
-    moment = float(push @ np.abs(nodes[:end] - nodes[0]))
-    return load.length(float(push.sum()), moment)
+    if air[end]:
+        return end
+    return len(push) if air.any() else None
 
 
 def ripple(robot: Robot, nodes: Array) -> float:

@@ -142,7 +142,7 @@ def bounds_both_ways(
 
 
 def slip_fraction(
-    left: Number, right: Number, downhill: float = 0.0, growing: Number = True
+    left: Number, right: Number, downhill: float = 0.0, growing: Number = True, near: float = 0.0
 ) -> Number:
     """Part of a change of separation that the left end takes up: 0, 1/2 or 1 (section 2.2).
 
@@ -156,11 +156,12 @@ def slip_fraction(
         left, right: bounds of the ends, each against the way that it would slide [N].
         downhill: the weight's part along the slope, towards -x [N].
         growing: whether the separation grows.
+        near: difference of bounds that is none [N].
     """
     if downhill:
         left = left + (1.0 - 1.0 * growing) * downhill
         right = right + (1.0 * growing) * downhill
-    return 0.5 + 0.5 * (1.0 * (right > left) - 1.0 * (left > right))
+    return 0.5 + 0.5 * (1.0 * (right - left > near) - 1.0 * (left - right > near))
 
 
 def neutral_ratio(surface: Surface, robot: Robot) -> float:

@@ -9,6 +9,7 @@ PROGRAM = "undulator"
 COMMANDS = {  # module of mjsim.commands, and the line of the help
     "run": ("run", "walk in MuJoCo, beside the theory, with a video"),
     "compare": ("compare", "every model on the same scenes in one table"),
+    "sensitivity": ("sensitivity", "what a per cent of each field does to the distance"),
     "fit": ("fit", "fit unknown parameters of a scene to measurements"),
     "ground": ("ground", "numbers of one's own ground from tilt and pull tests"),
     "view": ("view", "play a scene live in MuJoCo's viewer"),
@@ -61,7 +62,7 @@ def call(words: Sequence[str]) -> int:
 
 
 def _help() -> str:
-    commands = "\n".join(f"  {name:<10}{text}" for name, (_, text) in COMMANDS.items())
+    commands = "\n".join(f"  {name:<12}{text}" for name, (_, text) in COMMANDS.items())
     return f"""\
 How far, and which way, a robot of pneumatic limbs goes on a ground.
 

@@ -21,6 +21,7 @@ from analytic.solvers.models import Elastica
 from mjsim.files import plugins
 from mjsim.files.processes import Pool
 from mjsim.files.tables import Tables, build
+from mjsim.fitting.derivatives import distance_slopes
 from mjsim.fitting.observations import RUN, Run, Series
 from mjsim.fitting.parameters import robot_of, with_values
 from mjsim.results.measures import measure
@@ -199,6 +200,30 @@ class Predictor:
         motions = use(self.walk, *zip(*jobs, strict=True)) if jobs else ()
         self._motions |= dict(zip(todo, motions, strict=True))
         self.walks += len(jobs)
+
+    def derivatives(self, values: Mapping[str, float]) -> Array | None:
+        """Derivatives of all numbers by the parameters, (count, P); None where they are not known.
+
+        They are of distances and speeds of strips that walk quasi-statically.
+
+        Args:
+            values: of parameters, by name.
+        """
+        known = all(series.quantity in ("displacement", "speed") for series in self.series)
+        if self.walk is not quasi_static or not known:
+            return None
+        slopes: dict[Run, Array] = {}
+        for run in self._runs():
+            _, tables = self._tables(values, run)
+            found = distance_slopes(tables, list(values), run.surface, _STATES)
+            if found is None:
+                return None
+            slopes[run] = np.array([*found.values(), build(tables)[0].gait.period])
+            self.walks += 1
+        return np.array([
+            slopes[run][:-1] / (slopes[run][-1] if series.quantity == "speed" else 1.0)
+            for series in self.series for run in series.runs
+        ])  # fmt: skip
 
     def changes(
         self, numerics: Callable[[Scene, Numerics], Numerics], values: Mapping[str, float]

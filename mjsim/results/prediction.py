@@ -1,6 +1,7 @@
 """Quasi-static reference of a scene and its error bar, which every command prints."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -201,6 +202,7 @@ def prediction(
     bent: bool = True,
     path: ArrayLike | None = None,
     times: ArrayLike | None = None,
+    gradient: Sequence[str] = (),
 ) -> Prediction:
     """Prediction of a scene by a quasi-static solver.
 
@@ -216,12 +218,13 @@ def prediction(
         bent: whether friction bends the robot, which the elastica alone knows; else it is WEAK.
         path, times: pressures in the chambers to follow in place of the gait's, (B, S) [Pa], and
             when, (B,) [s].
+        gradient: fields to differentiate the distance by, see analytic.prediction.predict.
 
     Raises:
         ValueError: the solver does not know what the scene asks for, such as a ceiling that the
             robot touches.
     """
-    walk = _predicted(scene, solver, finer, states, bent, path, times)
+    walk = _predicted(scene, solver, finer, states, bent, path, times, gradient)
     if not clears(scene, float(walk.shapes.amplitude.max())):
         raise ValueError(f"ceiling must be above all that the robot does for model {solver}, got "
                          f"{scene.ceiling:g} m: it touches, which MuJoCo alone knows")  # fmt: skip
@@ -230,7 +233,7 @@ def prediction(
 
 def _predicted(
     scene: Scene, solver: str, finer: float, states: int | None, bent: bool,
-    path: ArrayLike | None, times: ArrayLike | None,
+    path: ArrayLike | None, times: ArrayLike | None, gradient: Sequence[str] = (),
 ) -> Prediction:  # fmt: skip
     if scene.in_space:
         raise ValueError(f"model {solver} is for strips; of a robot of limbs take {QUASI_STATIC}")
@@ -249,7 +252,7 @@ def _predicted(
         cycles = 2 if scene.rise_time and scene.gait.repeats else 1
     return predict(
         scene.strip, scene.gait, scene.ground, model, round((states or STATES) * finer),
-        friction, path, cycles, times,
+        friction, path, cycles, times, gradient,
     )  # fmt: skip
 
 

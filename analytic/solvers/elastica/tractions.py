@@ -15,6 +15,7 @@ On a stiff body (K = 0) it is the least dissipation of analytic.friction.dissipa
 viscosity decides, as there, what equal bounds leave open.
 """
 
+import itertools
 from typing import NamedTuple
 
 import numpy as np
@@ -23,7 +24,10 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 _VANISHING = 1e-6  # viscous resistance that decides between equal bounds, over the greatest; chosen
+_TOLD = 1e-10  # of the greatest bound, which it comes to at least where a contact slides; chosen
+_SLIDES = 1e-10  # slip over L of what does not stick; chosen
 _GIVE = 1e-11  # of a contact that sticks, under the greatest bound; keeps a flat strip's K regular
+_ALIKE = 1e-12  # part of a bound by which two differ by rounding; chosen
 _ROUNDING = 1e-13
 _ALL_AT_ONCE, _ATTEMPTS = 10, 200
 
@@ -67,12 +71,32 @@ def tractions(
     Returns:
         None if no contact can balance the pull, or no state meets the conditions.
     """
+    found = _increment(gaps, compliance, bounds, viscosity, pull, guess, back, _VANISHING)
+    most = float(np.abs(found.slid).max(initial=0.0)) if found else 0.0
+    if found is None or not _SLIDES < most < _TOLD / _VANISHING or not _any_alike(bounds):
+        return found
+    # of slips so short rounding would decide between the two
+    surer = _increment(gaps, compliance, bounds, viscosity, pull, found.slips, back, _TOLD / most)
+    return surer or found
+
+
+def _any_alike(bounds: Array) -> bool:
+    """Tell whether two contacts resist alike but for a rounding."""
+    ordered = sorted(bounds.tolist())
+    return any(b - a <= _ALIKE * b for a, b in itertools.pairwise(ordered))
+
+
+def _increment(
+    gaps: Array, compliance: Array, bounds: Array, viscosity: Array, pull: float,
+    guess: NDArray[np.int_] | None, back: Array | None, vanishing: float,
+) -> Tractions | None:  # fmt: skip
+    """See tractions; `vanishing` is the viscous resistance of all over the greatest bound."""
     count = len(bounds)
     strongest = bounds if back is None else np.maximum(bounds, back)
     scale = float(strongest.max(initial=0.0)) or 1.0
     give, limit, gap, row = _GIVE / scale, strongest.tolist(), gaps.tolist(), compliance.tolist()
     ahead, behind = bounds.tolist(), (bounds if back is None else back).tolist()
-    drag = [c + _VANISHING * scale for c in viscosity.tolist()]
+    drag = [c + vanishing * scale for c in viscosity.tolist()]
     slips = [0] * count if guess is None else guess.tolist()
     for attempt in range(_ATTEMPTS):
         stick = [v > 0 and not slip for v, slip in zip(limit, slips, strict=True)]

@@ -117,7 +117,8 @@ def test_a_picture_that_cannot_be_written_leaves_the_gait_and_its_numbers(
     assert stop.value.code == 2
     assert said.err.count("\n") == 1
     assert "best.png" in said.err
-    assert json.loads(said.out)["files"] == [str(tmp_path / "best.toml")]
+    written = [str(tmp_path / name) for name in ("best.toml", "best_valves.csv")]
+    assert json.loads(said.out)["files"] == written
     assert "stages" in (tmp_path / "best.toml").read_text()
 
 

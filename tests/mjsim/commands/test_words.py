@@ -44,7 +44,6 @@ SLOW_PERIOD = [
          "--surface.stribeck-speed", "given static_ratio"),
         (["--surface.tip-force", "3mN", "--surface.adhesion-reach", "1mm"],
          "--surface.adhesion-reach", "given adhesion"),
-        (["--robot.feet", "0..1 hold=5mN", "--friction", "coulomb"], "--robot.feet", "hold"),
     ],
 )  # fmt: skip
 def test_a_key_that_needs_another_is_refused_by_the_name_of_its_option(capsys, words, option, why):

@@ -1,0 +1,1 @@
+"""Derivatives of the distance per cycle of a strip, by the implicit function theorem."""
