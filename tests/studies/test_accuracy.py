@@ -165,7 +165,8 @@ def test_the_command_picks_a_body(tmp_path, capsys):
 
 @pytest.mark.parametrize(
     ("words", "named"),
-    [(["--body", "chain", "--tolerance", "0.1"], "chain"), (["--body", "auto", "--links", "12"], "links"),
+    [(["--body", "chain", "--tolerance", "0.1"], "chain"),
+     (["--body", "auto", "--links", "12"], "links"),
      (["--body", "auto", "--tolerance", "1e-9"], "1e-09"),
      (["--body", "auto", "--tolerance", "nan"], "nan"),
      (["--body", "auto", "--friction", "coulomb"], "coulomb")],
