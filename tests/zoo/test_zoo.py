@@ -11,7 +11,7 @@ from zoo.comparison import Predicted, rows
 from zoo.piezo_inchworm import rigid_links
 from zoo.pneumatic_inchworm import model as pneumatic
 from zoo.ten_wheels import model as wheels
-from zoo.terresoro_iv import fit
+from zoo.terresoro_iv import best, decide, fit
 from zoo.terresoro_iv import model as terresoro
 
 SLOW = {"piezo_inchworm", "pneumatic_inchworm"}
@@ -103,6 +103,35 @@ def test_the_additive_law_gives_back_the_vectors_that_made_transitions():
                 one = motion[0 if way > 0 else 1]
                 made[row] += *terresoro.turned(one[:2], -0.5 * np.pi * limb), one[2]
     assert terresoro.additive(pairs, made)(pairs) == pytest.approx(made)
+
+
+def test_gaits_alike_by_quarter_turns_are_one():
+    """By Burnside's lemma: cycles that no, a half or a quarter turn leaves alone."""
+    two, three, four = (120 + 12 + 2 + 2) // 4, (1120 + 8) // 4, (10920 + 36 + 6 + 6) // 4
+    every = list(best.cycles())
+    assert len(every) == len(set(every)) == two + three + four
+    law = terresoro.by_friction(terresoro.fitted()[0])
+    reaches = [best.reach(best.shifted(every[7], limbs), law) for limbs in range(4)]
+    assert reaches == pytest.approx(4 * reaches[:1])
+
+
+def test_a_gait_that_turns_reaches_as_far_as_its_cycles_put_together():
+    pairs, measured = terresoro.transitions()
+    law = terresoro.together(pairs, measured)
+    states = ("0111", "1000", "1111")
+    walked = terresoro.cycle(states * (best.TRANSITIONS // 3), law)
+    assert best.reach(states, law) == pytest.approx(walked[0])
+
+
+def test_what_is_measured_exactly_leaves_no_error_of_itself():
+    spread = decide.covariance(terresoro.fitted()[1])
+    slope = np.eye(7)[0]
+    gain = spread @ slope
+    after = spread - np.outer(gain, gain) / (slope @ gain)
+    assert after[0] == pytest.approx(np.zeros(7), abs=1e-12)
+    assert (np.linalg.eigvalsh(after) > -1e-12).all()
+    jackknifed = terresoro.jackknife(terresoro.fitted()[1])
+    assert np.sqrt(np.diag(spread)) == pytest.approx(jackknifed)
 
 
 def test_fits_of_terresoro_have_not_seen_what_is_held_out():
