@@ -9,13 +9,14 @@ without it. Gaits are looked at last.
 import csv
 import sys
 from collections.abc import Sequence
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 from scipy.optimize import least_squares
 
 from studies import Array
 from zoo.terresoro_iv.model import (
+    FREE,
     HERE,
     Law,
     Numbers,
@@ -33,24 +34,36 @@ from zoo.terresoro_iv.model import (
 
 FOLDS = 8
 # one for each of the two minima that random starts lead to
-STARTS = (Numbers(8.4, 4.97, 7.6, 5.15, 0.09, 0.75, 0.28),
-          Numbers(8.1, 5.92, 8.9, 6.09, 0.03, 0.66, 0.25))  # fmt: skip
-_SCALE = (1.0, 0.1, 1.0, 0.1, 0.3, 0.3, 0.3)
+STARTS = {
+    "dry": (Numbers(8.4, 4.97, 7.6, 5.15, 0.09, 0.75, 0.28),
+            Numbers(8.1, 5.92, 8.9, 6.09, 0.03, 0.66, 0.25)),
+    "viscous": (Numbers(8.4, 4.97, 7.6, 5.15, 0.09, 0.75, 0.28, 0.0),
+                Numbers(8.1, 5.92, 8.9, 6.09, 0.03, 0.66, 0.25, 0.0)),
+    "both": (Numbers(10.3, 4.81, 8.8, 5.03, 0.43, 0.55, -0.24, 0.44),
+             Numbers(12.4, 5.56, 12.7, 5.78, 0.26, 0.25, -0.49, 0.59)),
+}  # fmt: skip
+_SCALE = (1.0, 0.1, 1.0, 0.1, 0.3, 0.3, 0.3, 0.3)
 _STEP = 3e-3  # of differences, over a number; wide, for the misfit has kinks
 _HEAD = ("law", "start", "left out", *Numbers._fields)
 _SURE = 2.0  # standard errors
 
 
-def fit(pairs: Sequence[Pair], measured: Array, start: Numbers, viscous: bool) -> Numbers:
+def fit(pairs: Sequence[Pair], measured: Array, start: Numbers, law: str) -> Numbers:
     """Least squares of x, y and turn, each over its spread."""
-    spread = measured.std(axis=0)
+    spread, free = measured.std(axis=0), FREE[law]
 
     def left(values: Array) -> Array:
-        law = by_friction(Numbers(*values), viscous)
-        return np.asarray(((law(pairs) - measured) / spread).ravel())
+        found = law_of(law, Numbers(*values, *start[free:]))(pairs)
+        return np.asarray(((found - measured) / spread).ravel())
 
-    found = least_squares(left, start, x_scale=_SCALE, diff_step=_STEP, max_nfev=25, ftol=1e-5)
-    return Numbers(*found.x)
+    found = least_squares(left, start[:free], x_scale=_SCALE[:free], diff_step=_STEP, max_nfev=25,
+                          ftol=1e-5)  # fmt: skip
+    return Numbers(*found.x, *start[free:])
+
+
+def law_of(law: str, numbers: Numbers) -> Law:
+    """The law of a kind of friction."""
+    return by_friction(numbers, dry=law != "viscous")
 
 
 def folds(pairs: Sequence[Pair]) -> Array:
@@ -71,18 +84,12 @@ def all_fits() -> dict[tuple[str, int, int], Numbers]:
                 known[key] = Numbers(*(float(line[name]) for name in Numbers._fields))
     pairs, measured = transitions()
     fold = folds(pairs)
-    for law, start, left_out in (
-        (law, start, k)
-        for law in ("dry", "viscous")
-        for start in range(len(STARTS))
-        for k in range(-1, FOLDS)
-    ):
+    for law, start, left_out in product(FREE, range(2), range(-1, FOLDS)):
         if (law, start, left_out) in known:
             continue
         kept = np.flatnonzero(fold != left_out)
-        first = known[law, start, -1] if left_out >= 0 else STARTS[start]
-        known[law, start, left_out] = fit([pairs[k] for k in kept], measured[kept], first,
-                                          law == "viscous")  # fmt: skip
+        first = known[law, start, -1] if left_out >= 0 else STARTS[law][start]
+        known[law, start, left_out] = fit([pairs[k] for k in kept], measured[kept], first, law)
         print(law, start, left_out, known[law, start, left_out], file=sys.stderr, flush=True)
         with path.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
@@ -129,15 +136,15 @@ def main() -> None:
     known, fold = all_fits(), folds(pairs)
     print("| law | R2 of x, y, turn | held out | gaits [cm] | [deg] | wrong pairs |")
     print("|---|---|---|---|---|---|")
-    for law in ("dry", "viscous"):
-        for start in range(len(STARTS)):
-            held_out = np.empty_like(measured)
-            for k in range(FOLDS):
-                here = np.flatnonzero(fold == k)
-                held_out[here] = by_friction(known[law, start, k], law == "viscous")(
-                    [pairs[i] for i in here])  # fmt: skip
-            print(line(f"{law}, minimum {start + 1}",
-                       by_friction(known[law, start, -1], law == "viscous"), held_out))  # fmt: skip
+    for law, start in product(FREE, range(2)):
+        held_out = np.empty_like(measured)
+        for k in range(FOLDS):
+            here = np.flatnonzero(fold == k)
+            held_out[here] = law_of(law, known[law, start, k])([pairs[i] for i in here])
+        print(line(f"{law}, minimum {start + 1}", law_of(law, known[law, start, -1]), held_out))
+        misses = ((held_out - measured) / measured.std(axis=0)) ** 2
+        shares = [misses[fold == k].mean() for k in range(FOLDS)]
+        print("    held out, of the variance: " + " ".join(f"{x:.3f}" for x in shares))
     held_out = np.empty_like(measured)
     for k in range(FOLDS):
         kept, here = np.flatnonzero(fold != k), np.flatnonzero(fold == k)
@@ -146,11 +153,11 @@ def main() -> None:
         )
     print(line("additive", additive(pairs, measured), held_out))
     print(line("measured transitions together", together(pairs, measured), None))
-    for start in range(len(STARTS)):
-        values = np.array([known["dry", start, k] for k in range(FOLDS)])
-        for name, value, error in zip(Numbers._fields, known["dry", start, -1], jackknife(values),
-                                      strict=True):  # fmt: skip
-            print(f"minimum {start + 1}: {name} {value:.3f} ± {error:.3f}")
+    for law, start in product(("dry", "both"), range(2)):
+        values = np.array([known[law, start, k][: FREE[law]] for k in range(FOLDS)])
+        for name, value, error in zip(Numbers._fields, known[law, start, -1], jackknife(values),
+                                      strict=False):  # fmt: skip
+            print(f"{law}, minimum {start + 1}: {name} {value:.3f} ± {error:.3f}")
 
 
 if __name__ == "__main__":

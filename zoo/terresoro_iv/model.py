@@ -3,11 +3,12 @@
 Limb k, at a quarter turn to the right of limb k - 1, touches the ground at one place when it is
 flat and at another when it is curled, both fixed in the hub's frame. While limbs curl and uncurl
 their contacts go from one to the other along a line, and the hub moves so that the sum of the
-bounds of the contacts times their slips is least. A resting flat limb has the bound 1. Lengths in
-cm.
+bounds of the contacts times their slips is least. A resting flat limb has the bound 1. Where
+friction is viscous too, half the resistance times the square of the slip is added. Lengths in cm.
 """
 
 import csv
+import math
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -21,6 +22,7 @@ from zoo.comparison import Predicted
 HERE = Path(__file__).parent
 LIMBS = 4
 PARTS = 1  # steps of a transition; 6 change a gait by 0.01 cm and 0.13 degrees at most
+FREE = {"dry": 7, "viscous": 7, "both": 8}  # numbers that are fitted, by kind of friction
 Pair = tuple[str, str]  # states before and after, limb 1 first, as "0110"
 Law = Callable[[Sequence[Pair]], Array]  # displacement (2,) [cm] and turn [deg] of each pair
 
@@ -33,6 +35,8 @@ class Numbers(NamedTuple):
         flat_angle, curled_angle: its direction from the hub's x, of limb 1 [rad].
         resting, curling, uncurling: logarithms of the bound of a limb that stays curled, that curls
             and that uncurls, over that of one that stays flat [1].
+        viscous: logarithm of the viscous resistance over the bound, at a slip of 1 cm in the time
+            of a transition [1]; none by default.
     """
 
     flat: float
@@ -42,6 +46,7 @@ class Numbers(NamedTuple):
     resting: float
     curling: float
     uncurling: float
+    viscous: float = -math.inf
 
 
 class Gait(NamedTuple):
@@ -89,8 +94,8 @@ def smallest(pair: Pair) -> tuple[Pair, int]:
     return (before, after), shift
 
 
-def by_friction(numbers: Numbers, viscous: bool = False, parts: int = PARTS) -> Law:
-    """The law of least dissipation, under dry friction or a viscous one in its place."""
+def by_friction(numbers: Numbers, dry: bool = True, parts: int = PARTS) -> Law:
+    """The law of least dissipation: dry and viscous friction by the numbers, or not the dry one."""
     known: dict[Pair, Array] = {}
 
     def law(pairs: Sequence[Pair]) -> Array:
@@ -98,7 +103,7 @@ def by_friction(numbers: Numbers, viscous: bool = False, parts: int = PARTS) -> 
         for row, pair in enumerate(pairs):
             alike, shift = smallest(pair)
             if alike not in known:
-                known[alike] = _transition(alike, numbers, viscous, parts)
+                known[alike] = _transition(alike, numbers, dry, parts)
             motion = known[alike]
             found[row] = *turned(motion[:2], -0.5 * np.pi * shift), motion[2]
         return found
@@ -106,7 +111,7 @@ def by_friction(numbers: Numbers, viscous: bool = False, parts: int = PARTS) -> 
     return law
 
 
-def _transition(pair: Pair, numbers: Numbers, viscous: bool, parts: int) -> Array:
+def _transition(pair: Pair, numbers: Numbers, dry: bool, parts: int) -> Array:
     """Displacement of the hub [cm] in its frame before, and its turn [deg]."""
     before, after = (np.array([digit == "1" for digit in state]) for state in pair)
     axes = -0.5 * np.pi * np.arange(LIMBS)
@@ -119,13 +124,12 @@ def _transition(pair: Pair, numbers: Numbers, viscous: bool, parts: int) -> Arra
     moving = np.exp(np.where(after, numbers.curling, numbers.uncurling))
     bounds = np.where(before == after, still, moving)
     start, end = (np.where(state[:, None], curled, flat) for state in (before, after))
-    none = np.zeros(LIMBS)
+    film = bounds * np.exp(numbers.viscous) * parts
+    bounds = bounds if dry else np.zeros(LIMBS)
     shift, turn = np.zeros(2), 0.0
     for part in range(parts):
         places = start + (part + 0.5) / parts * (end - start)
-        motion = least_dissipation_in_plane(none if viscous else bounds, places,
-                                            (end - start) / parts, bounds if viscous else None
-                                            )  # fmt: skip
+        motion = least_dissipation_in_plane(bounds, places, (end - start) / parts, film)
         shift = shift + turned(motion.shift, turn + 0.5 * motion.turn)
         turn += motion.turn
     return np.array([*shift, np.degrees(turn)])
@@ -183,19 +187,19 @@ def measured_cycles(some: Iterable[Gait]) -> tuple[Array, Array]:
     return np.array(means), np.array(errors)
 
 
-def fitted(minimum: int = 0) -> tuple[Numbers, Array]:
-    """A fit to all transitions, and those with a part of them left out, (folds, 7).
+def fitted(minimum: int = 0, law: str = "both") -> tuple[Numbers, Array]:
+    """A fit to all transitions, and those with a part of them left out, (folds, 7 or 8).
 
-    The misfit has two minima: 0 is the lower one.
+    Under "dry" friction or "both" kinds. The misfit has two minima: 0 is the lower one.
     """
     with (HERE / "fitted.csv").open(encoding="utf-8") as file:
         lines = [
             line
             for line in csv.DictReader(file)
-            if (line["law"], line["start"]) == ("dry", str(minimum))
+            if (line["law"], line["start"]) == (law, str(minimum))
         ]
     numbers = [Numbers(*(float(line[key]) for key in Numbers._fields)) for line in lines]
-    return numbers[0], np.array(numbers[1:])
+    return numbers[0], np.array([row[: FREE[law]] for row in numbers[1:]])
 
 
 def jackknife(values: Array) -> Array:
