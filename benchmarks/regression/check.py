@@ -169,7 +169,7 @@ def differences(name: str, before: Row, now: Row, bound: float) -> list[str]:
                 continue  # when it diverges is a matter of rounding, that it does is not
             if abs(one - two) <= limit:
                 continue
-        elif one == two:
+        elif one == two or (key == "states" and abs(one - two) <= ROUNDED * one):
             continue
         lines.append(f"{name}: {key} was {one}, is {two} (bound {bound:.1e})")
     return lines
