@@ -21,7 +21,7 @@ from zoo.comparison import Predicted
 
 HERE = Path(__file__).parent
 LIMBS = 4
-PARTS = 1  # steps of a transition; 6 change a gait by 0.01 cm and 0.13 degrees at most
+PARTS = 1  # steps of a transition; 6 change a gait by 0.003 cm and 0.03 degrees at most
 FREE = {"dry": 7, "viscous": 7, "both": 8}  # numbers that are fitted, by kind of friction
 Pair = tuple[str, str]  # states before and after, limb 1 first, as "0110"
 Law = Callable[[Sequence[Pair]], Array]  # displacement (2,) [cm] and turn [deg] of each pair
