@@ -6,6 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from examples import piezo_inchworm as piezo
+from mjsim import Scene, Surface, build, read_tables
+from studies import inchworm as dielectric
 from zoo.__main__ import HERE, ROBOTS, main, walk
 from zoo.comparison import Predicted, rows
 from zoo.piezo_inchworm import rigid_links
@@ -49,6 +52,17 @@ def test_theory_and_product_do_not_import_the_zoo():
     for package in ("analytic", "mjsim", "studies"):
         for path in (top / package).rglob("*.py"):
             assert not re.search(r"^\s*(from|import) zoo\b", path.read_text("utf-8"), re.M), path
+
+
+def test_scenes_are_those_of_the_example_and_of_the_study():
+    ground = Surface("plastic", friction=2.5)
+    gait = piezo.switched(piezo.STAGES)
+    strip = Scene(piezo.ROBOT, gait, ground, 3, friction="coulomb", chamber="constant-pressure")
+    for robot, scene in (
+        ("piezo_inchworm", strip),
+        ("dielectric_inchworm", dielectric.scene(dielectric.BASE, 1.0, cycles=8)),
+    ):
+        assert build(read_tables(HERE / robot / "scene.toml"))[0] == scene
 
 
 def test_quantities_that_are_not_measured_are_refused():

@@ -1,30 +1,35 @@
 """The piezo inchworm as a strip in MuJoCo, and as the links that its authors simulate.
 
-The error of the strip's distances is by how much their halves of both ways differ from mirror
-images; heights have none.
+The error of the strip's distances is half of what both ways differ from mirror images by; heights
+have none.
 """
 
-from examples.piezo_inchworm import ROBOT, STAGES, switched
-from mjsim import Numerics, Scene, Surface, measure, simulate
+from dataclasses import replace
+from pathlib import Path
+
+from mjsim import build, measure, read_tables, simulate
 from zoo.comparison import Predicted
 from zoo.piezo_inchworm.rigid_links import walk
 
-_GROUND = Surface("plastic", friction=2.5)
+SCENE = Path(__file__).with_name("scene.toml")
 
 
-def strip(stages: tuple[tuple[float, ...], ...]) -> tuple[float, float]:
-    """Distance of the third cycle and greatest height of the example's strip [mm]."""
-    scene = Scene(ROBOT, switched(stages), _GROUND, cycles=3, friction="coulomb",
-                  chamber="constant-pressure")  # fmt: skip
-    numbers = measure(simulate(scene, Numerics(links=50, timestep=0.002)))
+def strip(mirrored: bool) -> tuple[float, float]:
+    """Distance of the third cycle and greatest height of the scene's strip [mm]."""
+    scene, numerics = build(read_tables(SCENE))
+    if mirrored:
+        stages = tuple(row[::-1] for row in scene.gait.stages)
+        scene = replace(scene, gait=replace(scene.gait, stages=stages))
+    numbers = measure(simulate(scene, numerics))
     if numbers is None:
-        raise ArithmeticError("the piezo inchworm's walk diverged")
-    return 1e3 * numbers.displacement * ROBOT.length, 1e3 * numbers.amplitude * ROBOT.length
+        raise ArithmeticError("the piezo inchworm's walk failed")
+    length = scene.strip.length
+    return 1e3 * numbers.displacement * length, 1e3 * numbers.amplitude * length
 
 
 def predicted() -> dict[str, Predicted]:
     """Distances per cycle and heights [mm]."""
-    (ahead, height), (back, _) = strip(STAGES), strip(tuple(row[::-1] for row in STAGES))
+    (ahead, height), (back, _) = strip(False), strip(True)
     unlike = 0.5 * abs(ahead + back)
     links, mirrored = walk(), walk(mirrored=True)
     return {
