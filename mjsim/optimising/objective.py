@@ -20,6 +20,7 @@ from analytic.friction.laws import LAWS
 from analytic.locomotion import STANDSTILL
 from analytic.prediction import predict, predict_grounds
 from analytic.scene.air import air_per_cycle
+from analytic.scene.feet import proud
 from analytic.scene.gait import Gait
 from analytic.scene.limbs import AnyRobot, LimbedRobot
 from analytic.scene.surface import Surface
@@ -87,6 +88,8 @@ class Objective:
         """
         if self.scene.in_space or self.scene.contacts != "auto":
             return (self.scene.contacts,)
+        if proud(self.scene.strip.feet):
+            return ("all",)  # which ends alone do not know
         return ("ends", "all") if self.model in ("elastica", "mujoco") else ("ends",)
 
     @cached_property
