@@ -5,19 +5,22 @@ reference, MuJoCo. Each has an error of its own. Of the modes it is a bound: the
 assume (analytic.uncertainty.modes_error), small slopes, and the bending by friction that they leave
 out; of the reference what half of its links and states change; of MuJoCo the change between its two
 finest walks. Quasi-static models do not know inertia: they answer where the gait accelerates the
-robot by less than FAST of gravity, below which walks of random scenes did not depend on it.
+robot by less than FAST of gravity, below which walks of random scenes did not depend on it, and
+where no contacts resist one way alone, so that what moves is braked.
 """
 
 import math
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, NamedTuple
 
 from analytic.locomotion import direction
 from analytic.scene.surface import Surface
 from analytic.uncertainty import bending_by_friction, modes_error, small_slopes
 from mjsim.files.text_table import Column, text_table
+from mjsim.results.coasting import Coasting, coasting
 from mjsim.results.measures import measure
 from mjsim.results.prediction import (
     HALF,
@@ -102,12 +105,14 @@ Ask = Callable[[], tuple[float, float, str]]
 
 def _models(scene: Scene, tolerance: float, numerics: Numerics | None) -> Iterator[tuple[str, Ask]]:
     """Names of models and what asks them, cheapest first."""
-    fast = swiftness(scene)
+    fast, coasts = swiftness(scene), coasting(scene)
     for model, ask in (
         (MODES, lambda: _modes(scene)),
         (reference_name(scene), lambda: _reference(scene, numerics)),
     ):
         if model != MODES or not scene.in_space:
+            if coasts:
+                ask = partial(_momentum, coasts)
             yield model, (lambda: _inertia(fast)) if fast > FAST else ask
     yield MUJOCO, lambda: _mujoco(scene, tolerance, numerics)
 
@@ -117,6 +122,14 @@ def _inertia(fast: float) -> tuple[float, float, str]:
         f"it knows no inertia, and the gait accelerates the robot by {fast:.2g} of gravity, "
         f"more than {FAST:g}"
     )  # fmt: skip
+
+
+def _momentum(coasts: Coasting) -> tuple[float, float, str]:
+    return (
+        math.nan,
+        math.nan,
+        (f"it knows no momentum, and nothing brakes {coasts.contacts} that slide {coasts.way}"),
+    )
 
 
 def _modes(scene: Scene) -> tuple[float, float, str]:

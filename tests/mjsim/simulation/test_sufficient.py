@@ -89,3 +89,11 @@ def test_tolerances_that_mean_nothing_are_refused(words, message, capsys):
         run.main([*words, "--no-video"])
     assert stop.value.code == 2
     assert message in capsys.readouterr().err
+
+
+def test_where_nothing_brakes_one_way_momentum_decides_and_mujoco_answers():
+    scene = Scene(ground=Surface("one-way", {"ahead": 0.02, "back": 0.0}, 0.0))
+    answer = smallest_sure(scene, 0.05)
+    assert [tried.model for tried in answer.tried] == ["modes", "elastica", "MuJoCo"]
+    assert all("brakes tips that slide back" in tried.why for tried in answer.tried[:2])
+    assert not np.isfinite(answer.tried[1].displacement)
