@@ -138,12 +138,7 @@ def between_ends(scene: Scene) -> list[str]:
 def _coasting(scene: Scene) -> list[str]:
     """A note where nothing stops what a ramp has set moving, however slow."""
     found = coasting(scene)
-    if not found:
-        return []
-    if found.contacts == "tips":
-        return [f"nothing brakes tips that slide {found.way}: it coasts, at any speed"]
-    return [f"nothing brakes sides that slide {found.way}, nor tips: it coasts or stands still, at "
-            "any speed"]  # fmt: skip
+    return [found.note] if found else []
 
 
 def _rough(scene: Scene, prediction: Prediction) -> list[str]:
