@@ -79,6 +79,17 @@ class Objective:
     def __post_init__(self) -> None:
         if self.scene.in_space and self.model != "mujoco":
             raise ValueError(f"model of a robot of limbs must be mujoco, got {self.model}")
+        if self.tethered and self.model not in ("elastica", "mujoco"):
+            raise ValueError(
+                "model must be elastica or mujoco for a strip on a tether that resists, got "
+                f"{self.model!r}"
+            )
+
+    @property
+    def tethered(self) -> bool:
+        """True for a strip on a tether that resists, which weak friction does not know."""
+        tether = None if self.scene.in_space else self.scene.strip.tether
+        return bool(tether and tether.resists)
 
     @property
     def contacts(self) -> tuple[Contacts, ...]:
@@ -94,13 +105,15 @@ class Objective:
 
     @cached_property
     def bent(self) -> bool:
-        """True if friction bends the robot in the search: of the elastica over a nap.
+        """True if friction bends the robot in the search: of the elastica over a nap or a tether.
 
         There contacts that pull at each other cost a part of each turn, half the distance on
         gelatin, that weak friction leaves out.
         """
         if self.model != "elastica":
             return False
+        if self.tethered:
+            return True
         grip = Grip(self.scene.strip, LAWS[self.scene.friction])
         return not all(grip.is_round(surface) for surface in self.surfaces)
 

@@ -6,7 +6,8 @@ assume (analytic.uncertainty.modes_error), small slopes, and the bending by fric
 out; of the reference what half of its links and states change; of MuJoCo the change between its two
 finest walks. Quasi-static models do not know inertia: they answer where the gait accelerates the
 robot by less than FAST of gravity, below which walks of random scenes did not depend on it, and
-where no contacts resist one way alone, so that what moves is braked.
+where what moves is braked: no contacts resist one way alone, and no tether pulls. What hangs on
+bounds that are nearly alike, which momentum decides as well, is in the reference's error.
 """
 
 import math
@@ -17,10 +18,12 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from analytic.locomotion import direction
+from analytic.prediction import Prediction
 from analytic.scene.surface import Surface
 from analytic.uncertainty import bending_by_friction, modes_error, small_slopes
 from mjsim.files.text_table import Column, text_table
-from mjsim.results.coasting import Coasting, coasting
+from mjsim.results.cautions import NEARLY, tied
+from mjsim.results.coasting import coasting
 from mjsim.results.measures import measure
 from mjsim.results.prediction import (
     HALF,
@@ -105,14 +108,14 @@ Ask = Callable[[], tuple[float, float, str]]
 
 def _models(scene: Scene, tolerance: float, numerics: Numerics | None) -> Iterator[tuple[str, Ask]]:
     """Names of models and what asks them, cheapest first."""
-    fast, coasts = swiftness(scene), coasting(scene)
+    fast, unbraked = swiftness(scene), _unbraked(scene)
     for model, ask in (
         (MODES, lambda: _modes(scene)),
         (reference_name(scene), lambda: _reference(scene, numerics)),
     ):
         if model != MODES or not scene.in_space:
-            if coasts:
-                ask = partial(_momentum, coasts)
+            if unbraked:
+                ask = partial(_momentum, unbraked)
             yield model, (lambda: _inertia(fast)) if fast > FAST else ask
     yield MUJOCO, lambda: _mujoco(scene, tolerance, numerics)
 
@@ -124,12 +127,17 @@ def _inertia(fast: float) -> tuple[float, float, str]:
     )  # fmt: skip
 
 
-def _momentum(coasts: Coasting) -> tuple[float, float, str]:
-    return (
-        math.nan,
-        math.nan,
-        (f"it knows no momentum, and nothing brakes {coasts.contacts} that slide {coasts.way}"),
-    )
+def _unbraked(scene: Scene) -> str:
+    """Why momentum counts however slow the gait is, empty if it does not."""
+    if coasts := coasting(scene):
+        return f"nothing brakes {coasts.contacts} that slide {coasts.way}"
+    if not scene.in_space and scene.strip.tether and scene.strip.tether.resists:
+        return "beside the pull of a tether it decides which end slides"
+    return ""
+
+
+def _momentum(why: str) -> tuple[float, float, str]:
+    return math.nan, math.nan, f"it knows no momentum, and {why}"
 
 
 def _modes(scene: Scene) -> tuple[float, float, str]:
@@ -155,7 +163,11 @@ def _reference(scene: Scene, numerics: Numerics | None) -> tuple[float, float, s
     flags = ", ".join(flag.replace("_", " ") for flag in fine.flags)
     if bar is None or flags:
         return float(fine.displacement[0]), math.nan, flags or "it has no distance"
-    return float(fine.displacement[0]), bar, "links and states"
+    if not isinstance(fine.walk, Prediction):
+        return float(fine.displacement[0]), bar, "links and states"
+    hangs = tied(scene, fine.walk, NEARLY)  # which momentum decides as well
+    why = "links and states" + f", bounds within {NEARLY:.0%} of each other" * (hangs > bar)
+    return float(fine.displacement[0]), bar + hangs, why
 
 
 def _mujoco(scene: Scene, tolerance: float, numerics: Numerics | None) -> tuple[float, float, str]:
