@@ -5,7 +5,7 @@ MUJOCO_4 := 4.0.0
 # the oldest that reads models/
 MUJOCO_OLD := 3.13.0
 
-.PHONY: run test check check-mujoco4 check-mujoco-old numbers scenes gradients reach auto promises fast quadruped trees loop price startup \
+.PHONY: zoo run test check check-mujoco4 check-mujoco-old numbers scenes gradients reach auto promises fast quadruped trees loop price startup \
 	bench regression \
 	identify models gallery figures charts chart maps reference architecture clean
 
@@ -103,6 +103,10 @@ chart: .venv/ready
 # where methods fail
 maps: .venv/ready
 	$(PY) -m studies.stability
+
+# robots that others measured beside predictions
+zoo: .venv/ready
+	$(PY) -m zoo
 
 # the videos and the picture of the README
 gallery: .venv/ready

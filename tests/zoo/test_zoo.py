@@ -1,0 +1,176 @@
+"""Each robot of the zoo is met as well as its README says, and the product does not know of it."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from examples import piezo_inchworm as piezo
+from mjsim import Scene, Surface, build, read_tables
+from studies import inchworm as dielectric
+from zoo.__main__ import HERE, ROBOTS, main, walk
+from zoo.comparison import Predicted, rows
+from zoo.piezo_inchworm import rigid_links
+from zoo.pneumatic_inchworm import model as pneumatic
+from zoo.ten_wheels import model as wheels
+from zoo.terresoro_iv import best, decide, fit
+from zoo.terresoro_iv import model as terresoro
+
+SLOW = {"piezo_inchworm", "pneumatic_inchworm"}
+
+
+@pytest.mark.parametrize(
+    "robot", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in ROBOTS]
+)
+def test_a_robot_is_met_within_the_misfit_that_it_states(robot):
+    for row in walk(robot):
+        assert abs(row.difference) <= row.misfit, row
+
+
+def test_each_robot_has_a_source_for_each_number_a_page_and_a_picture():
+    assert len(ROBOTS) >= 7
+    for robot in ROBOTS:
+        names = {path.name for path in (HERE / robot).iterdir()}
+        assert {"README.md", "measured.csv", "model.py", "picture.png"} <= names, robot
+        assert (HERE / robot / "picture.png").stat().st_size < 500_000
+        page = (HERE / robot / "README.md").read_text("utf-8")
+        assert "Source:" in page
+        assert "**Assumed**" in page
+        with (HERE / robot / "measured.csv").open(encoding="utf-8") as file:
+            assert all(line.count(",") >= 5 and not line.endswith(",\n") for line in file)
+
+
+def test_links_of_the_pages_lead_somewhere():
+    for page in (HERE / "README.md", *HERE.glob("*/README.md")):
+        for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text("utf-8")):
+            assert (page.parent / target).exists(), (page, target)
+
+
+def test_theory_and_product_do_not_import_the_zoo():
+    top = Path(__file__).parents[2]
+    for package in ("analytic", "mjsim", "studies"):
+        for path in (top / package).rglob("*.py"):
+            assert not re.search(r"^\s*(from|import) zoo\b", path.read_text("utf-8"), re.M), path
+
+
+def test_scenes_are_those_of_the_example_and_of_the_study():
+    ground = Surface("plastic", friction=2.5)
+    gait = piezo.switched(piezo.STAGES)
+    strip = Scene(piezo.ROBOT, gait, ground, 3, friction="coulomb", chamber="constant-pressure")
+    for robot, scene in (
+        ("piezo_inchworm", strip),
+        ("dielectric_inchworm", dielectric.scene(dielectric.BASE, 1.0, cycles=8)),
+    ):
+        assert build(read_tables(HERE / robot / "scene.toml"))[0] == scene
+
+
+def test_quantities_that_are_not_measured_are_refused():
+    with pytest.raises(ValueError, match="ten_wheels: measured are"):
+        rows(HERE / "ten_wheels", {"weight": Predicted(1.0)})
+
+
+def test_a_robot_that_is_not_there_is_named(capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["twelve_wheels"])
+    assert end.value.code == 2
+    assert "'twelve_wheels'" in capsys.readouterr().err
+
+
+def test_an_odd_number_of_wheels_goes_at_the_median():
+    for speeds in np.random.default_rng(1).normal(size=(50, 9)):
+        assert wheels.speed(speeds) == pytest.approx(np.median(speeds))
+
+
+def test_four_alike_limbs_go_by_quarter_turns():
+    numbers, _ = terresoro.fitted()
+    law = terresoro.by_friction(numbers)
+    one, two = law([("0001", "0010"), ("1000", "0001")])
+    assert two[2] == one[2]
+    assert terresoro.turned(one[:2], -0.5 * np.pi) == pytest.approx(two[:2])
+
+
+def test_a_hub_whose_limbs_all_curl_only_turns_and_comes_back():
+    numbers, _ = terresoro.fitted()
+    there, back = terresoro.by_friction(numbers)([("0000", "1111"), ("1111", "0000")])
+    assert np.abs([*there[:2], *back[:2]]).max() < 1e-6
+    assert there[2] == pytest.approx(-back[2])
+
+
+def test_finer_steps_of_a_transition_change_the_gaits_little():
+    numbers, _ = terresoro.fitted()
+    gait = terresoro.gaits()[0]
+    one, six = (
+        terresoro.cycle(gait.states, terresoro.by_friction(numbers, parts=n)) for n in (1, 6)
+    )
+    assert abs(one - six) == pytest.approx([0, 0], abs=0.15)
+
+
+def test_the_additive_law_gives_back_the_vectors_that_made_transitions():
+    pairs, _ = terresoro.transitions()
+    motion = terresoro.by_friction(terresoro.fitted()[0])([("0000", "1000"), ("1000", "0000")])
+    made = np.zeros((len(pairs), 3))
+    for row, (before, after) in enumerate(pairs):
+        for limb in range(4):
+            way = int(after[limb]) - int(before[limb])
+            if way:
+                one = motion[0 if way > 0 else 1]
+                made[row] += *terresoro.turned(one[:2], -0.5 * np.pi * limb), one[2]
+    assert terresoro.additive(pairs, made)(pairs) == pytest.approx(made)
+
+
+def test_gaits_alike_by_quarter_turns_are_one():
+    """By Burnside's lemma: cycles that no, a half or a quarter turn leaves alone."""
+    two, three, four = (120 + 12 + 2 + 2) // 4, (1120 + 8) // 4, (10920 + 36 + 6 + 6) // 4
+    every = list(best.cycles())
+    assert len(every) == len(set(every)) == two + three + four
+    law = terresoro.by_friction(terresoro.fitted()[0])
+    reaches = [best.reach(best.shifted(every[7], limbs), law) for limbs in range(4)]
+    assert reaches == pytest.approx(4 * reaches[:1])
+
+
+def test_a_gait_that_turns_reaches_as_far_as_its_cycles_put_together():
+    pairs, measured = terresoro.transitions()
+    law = terresoro.together(pairs, measured)
+    states = ("0111", "1000", "1111")
+    walked = terresoro.cycle(states * (best.TRANSITIONS // 3), law)
+    assert best.reach(states, law) == pytest.approx(walked[0])
+
+
+def test_what_is_measured_exactly_leaves_no_error_of_itself():
+    spread = decide.covariance(terresoro.fitted()[1])
+    slope = np.eye(len(spread))[0]
+    gain = spread @ slope
+    after = spread - np.outer(gain, gain) / (slope @ gain)
+    assert after[0] == pytest.approx(np.zeros(len(spread)), abs=1e-12)
+    assert (np.linalg.eigvalsh(after) > -1e-12).all()
+    jackknifed = terresoro.jackknife(terresoro.fitted()[1])
+    assert np.sqrt(np.diag(spread)) == pytest.approx(jackknifed)
+
+
+def test_fits_of_terresoro_have_not_seen_what_is_held_out():
+    pairs, _ = terresoro.transitions()
+    fold = fit.folds(pairs)
+    alike = [terresoro.smallest(pair)[0] for pair in pairs]
+    for k in range(fit.FOLDS):
+        assert not {a for a, f in zip(alike, fold, strict=True) if f == k} & {
+            a for a, f in zip(alike, fold, strict=True) if f != k
+        }
+
+
+def test_interpolation_of_runs_is_exact_for_a_plane():
+    pressure, frequency = (grid.ravel() for grid in np.meshgrid([100, 150, 250.0], [0.1, 0.2, 0.4]))
+    runs = pneumatic.inchworm.Runs(
+        pressure, frequency, 0.01 * pressure - 3 * frequency, np.full(9, "cork"), np.ones(9)
+    )
+    for column in pneumatic.COLUMNS:
+        assert pneumatic.interpolated(runs, column) == pytest.approx(runs.speed)
+
+
+@pytest.mark.slow
+def test_the_piezo_inchworm_is_high_by_overshoot_and_by_one_joint_per_actuator():
+    """44 mm by its authors' simulator; at rest, or of more joints, it is far lower."""
+    theirs, slow = rigid_links.walk(), rigid_links.walk(ramp=0.2)
+    assert 1e3 * theirs.highest == pytest.approx(44, abs=1)
+    assert slow.highest < 0.5 * theirs.highest
+    assert rigid_links.walk(joints=5, ramp=0.2).highest < 0.9 * slow.highest
