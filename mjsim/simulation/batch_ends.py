@@ -1,8 +1,10 @@
-"""Bounds of the friction at the two ends, for many scenes at once.
+"""Friction at the two ends, for many scenes at once.
 
-As `mjsim.friction.traction.BoundedEnds` does it, with arrays over the scenes.
+As `mjsim.friction.traction` does it, with arrays over the scenes: `BoundedEndsBatch` as
+`BoundedEnds`, `ContactFrictionBatch` as `ContactFriction`.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -15,19 +17,20 @@ from analytic.friction.flat_load import flat_length
 from analytic.friction.laws import slip_fraction
 from analytic.scene.chain import node_positions
 from mjsim.model.pads import pads_by_node
-from mjsim.model.parts import PREFIX, TENDONS, contact_softness, tie_force
+from mjsim.model.parts import FAR, PREFIX, TENDONS, contact_softness, tie_force
 from mjsim.scene import Resolved, Scene
+from mjsim.simulation.batch_ground import GroundRows
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int_]
+Flags = NDArray[np.bool_]
 
 
 class StripParameters(NamedTuple):
-    """Numbers that the bounds follow from, one row per scene.
+    """Numbers of the strips that friction follows from, one row per scene.
 
     Attributes:
-        width, half, weight: of the strip: width, half its length, weight per length [m, m, N/m].
-        shear, tip: strengths of the ground [Pa, N].
+        width, half, weight: width, half the length, weight per length [m, m, N/m].
         tie: bound of the friction on the mean position of two ends that resist alike [N].
         arclength: of the nodes, (B, N + 2) [m].
         level: whether the ground is level.
@@ -36,29 +39,25 @@ class StripParameters(NamedTuple):
     width: Array
     half: Array
     weight: Array
-    shear: Array
-    tip: Array
     tie: Array
     arclength: Array
-    level: NDArray[np.bool_]
+    level: Flags
 
 
 def parameters(scenes: Sequence[Scene], numerics: Resolved) -> StripParameters:
-    """Parameters of scenes on uniform ground."""
-    robots, surfaces = [s.strip for s in scenes], [s.ground.at(0.0) for s in scenes]
+    """Parameters of the strips of scenes."""
+    robots = [s.strip for s in scenes]
     return StripParameters(
         width=np.array([r.width for r in robots]),
         half=np.array([0.5 * r.length for r in robots]),
         weight=np.array([r.weight_per_length for r in robots]),
-        shear=np.array([s.shear_strength for s in surfaces]),
-        tip=np.array([s.tip_force for s in surfaces]),
         tie=np.array([tie_force(s, numerics) for s in scenes]),
         arclength=np.array([node_positions(r, numerics.links) for r in robots]),
         level=np.array([s.slope == 0 for s in scenes]),
     )
 
 
-class BoundedEndsBatch:
+class EndsBatch(ABC):
     """Friction at the ends of the strips of a batch.
 
     Args:
@@ -77,15 +76,11 @@ class BoundedEndsBatch:
         pads = pads_by_node(model)[:, 0]
         self._left_pad, self._right_pad = int(pads[0]), int(pads[-1])
         assert np.array_equal(pads, np.arange(self._left_pad, self._right_pad + 1))
-        self._parameters = parameters(scenes, numerics)
+        self._parameters, self._ground = parameters(scenes, numerics), GroundRows(scenes)
         self._radius, self._numerics = numerics.pad_radius, numerics
         self._place, self._force = batch.bind("geom_xpos"), batch.bind("sensordata")
         self._rate, self._at = batch.bind("ten_velocity"), batch.bind("ten_length")
-        self._bounds = batch.expand("tendon_frictionloss")
-        self._softness = batch.expand("geom_solref")
         self._tendons = np.array([model.tendon(PREFIX + name).id for name in TENDONS])
-        self._stiff = contact_softness(scenes[0], numerics)[0][0]
-        self._soft = numerics.steep_contact_time * numerics.timestep
         count = len(scenes)
         self.contact: Array = np.zeros((count, 2))
         self.left_slip, self._slip = np.full(count, 0.5), np.zeros(count)
@@ -95,14 +90,15 @@ class BoundedEndsBatch:
         """Put other scenes in some rows."""
         for old, new in zip(self._parameters, parameters(scenes, self._numerics), strict=True):
             old[rows] = new
+        self._ground.replace(rows, GroundRows(scenes))
 
     def start(self, rows: Indices) -> None:
         """Begin anew, once the strips lie on the ground."""
         self.contact[rows], self.left_slip[rows], self._slip[rows] = 0.0, 0.5, 0.0
         self._before[rows] = self._at[rows, self._tendons[1]]
-        self._softness[rows[:, None], [self._left_pad, self._right_pad], 0] = self._stiff
 
-    def before_step(self, rows: Indices, slopes: Array, may_be_flat: NDArray[np.bool_]) -> None:
+    @abstractmethod
+    def before_step(self, rows: Indices, slopes: Array, may_be_flat: Flags) -> None:
         """Read the contacts and set what resists in the next step.
 
         Args:
@@ -110,26 +106,6 @@ class BoundedEndsBatch:
             slopes: of their ends, positive where the strip rises inwards, (R, 2) [rad].
             may_be_flat: whether the ends may lie on their side, by their pressure, (R, 2).
         """
-        ground, tendons = self._parameters, self._tendons
-        sides = may_be_flat & (slopes <= self._numerics.side_angle)
-        contact = (
-            np.where(sides, self._lengths(rows), 0.0) if sides.any() else np.zeros_like(slopes)
-        )
-        steep = slopes > self._numerics.steep_angle
-        for pad, soft in zip((self._left_pad, self._right_pad), steep.T, strict=True):
-            self._softness[rows, pad, 0] = np.where(soft, self._soft, self._stiff)
-        shear, tip, width = ground.shear[rows], ground.tip[rows], ground.width[rows]
-        on_side = contact > 0
-        bounds = np.where(on_side, shear[:, None] * (width[:, None] * contact), tip[:, None])
-        left, right = bounds.T
-        level = ground.level[rows]
-        slip = slip_fraction(left, right)
-        if not level.all():
-            speed = np.abs(self._rate[rows][:, tendons[:2]])
-            slip = np.where(level, slip, 1.0 * (speed[:, 0] > speed[:, 1]))
-        self._bounds[rows, tendons[0]], self._bounds[rows, tendons[1]] = left, right
-        self._bounds[rows, tendons[2]] = np.where((left == right) & level, ground.tie[rows], 0.0)
-        self.contact[rows], self.left_slip[rows] = contact, slip
 
     def after_step(self, rows: Indices, dt: float) -> Array:
         """See StripFriction.after_step of mjsim.friction.traction, (R,) [m]."""
@@ -138,6 +114,17 @@ class BoundedEndsBatch:
         excess = slip * (dt * self._rate[rows, right] - (at - self._before[rows]))
         self._before[rows], self._slip[rows] = at - excess, self.left_slip[rows]
         return np.asarray(excess)
+
+    def _look(self, rows: Indices, slopes: Array, may_be_flat: Flags) -> Flags:
+        """Tell which ends lie on their side, (R, 2); note over what lengths."""
+        sides = may_be_flat & (slopes <= self._numerics.side_angle)
+        self.contact[rows] = np.where(sides, self._lengths(rows), 0.0) if sides.any() else 0.0
+        return np.asarray(sides)
+
+    def _left_is_faster(self, rows: Indices) -> Array:
+        """1 where the left end moves faster than the right one, else 0, (R,)."""
+        speed = np.abs(self._rate[rows][:, self._tendons[:2]])
+        return np.asarray(1.0 * (speed[:, 0] > speed[:, 1]))
 
     def _lengths(self, rows: Indices) -> Array:
         """Lengths of side contact of both ends if they are on their side, (R, 2) [m]."""
@@ -154,3 +141,81 @@ class BoundedEndsBatch:
         flat = heights.max(axis=1) <= self._radius
         half = self._parameters.half[rows]
         return np.stack([np.where(flat, half, length) for length in lengths], axis=1)
+
+
+class BoundedEndsBatch(EndsBatch):
+    """Bounds of the friction at the two ends, and softer ground under steep ends."""
+
+    def __init__(
+        self, scenes: Sequence[Scene], numerics: Resolved, batch: Batch, model: mujoco.MjModel
+    ) -> None:
+        super().__init__(scenes, numerics, batch, model)
+        self._bounds, self._drags = (
+            batch.expand("tendon_frictionloss"), batch.expand("tendon_damping")
+        )  # fmt: skip
+        self._softness = batch.expand("geom_solref")
+        self._stiff = contact_softness(scenes[0], numerics)[0][0]
+        self._soft = numerics.steep_contact_time * numerics.timestep
+
+    def start(self, rows: Indices) -> None:
+        """See EndsBatch.start."""
+        super().start(rows)
+        self._softness[rows[:, None], [self._left_pad, self._right_pad], 0] = self._stiff
+        self._drags[rows[:, None], self._tendons] = 0.0
+
+    def before_step(self, rows: Indices, slopes: Array, may_be_flat: Flags) -> None:
+        """See EndsBatch.before_step."""
+        strips, ground, tendons = self._parameters, self._ground, self._tendons
+        self._look(rows, slopes, may_be_flat)
+        contact = self.contact[rows]
+        steep = slopes > self._numerics.steep_angle
+        for pad, soft in zip((self._left_pad, self._right_pad), steep.T, strict=True):
+            self._softness[rows, pad, 0] = np.where(soft, self._soft, self._stiff)
+        begin = self._at[rows][:, tendons[:2]] - FAR
+        begin[:, 1] -= contact[:, 1]
+        shear, tip = (
+            ground.over(name, rows, begin, contact) for name in ("shear_strength", "tip_force")
+        )
+        width = strips.width[rows][:, None]
+        bounds = np.where(contact > 0, shear * (width * contact), tip)
+        level, by_speed = strips.level[rows], ground.by_speed[rows]
+        tied, decided = level, level & ~by_speed
+        if by_speed.any():
+            speeds, middle = self._rate[rows][:, tendons[:2]], begin + 0.5 * contact
+            bounds = bounds * ground.at_speed(rows, middle, speeds)
+            drags = ground.over("viscosity", rows, begin, contact) * width * contact
+            self._drags[rows[:, None], tendons[:2]] = drags
+            tied = level & ~drags.any(axis=1)
+        left, right = bounds.T
+        slip = slip_fraction(left, right)
+        if not decided.all():
+            slip = np.where(decided, slip, self._left_is_faster(rows))
+        self._bounds[rows, tendons[0]], self._bounds[rows, tendons[1]] = left, right
+        self._bounds[rows, tendons[2]] = np.where((left == right) & tied, strips.tie[rows], 0.0)
+        self.left_slip[rows] = slip
+
+
+class ContactFrictionBatch(EndsBatch):
+    """Coulomb friction of the pads, by MuJoCo's own contacts."""
+
+    def __init__(
+        self, scenes: Sequence[Scene], numerics: Resolved, batch: Batch, model: mujoco.MjModel
+    ) -> None:
+        super().__init__(scenes, numerics, batch, model)
+        self._friction = batch.expand("geom_friction")
+
+    def before_step(self, rows: Indices, slopes: Array, may_be_flat: Flags) -> None:
+        """See EndsBatch.before_step."""
+        sides, pads = self._look(rows, slopes, may_be_flat), slice(self._left_pad,
+                                                                   self._right_pad + 1)  # fmt: skip
+        x = self._place[rows, pads, 0]
+        friction = self._ground.at("friction", rows, x)
+        tip = self._ground.at("tip_friction", rows, x[:, [0, -1]])
+        friction[:, [0, -1]] = np.where(sides, friction[:, [0, -1]], tip)
+        self._friction[rows, pads, 0] = friction
+        self.left_slip[rows] = self._left_is_faster(rows)
+
+
+LAWS_AT_ENDS: dict[str, type[EndsBatch]] = {
+    "constant": BoundedEndsBatch, "coulomb": ContactFrictionBatch,
+}  # fmt: skip
