@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from mjsim.env.settings import Settings
 from mjsim.env.task import FALL, Walker, commands, middle, sense
 from mjsim.scene import Scene
+from mjsim.simulation.batch_layout import refusal
 from mjsim.simulation.batch_strips import StripBatch
 
 Array = NDArray[np.float64]
@@ -38,14 +39,15 @@ class Walkers(Protocol):
 
 
 def walkers(settings: Settings, count: int, threads: int) -> Walkers:
-    """Robots, stepped side by side where that can be: strips with friction at the ends alone.
+    """Robots, stepped side by side where that can be, see mjsim.simulation.batch_layout.refusal.
 
     Args:
         settings: of the environment.
         count: number of robots.
         threads: of MuJoCo, side by side.
     """
-    if settings.contacts == "ends":
+    scenes = [settings.scene(ground) for ground in settings.grounds]
+    if not any(refusal(scene, settings.resolved) for scene in scenes):
         return _SideBySide(settings, count, threads)
     return _OneByOne(settings, count)
 

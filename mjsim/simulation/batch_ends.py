@@ -67,7 +67,10 @@ class EndsBatch(ABC):
 
     Attributes:
         contact: lengths of side contact of the left and the right end, (B, 2) [m].
-        left_slip: part of the next change of separation that the left end takes up, (B,).
+        left_slip: part of the next change of separation that the left end takes up, (B,); NaN where
+            more than the two ends share the motion.
+        drift: speed of what friction should have anchored in the last step, NaN where left_slip
+            tells what that is, (B,) [m/s].
     """
 
     def __init__(
@@ -84,6 +87,7 @@ class EndsBatch(ABC):
         count = len(scenes)
         self.contact: Array = np.zeros((count, 2))
         self.left_slip, self._slip = np.full(count, 0.5), np.zeros(count)
+        self.drift: Array = np.full(count, np.nan)
         self._before: Array = np.zeros(count)
 
     def replace(self, rows: Indices, scenes: Sequence[Scene]) -> None:
@@ -120,6 +124,11 @@ class EndsBatch(ABC):
         sides = may_be_flat & (slopes <= self._numerics.side_angle)
         self.contact[rows] = np.where(sides, self._lengths(rows), 0.0) if sides.any() else 0.0
         return np.asarray(sides)
+
+    def by_node(self, rows: Indices) -> tuple[Array, Array]:
+        """Normal force on each node and its height, (R, N + 2) each [N, m]."""
+        height = self._place[rows, self._left_pad : self._right_pad + 1, 2]
+        return self._force[rows, ::3], height - self._radius
 
     def _left_is_faster(self, rows: Indices) -> Array:
         """1 where the left end moves faster than the right one, else 0, (R,)."""
@@ -168,24 +177,13 @@ class BoundedEndsBatch(EndsBatch):
         strips, ground, tendons = self._parameters, self._ground, self._tendons
         self._look(rows, slopes, may_be_flat)
         contact = self.contact[rows]
-        steep = slopes > self._numerics.steep_angle
-        for pad, soft in zip((self._left_pad, self._right_pad), steep.T, strict=True):
-            self._softness[rows, pad, 0] = np.where(soft, self._soft, self._stiff)
+        self._soften_if_steep(rows, slopes)
         begin = self._at[rows][:, tendons[:2]] - FAR
         begin[:, 1] -= contact[:, 1]
-        shear, tip = (
-            ground.over(name, rows, begin, contact) for name in ("shear_strength", "tip_force")
-        )
-        width = strips.width[rows][:, None]
-        bounds = np.where(contact > 0, shear * (width * contact), tip)
-        level, by_speed = strips.level[rows], ground.by_speed[rows]
-        tied, decided = level, level & ~by_speed
-        if by_speed.any():
-            speeds, middle = self._rate[rows][:, tendons[:2]], begin + 0.5 * contact
-            bounds = bounds * ground.at_speed(rows, middle, speeds)
-            drags = ground.over("viscosity", rows, begin, contact) * width * contact
-            self._drags[rows[:, None], tendons[:2]] = drags
-            tied = level & ~drags.any(axis=1)
+        bounds, drags = self._resistances(rows, begin, contact, self._rate[rows][:, tendons[:2]])
+        self._drags[rows[:, None], tendons[:2]] = drags
+        level = strips.level[rows]
+        tied, decided = level & ~drags.any(axis=1), level & ~ground.by_speed[rows]
         left, right = bounds.T
         slip = slip_fraction(left, right)
         if not decided.all():
@@ -193,6 +191,31 @@ class BoundedEndsBatch(EndsBatch):
         self._bounds[rows, tendons[0]], self._bounds[rows, tendons[1]] = left, right
         self._bounds[rows, tendons[2]] = np.where((left == right) & tied, strips.tie[rows], 0.0)
         self.left_slip[rows] = slip
+
+    def _soften_if_steep(self, rows: Indices, slopes: Array) -> None:
+        steep = slopes > self._numerics.steep_angle
+        for pad, soft in zip((self._left_pad, self._right_pad), steep.T, strict=True):
+            self._softness[rows, pad, 0] = np.where(soft, self._soft, self._stiff)
+
+    def _resistances(
+        self, rows: Indices, begin: Array, length: Array, speed: Array
+    ) -> tuple[Array, Array]:
+        """Bounds and viscous resistances of contacts, (R, K) each [N, N s/m].
+
+        Args:
+            rows: scenes that are stepped, (R,).
+            begin, length: of the contacts, of tips no length, (R, K) [m].
+            speed: at which they slide, (R, K) [m/s].
+        """
+        ground, width = self._ground, self._parameters.width[rows][:, None]
+        shear, tip = (
+            ground.over(name, rows, begin, length) for name in ("shear_strength", "tip_force")
+        )
+        bounds = np.where(length > 0, shear * (width * length), tip)
+        if not ground.by_speed[rows].any():
+            return bounds, np.zeros_like(bounds)
+        drags = ground.over("viscosity", rows, begin, length) * width * length
+        return bounds * ground.at_speed(rows, begin + 0.5 * length, speed), drags
 
 
 class ContactFrictionBatch(EndsBatch):
@@ -214,8 +237,3 @@ class ContactFrictionBatch(EndsBatch):
         friction[:, [0, -1]] = np.where(sides, friction[:, [0, -1]], tip)
         self._friction[rows, pads, 0] = friction
         self.left_slip[rows] = self._left_is_faster(rows)
-
-
-LAWS_AT_ENDS: dict[str, type[EndsBatch]] = {
-    "constant": BoundedEndsBatch, "coulomb": ContactFrictionBatch,
-}  # fmt: skip

@@ -16,7 +16,7 @@ from analytic.scene.surface import Surface
 from mjsim.model.builder import bare_spec, compiled
 from mjsim.model.parts import PREFIX
 from mjsim.scene import Resolved, Scene
-from mjsim.simulation.batch_ends import LAWS_AT_ENDS
+from mjsim.simulation.batch_between import BATCH_LAWS
 from mjsim.simulation.schedule import before_start
 
 # what MuJoCo computes of robots of one layout that differ; a test compares all other fields
@@ -30,17 +30,23 @@ FIELDS = (
 )  # fmt: skip
 
 
-def refusal(scene: Scene) -> str | None:
-    """Reason why a scene cannot be stepped in a batch, or None if it can."""
+def refusal(scene: Scene, numerics: Resolved | None = None) -> str | None:
+    """Reason why a scene cannot be stepped in a batch, or None if it can.
+
+    Args:
+        scene: the walk.
+        numerics: how it is discretised; along straight paths if None.
+    """
     ground = scene.ground
     if scene.in_space:
         return "the robot must be a strip"
-    if scene.body != "chain" or scene.friction not in LAWS_AT_ENDS:
-        return f"body must be chain and friction {' or '.join(LAWS_AT_ENDS)}"
+    laws = {law for law, _ in BATCH_LAWS}
+    if scene.body != "chain" or scene.friction not in laws:
+        return f"body must be chain and friction {' or '.join(sorted(laws))}"
+    if numerics and numerics.contact_path != "straight":
+        return "contact paths must be straight"
     if scene.ceiling is not None:
         return "there must be no ceiling"
-    if scene.between:
-        return "friction must act at the ends alone"
     if scene.chamber == "sealed":
         return "chambers must not be sealed"
     if not isinstance(ground, Surface | Patches):
@@ -62,8 +68,9 @@ def layout(scene: Scene, numerics: Resolved) -> Hashable:
     """Numbers that all scenes of a batch have in common."""
     follows = scene.actuation == "actuators" and bool(scene.valves.time_constant)
     return (
-        scene.friction, scene.actuation, scene.chamber, follows, len(surfaces_of(scene.ground)),
-        len(scene.strip.segments), len(before_start(scene, numerics)),
+        scene.friction, scene.between, scene.actuation, scene.chamber, follows,
+        len(surfaces_of(scene.ground)), len(scene.strip.segments),
+        len(before_start(scene, numerics)),
     )  # fmt: skip
 
 

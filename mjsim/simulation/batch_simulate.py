@@ -47,7 +47,7 @@ def simulate_batch(
         complete = resolved(scene, numerics)
         try:
             check_steps(scene, complete)
-            if refusal(scene):
+            if refusal(scene, complete):
                 walks[i] = simulate(scene, numerics)
             else:
                 alike.setdefault((complete, layout(scene, complete)), []).append(i)
@@ -116,7 +116,7 @@ def _trajectory(
         contact_left=contact[:, 0],
         contact_right=contact[:, 1],
         left_slip_fraction=np.concatenate([b.left_slip[at, steps] for b, at, steps in parts]),
-        drift=np.full(len(coordinates), np.nan),
+        drift=np.concatenate([block.drift[at, steps] for block, at, steps in parts]),
         wall_time=wall,
         cpu_time=cpu,
     )

@@ -16,7 +16,8 @@ from mjsim.model.pads import pads_by_node
 from mjsim.model.pneumatics import controls
 from mjsim.results.status import AT_REST
 from mjsim.scene import Resolved, Scene
-from mjsim.simulation.batch_ends import LAWS_AT_ENDS, Indices
+from mjsim.simulation.batch_between import BATCH_LAWS
+from mjsim.simulation.batch_ends import Indices
 from mjsim.simulation.batch_layout import layout, models, refusal, write
 from mjsim.simulation.schedule import before_start, check_steps
 
@@ -34,6 +35,7 @@ class Block:
         coordinates: of MuJoCo after each step, (R, T, nq).
         contact: lengths of side contact, (R, T, 2) [m].
         left_slip: part of a change of separation that is the left end's, (R, T).
+        drift: speed of what friction should have anchored, (R, T) [m/s].
         steps: that were done before a scene stopped, (R,).
     """
 
@@ -41,7 +43,8 @@ class Block:
         shape = pressure.shape[:2]
         self.rows, self.pressure = rows, pressure
         self.coordinates = np.empty((*shape, nq))
-        self.contact, self.left_slip = np.empty((*shape, 2)), np.empty(shape)
+        self.contact = np.empty((*shape, 2))
+        self.left_slip, self.drift = np.empty(shape), np.empty(shape)
         self.steps = np.full(shape[0], shape[1])
 
 
@@ -65,7 +68,7 @@ class StripBatch:
     def __init__(self, scenes: Sequence[Scene], numerics: Resolved, threads: int = 1) -> None:
         self.scenes, self.numerics = list(scenes), numerics
         for scene in scenes:
-            reason = refusal(scene)
+            reason = refusal(scene, numerics)
             if reason:
                 raise ValueError(f"to be stepped side by side, {reason}")
             check_steps(scene, numerics)
@@ -81,7 +84,8 @@ class StripBatch:
         self._length, self._control = batch.bind("ten_length"), batch.bind("ctrl")
         pads = pads_by_node(self.model)[:, 0]
         self._feet = pads[[0, -1]]
-        self._ends = LAWS_AT_ENDS[scenes[0].friction](scenes, numerics, batch, self.model)
+        law = BATCH_LAWS[scenes[0].friction, scenes[0].between]
+        self._ends = law(scenes, numerics, batch, self.model)
         self._nodes, self._limits = pads, np.array([_limits(s, numerics) for s in scenes])
         self.pressure = np.zeros((len(scenes), len(scenes[0].strip.segments)))
         self.stopped = np.zeros(len(scenes), dtype=bool)
@@ -165,6 +169,7 @@ class StripBatch:
             block.coordinates[active, step] = self._qpos[moving]
             block.contact[active, step] = ends.contact[moving]
             block.left_slip[active, step] = ends.left_slip[moving]
+            block.drift[active, step] = ends.drift[moving]
             low, high, thrown_from = self._limits[moving].T
             height = self._place[moving[:, None], self._feet, 2]
             stands = ((low[:, None] < height) & (height < high[:, None])).all(axis=1)
