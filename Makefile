@@ -5,7 +5,7 @@ MUJOCO_4 := 4.0.0
 # the oldest that reads models/
 MUJOCO_OLD := 3.13.0
 
-.PHONY: run test check check-mujoco4 check-mujoco-old numbers scenes gradients reach auto promises fast quadruped trees loop price startup \
+.PHONY: run test check check-mujoco4 check-mujoco-old numbers scenes gradients reach auto promises fast quadruped trees loop many price startup \
 	bench regression \
 	identify models gallery figures charts chart maps reference architecture clean
 
@@ -67,6 +67,9 @@ loop: .venv/ready
 	$(PY) benchmarks/loop.py
 
 # a prediction beside its walk
+many: .venv/ready
+	$(PY) benchmarks/many.py
+
 price: .venv/ready
 	$(PY) benchmarks/price.py
 
