@@ -66,10 +66,11 @@ trees: .venv/ready
 loop: .venv/ready
 	$(PY) benchmarks/loop.py
 
-# a prediction beside its walk
+# walks side by side and alone, and environments
 many: .venv/ready
 	$(PY) benchmarks/many.py
 
+# a prediction beside its walk
 price: .venv/ready
 	$(PY) benchmarks/price.py
 

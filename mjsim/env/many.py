@@ -47,6 +47,7 @@ def walkers(settings: Settings, count: int, threads: int) -> Walkers:
         threads: of MuJoCo, side by side.
     """
     scenes = [settings.scene(ground) for ground in settings.grounds]
+    scenes.append(settings.draw(np.random.default_rng(0)))  # has what is drawn, as adhesion
     if not any(refusal(scene, settings.resolved) for scene in scenes):
         return _SideBySide(settings, count, threads)
     return _OneByOne(settings, count)

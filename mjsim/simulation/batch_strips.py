@@ -68,9 +68,7 @@ class StripBatch:
     def __init__(self, scenes: Sequence[Scene], numerics: Resolved, threads: int = 1) -> None:
         self.scenes, self.numerics = list(scenes), numerics
         for scene in scenes:
-            reason = refusal(scene, numerics)
-            if reason:
-                raise ValueError(f"to be stepped side by side, {reason}")
+            self._check(scene)
             check_steps(scene, numerics)
         if len({layout(scene, numerics) for scene in scenes}) > 1:
             raise ValueError("scenes that are stepped side by side must be of one layout")
@@ -92,6 +90,11 @@ class StripBatch:
         self._chambers: list[ChamberPressures] = [self._at_rest(scene) for scene in scenes]
         self._memories: list[Memory] = [memory(scene.strip) for scene in scenes]
         self._lay(every)
+
+    def _check(self, scene: Scene) -> None:
+        reason = refusal(scene, self.numerics)
+        if reason:
+            raise ValueError(f"to be stepped side by side, {reason}")
 
     def __getstate__(self) -> None:
         raise TypeError("strips that are stepped side by side cannot be copied, single ones can")
@@ -122,6 +125,7 @@ class StripBatch:
         """
         if scenes is not None:
             for row, scene in zip(rows.tolist(), scenes, strict=True):
+                self._check(scene)
                 self.scenes[row] = scene
             write(self._batch, rows.tolist(), models(scenes, self.numerics))
             self._ends.replace(rows, scenes)
