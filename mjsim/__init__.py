@@ -32,7 +32,7 @@ _attribute, __dir__, __all__ = lazily(
         "analytic.scene.robot": ("Robot",),
         "analytic.scene.surface": ("SURFACES", "Ground", "Surface"),
         "analytic.scene.tether": ("Tether",),
-        "mjsim.effects.sensitivity": ("sensitivity",),
+        "mjsim.uncertainty.sensitivity": ("sensitivity",),
         "mjsim.env.settings": ("Settings",),
         "mjsim.files.tables": ("build", "read_tables"),
         "mjsim.files.written": ("as_tables", "as_toml"),

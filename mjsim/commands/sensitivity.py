@@ -12,7 +12,7 @@ from mjsim.files.tables import build
 from mjsim.files.text_table import Column, text_table
 
 if TYPE_CHECKING:
-    from mjsim.effects.sensitivity import Effects
+    from mjsim.uncertainty.sensitivity import Effects
 
 PROGRAM = "undulator sensitivity"
 EXAMPLES = (
@@ -50,7 +50,7 @@ COLUMNS = (
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv, EXAMPLES)
-    from mjsim.effects.sensitivity import sensitivity, usual
+    from mjsim.uncertainty.sensitivity import sensitivity, usual
 
     names = [name.strip() for name in options.fields.split(",") if name.strip()]
     found: dict[str, Effects] = {}
@@ -65,7 +65,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             for scene, numerics in scenes:
                 found[scene.ground.name] = sensitivity(scene, numerics, names, advance)
         if options.out is not None:
-            from mjsim.effects.picture import draw
+            from mjsim.uncertainty.picture import draw
 
             draw(found, options.out)
     except (ValueError, OSError) as error:

@@ -29,11 +29,13 @@ class Spread(ABC):
 
     Attributes:
         name: of the fields, as tables call it.
+        names: of each field, as surface.tip_force.
         axes: number of coordinates.
         end: of a coordinate, either way: 95 % or all of what may be lies between.
     """
 
     name: str
+    names: tuple[str, ...]
     axes: int
     end: float
 
@@ -49,6 +51,10 @@ class Spread(ABC):
     @abstractmethod
     def at(self, place: Array) -> Mapping[str, float]:
         """Values of the fields in SI at coordinates, (axes,)."""
+
+    @abstractmethod
+    def slopes(self, by_field: Mapping[str, float]) -> Array:
+        """Slopes of what has these derivatives by fields, along the coordinates, (axes,)."""
 
 
 @dataclass(frozen=True)
@@ -88,6 +94,12 @@ class Within(Spread):
         """See Spread."""
         factor = 1.0 + self.part * float(place[0])
         return {name: factor * value for name, value in zip(self.names, self.values, strict=True)}
+
+    def slopes(self, by_field: Mapping[str, float]) -> Array:
+        """See Spread."""
+        changes = [value * by_field[name]
+                   for name, value in zip(self.names, self.values, strict=True)]  # fmt: skip
+        return np.array([self.part * sum(changes)])
 
 
 @dataclass(frozen=True)
@@ -131,6 +143,12 @@ class Fitted(Spread):
         logarithms = np.array(self.factor) @ place
         return dict(zip(self.names, (np.array(self.values) * np.exp(logarithms)).tolist(),
                         strict=True))  # fmt: skip
+
+    def slopes(self, by_field: Mapping[str, float]) -> Array:
+        """See Spread."""
+        changes = [value * by_field[name]
+                   for name, value in zip(self.names, self.values, strict=True)]  # fmt: skip
+        return np.array(self.factor).T @ changes
 
 
 def read_spreads(base: Tables, text: str) -> tuple[Spread, ...]:

@@ -1,7 +1,9 @@
 """Interval of the predicted distance for all that is not known of a scene, and what causes it.
 
-The reference walks at values drawn by a Latin hypercube (McKay and others 1979), with half its
-links and states: the change from the scene's own value is what counts. A quadratic of the
+Where the distance has a derivative by all fields, and is as straight as it says at the two ends of
+what the fields may be, it is taken for straight. Else the reference walks at values drawn by a
+Latin hypercube (McKay and others 1979), with half its links and states: the change from the scene's
+own value is what counts. A quadratic of the
 coordinates is fitted to the walks, each also predicted without itself (PRESS, Allen 1974), and the
 interval is that of many draws of the quadratic and of those errors. What a field causes alone is
 the part of the variance that the quadratic's terms of it alone have: its first-order Sobol index
@@ -20,17 +22,20 @@ from scipy.stats import qmc
 
 from analytic.locomotion import direction
 from mjsim.files.tables import Tables, build
-from mjsim.fitting.parameters import with_values
-from mjsim.results.prediction import HALF, reference
+from mjsim.fitting.parameters import OWN_GROUND, with_values
+from mjsim.results.prediction import HALF, displacement, prediction, reference
 from mjsim.scene import Numerics
 from mjsim.uncertainty.fields import Spread, by_spread, values_at
 
 Array = NDArray[np.float64]
 Distance = Callable[[Tables], float]
 
+DERIVATIVE, SAMPLE = "derivative", "sample"
+_LENGTH = "robot.length"
 _LEAST, _A_TERM = 24, 3  # walks, and walks for each term of the quadratic; chosen
 _DRAWS = 20_000
 _TAILS = (0.025, 0.975)
+_BENT = 0.05  # of its change to the ends, that a straight distance may miss there; chosen
 _ROUNDING = 1e-7  # of L: spreads of distances that are none; chosen
 _LEVER = 1e-3  # least part of a walk that the others leave open
 
@@ -46,6 +51,7 @@ class Interval:
         directions: part of the walks that go forward, none or backward.
         walks: how many were walked.
         failed: how many of them have no distance.
+        how: DERIVATIVE or SAMPLE.
     """
 
     low: float
@@ -55,16 +61,13 @@ class Interval:
     directions: Mapping[str, float]
     walks: int
     failed: int
+    how: str
 
 
-def by_reference(numerics: Numerics | None = None) -> Distance:
-    """Distance over L of a scene's tables by the reference at half its links and states."""
-
-    def distance(tables: Tables) -> float:
-        scene, own = build(tables)
-        return float(reference(scene, numerics or own, HALF).displacement[0])
-
-    return distance
+def by_reference(tables: Tables, numerics: Numerics | None = None) -> float:
+    """Distance over L of a scene by the reference at half its links and states."""
+    scene, own = build(tables)
+    return float(reference(scene, numerics or own, HALF).displacement[0])
 
 
 def walks_for(spreads: Sequence[Spread]) -> int:
@@ -97,7 +100,12 @@ def distance_interval(
     """
     if not build(base)[0].valves.ideal:
         raise ValueError("uncertain is for ideal valves, got valves that take time to fill")
-    distance = distance or by_reference()
+    if distance is None:
+        straight = _straight(base, spreads, centre)
+        if straight is not None:
+            advance(walks_for(spreads))
+            return straight
+    distance = distance or by_reference
     chance = qmc.LatinHypercube(_axes(spreads), rng=np.random.default_rng(seed))
     places = _coordinates(spreads, chance.random(walks_for(spreads)))
     own = distance(base) if centre is not None else 0.0
@@ -107,6 +115,38 @@ def distance_interval(
             walked[number] = distance(with_values(base, values_at(spreads, place)))
         advance(1)
     return interval_of(spreads, places, walked + ((centre or 0.0) - own))
+
+
+def _straight(base: Tables, spreads: Sequence[Spread], centre: float | None) -> Interval | None:
+    """Interval by derivatives, None where there are none or the distance is not straight."""
+    scene, numerics = build(base)
+    names = [name for spread in spreads for name in spread.names]
+    if scene.in_space or any(name.partition(".")[0] not in ("robot", OWN_GROUND) for name in names):
+        return None
+    try:
+        walk = prediction(scene, gradient=names)
+    except ValueError:  # a field that was turned into another one
+        return None
+    own, length = displacement(scene, walk), scene.strip.length
+    by_field = {name: float(walk.gradient[name].value) / length for name in names}
+    if _LENGTH in by_field:
+        by_field[_LENGTH] -= own / length
+    slopes = np.concatenate([spread.slopes(by_field) for spread in spreads])
+    if not np.isfinite(slopes).all():
+        return None
+    ends = np.concatenate([np.full(spread.axes, spread.end) for spread in spreads])
+    worst = np.where(slopes < 0, -ends, ends)
+    try:
+        away = [by_reference(with_values(base, values_at(spreads, place)), numerics)
+                for place in (worst, 0.0 * worst, -worst)]  # fmt: skip
+    except ValueError:
+        return None
+    reach = float(slopes @ worst)
+    errors = np.array([away[0] - away[1] - reach, 0.0, away[2] - away[1] + reach])
+    if not np.abs(errors).max() <= max(_BENT * reach, _ROUNDING):
+        return None
+    coefficients = np.concatenate([[own if centre is None else centre], slopes])
+    return _interval(spreads, coefficients, errors, None, 4, 0)
 
 
 def interval_of(spreads: Sequence[Spread], places: Array, walked: Array) -> Interval:
@@ -120,16 +160,33 @@ def interval_of(spreads: Sequence[Spread], places: Array, walked: Array) -> Inte
     found = np.isfinite(walked)
     failed = int((~found).sum())
     if found.sum() < 2:
-        return Interval(math.nan, math.nan, {}, math.nan, {}, len(walked), failed)
+        return Interval(math.nan, math.nan, {}, math.nan, {}, len(walked), failed, SAMPLE)
     values = walked[found]
     terms = _terms(places[found])
     inverse = np.linalg.pinv(terms)
     coefficients = inverse @ values
     lever = np.einsum("nt,tn->n", terms, inverse)
     errors = (values - terms @ coefficients) / np.maximum(1.0 - lever, _LEVER)
+    return _interval(spreads, coefficients, errors, values, len(walked), failed)
+
+
+def _interval(
+    spreads: Sequence[Spread], coefficients: Array, errors: Array, walked: Array | None,
+    walks: int, failed: int,
+) -> Interval:  # fmt: skip
+    """Interval of many draws.
+
+    Args:
+        spreads: what is not known.
+        coefficients: of the first terms.
+        errors: of what they say of walks, to draw from.
+        walked: distances of walks, which tell the directions; the draws do if None.
+        walks, failed: see Interval.
+    """
     rng = np.random.default_rng(0)
-    drawn = _coordinates(spreads, rng.random((_DRAWS, places.shape[1])))
-    total = _terms(drawn) @ coefficients + rng.choice(errors, _DRAWS)
+    drawn = _coordinates(spreads, rng.random((_DRAWS, _axes(spreads))))
+    count = len(coefficients)
+    total = _terms(drawn)[:, :count] @ coefficients + rng.choice(errors, _DRAWS)
     low, high = np.quantile(total, _TAILS)
     variance = float(total.var())
     if variance < _ROUNDING**2:
@@ -137,13 +194,13 @@ def interval_of(spreads: Sequence[Spread], places: Array, walked: Array) -> Inte
     parts = {}
     for number, spread in enumerate(spreads):
         masked = [part * (i == number) for i, part in enumerate(by_spread(spreads, drawn))]
-        alone = float((_terms(np.hstack(masked)) @ coefficients).var())
+        alone = float((_terms(np.hstack(masked))[:, :count] @ coefficients).var())
         parts[spread.name] = min(alone / variance, 1.0) if variance else 0.0
-    ways = [direction(value, 1.0) for value in values.tolist()]
+    ways = [direction(value, 1.0) for value in (total if walked is None else walked).tolist()]
     return Interval(
         float(low), float(high), parts, max(0.0, 1.0 - sum(parts.values())) if variance else 0.0,
         {way: ways.count(way) / len(ways) for way in ("forward", "none", "backward")},
-        len(walked), failed,
+        walks, failed, DERIVATIVE if walked is None else SAMPLE,
     )  # fmt: skip
 
 

@@ -22,6 +22,7 @@ def record(interval: Interval) -> dict[str, Any]:
         "directions": dict(interval.directions),
         "walks": interval.walks,
         "without_distance": interval.failed,
+        "by": interval.how,
     }
 
 

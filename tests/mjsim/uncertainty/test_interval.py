@@ -10,14 +10,19 @@ from analytic.scene.surface import SURFACES
 from mjsim.commands import run
 from mjsim.files.tables import merged
 from mjsim.uncertainty.fields import Fitted, Within, read_spreads, values_at
-from mjsim.uncertainty.interval import distance_interval, interval_of, walks_for
+from mjsim.uncertainty.interval import (
+    by_reference,
+    distance_interval,
+    interval_of,
+    walks_for,
+)
 from mjsim.uncertainty.report import sentence
 
 ONE, TWO = Within(("a",), (1.0,), 0.5), Within(("b",), (2.0,), 0.1)
 BASE = merged({"ground": {"surface": "gelatin"}})
 
 
-@pytest.fixture(autouse=True)
+@pytest.fixture
 def few_states(monkeypatch):
     coarsen(monkeypatch)
 
@@ -71,6 +76,7 @@ def test_two_parameters_of_a_fit_that_only_their_ratio_determines_leave_the_rati
     assert np.log(values[:, 0]).std() == pytest.approx(0.1, rel=0.05)
 
 
+@pytest.mark.usefixtures("few_states")
 def test_all_forces_off_together_change_nothing():
     """Modulus, weight, pressure and bounds by one factor: the same shapes and the same slides."""
     names = ("robot.modulus", "robot.weight_per_length", "robot.peak_pressure",
@@ -81,6 +87,28 @@ def test_all_forces_off_together_change_nothing():
     assert "change nothing here" in sentence(interval).replace("changes", "change")
 
 
+def test_a_derivative_says_what_a_sample_says_where_the_distance_is_straight():
+    spreads = read_spreads(BASE, "robot.length=1%")  # which the distance is told over, too
+    derived, sampled = (distance_interval(BASE, spreads, d) for d in (None, by_reference))
+    assert (derived.how, sampled.how) == ("derivative", "sample")
+    assert derived.walks < 5 < sampled.walks
+    wide = sampled.high - sampled.low
+    assert derived.low == pytest.approx(sampled.low, abs=0.1 * wide)
+    assert derived.high == pytest.approx(sampled.high, abs=0.1 * wide)
+
+
+def test_a_fit_s_derivatives_are_along_its_own_directions():
+    fitted = Fitted(("a", "b"), (2.0, 5.0), ((0.1, 0.02), (0.0, 0.3)))
+    slopes = fitted.slopes({"a": 3.0, "b": -1.0})
+    step = 1e-6
+    for axis in range(2):
+        place = step * np.eye(2)[axis]
+        ahead, back = fitted.at(place), fitted.at(-place)
+        change = 3.0 * (ahead["a"] - back["a"]) - (ahead["b"] - back["b"])
+        assert slopes[axis] == pytest.approx(change / (2 * step), rel=1e-6)
+
+
+@pytest.mark.usefixtures("few_states")
 def test_where_the_bounds_tie_the_direction_is_not_known():
     base = merged({"ground": {"surface": "polyethylene"}})
     spreads = read_spreads(base, "surface.tip_force=20%, surface.shear_strength=20%")
@@ -91,6 +119,7 @@ def test_where_the_bounds_tie_the_direction_is_not_known():
     assert interval.walks == walks_for(spreads)
 
 
+@pytest.mark.usefixtures("few_states")
 def test_a_run_prints_the_interval_and_what_causes_it(tmp_path, capsys):
     words = ["--surface", "gelatin", "--links", "6", "--timestep", "0.02", "--no-video"]
     uncertain = ["--uncertain", "robot.modulus=10%"]

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from mjsim.effects.sensitivity import Effect, Effects
 from mjsim.files.files import whole
+from mjsim.uncertainty.sensitivity import Effect, Effects
 
 _MOST = 16  # bars of a scene; chosen
 _AHEAD, _BACK = "C0", "C3"

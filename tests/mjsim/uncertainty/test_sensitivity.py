@@ -7,9 +7,9 @@ import pytest
 
 from mjsim import GAITS, SURFACES, Friction, Robot, Scene, as_tables, predict
 from mjsim.commands.undulator import call
-from mjsim.effects.sensitivity import DIFFERENCES, EXACT, compared, sensitivity
 from mjsim.results.prediction import reference
 from mjsim.scene import Numerics
+from mjsim.uncertainty.sensitivity import DIFFERENCES, EXACT, compared, sensitivity
 
 NAMES = ("robot.modulus", "surface.tip_force")
 RESOLVED = 3e-5  # of the reference over L, see mjsim.results.prediction
