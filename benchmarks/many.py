@@ -17,7 +17,7 @@ from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import SURFACES
 from mjsim.env.gym import WalkEnv, WalkVectorEnv
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.batch_simulate import BATCH_SIZE, simulate_batch
+from mjsim.simulation.side_by_side.simulate import BATCH_SIZE, simulate_batch
 from mjsim.simulation.simulation import simulate
 
 COARSE = Numerics(links=12, timestep=0.01)  # what a sweep picks for 2 % of the default scene

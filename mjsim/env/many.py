@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from mjsim.env.settings import Settings
 from mjsim.env.task import FALL, Walker, commands, middle, sense
 from mjsim.scene import Scene
-from mjsim.simulation.batch_layout import refusal
-from mjsim.simulation.batch_strips import StripBatch
+from mjsim.simulation.side_by_side.layout import refusal
+from mjsim.simulation.side_by_side.strips import StripBatch
 
 Array = NDArray[np.float64]
 Rows = NDArray[np.int_]
@@ -39,7 +39,9 @@ class Walkers(Protocol):
 
 
 def walkers(settings: Settings, count: int, threads: int) -> Walkers:
-    """Robots, stepped side by side where that can be, see mjsim.simulation.batch_layout.refusal.
+    """Robots, stepped side by side where they can be.
+
+    See mjsim.simulation.side_by_side.layout.refusal.
 
     Args:
         settings: of the environment.

@@ -16,9 +16,9 @@ from mjsim.results.measures import measure
 from mjsim.results.status import Status
 from mjsim.scene import Numerics, Scene, Valves
 from mjsim.simulation.batch import Refused
-from mjsim.simulation.batch_layout import FIELDS, bare_model, field, refusal
-from mjsim.simulation.batch_simulate import simulate_batch
-from mjsim.simulation.batch_strips import StripBatch
+from mjsim.simulation.side_by_side.layout import FIELDS, bare_model, field, refusal
+from mjsim.simulation.side_by_side.simulate import simulate_batch
+from mjsim.simulation.side_by_side.strips import StripBatch
 from mjsim.simulation.simulation import simulate
 
 COARSE = Numerics(links=12, timestep=0.01)

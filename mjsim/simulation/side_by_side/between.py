@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mjsim.friction.between_ends import APART, node_tendons
 from mjsim.model.parts import FAR
 from mjsim.scene import Resolved, Scene
-from mjsim.simulation.batch_contacts import (
+from mjsim.simulation.side_by_side.contacts import (
     AnchorRows,
     ContactRows,
     StripRows,
@@ -22,7 +22,7 @@ from mjsim.simulation.batch_contacts import (
     minimisers,
     strip_rows,
 )
-from mjsim.simulation.batch_ends import (
+from mjsim.simulation.side_by_side.ends import (
     BoundedEndsBatch,
     ContactFrictionBatch,
     EndsBatch,

@@ -19,7 +19,7 @@ from analytic.scene.chain import node_positions
 from mjsim.model.pads import pads_by_node
 from mjsim.model.parts import FAR, PREFIX, TENDONS, contact_softness, tie_force
 from mjsim.scene import Resolved, Scene
-from mjsim.simulation.batch_ground import GroundRows
+from mjsim.simulation.side_by_side.ground import GroundRows
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int_]

@@ -16,10 +16,10 @@ from mjsim.model.pads import pads_by_node
 from mjsim.model.pneumatics import controls
 from mjsim.results.status import AT_REST
 from mjsim.scene import Resolved, Scene
-from mjsim.simulation.batch_between import BATCH_LAWS
-from mjsim.simulation.batch_ends import Indices
-from mjsim.simulation.batch_layout import layout, models, refusal, write
 from mjsim.simulation.schedule import before_start, check_steps
+from mjsim.simulation.side_by_side.between import BATCH_LAWS
+from mjsim.simulation.side_by_side.ends import Indices
+from mjsim.simulation.side_by_side.layout import layout, models, refusal, write
 
 Array = NDArray[np.float64]
 
@@ -52,7 +52,7 @@ class StripBatch:
     """Scenes of one layout, stepped together.
 
     Args:
-        scenes: see mjsim.simulation.batch_layout.refusal and layout.
+        scenes: see mjsim.simulation.side_by_side.layout.refusal and layout.
         numerics: of all of them, with a number for everything.
         threads: of MuJoCo.
 

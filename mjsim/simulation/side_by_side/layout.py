@@ -16,8 +16,8 @@ from analytic.scene.surface import Surface
 from mjsim.model.builder import bare_spec, compiled
 from mjsim.model.parts import PREFIX
 from mjsim.scene import Resolved, Scene
-from mjsim.simulation.batch_between import BATCH_LAWS
 from mjsim.simulation.schedule import before_start
+from mjsim.simulation.side_by_side.between import BATCH_LAWS
 
 # what MuJoCo computes of robots of one layout that differ; a test compares all other fields
 FIELDS = (
