@@ -67,16 +67,16 @@ class Point:
         self.inverse_mass = model.tendon_invweight0[first + 1]
         self.direction, self.jacobian = np.array([1.0, 0.0]), np.zeros((3, model.nv))
 
-    def move_to(self, model: mujoco.MjModel, data: mujoco.MjData, body: int, offset: float) -> None:
-        """Take a point of a link, so far from where the link begins [m]."""
-        self.body, self.offset = body, offset
+    def move_to(self, model: mujoco.MjModel, data: mujoco.MjData, body: int, *at: float) -> None:
+        """Take a point of a link, so far from where the link begins and beside its line [m]."""
+        self.body, self.offset = body, at
         self.place = self.now(data)
         mujoco.mj_jac(model, data, self.jacobian, None, self.place, body)
         self.velocity = (self.jacobian @ data.qvel)[:2]
 
     def now(self, data: mujoco.MjData) -> np.ndarray:
         """Its place (3,) [m]."""
-        return data.xpos[self.body] + self.offset * data.xmat[self.body, ::3]
+        return data.xpos[self.body] + data.xmat[self.body].reshape(3, 3)[:, :2] @ self.offset
 
     def resist(self, bound: float) -> None:
         """Set the bound of the coming step [N]."""
@@ -175,16 +175,16 @@ class Quadruped:
         for i, length, places in contacts:
             limb = self.limbs[i]
             bound = self.tau * limb.width * length if length else self.tip
+            asides = (0.0, 0.0) if length else (-0.25 * limb.width, 0.25 * limb.width)
+            places = places if length else 2 * places  # a tip resists at two points across
             bound = 0.0 if 0 < length <= 1e-9 * limb.length else bound / len(places)
-            slot = 5 + 2 * (
-                i - 1
-            )  # of its two points; the torso has two at either end, and one between
+            slot = 3 + 2 * i  # of its two points; the torso has two at either end, and one between
             if i == 0:
                 slot = 4 if len(places) == 1 else 2 if sum(places) > limb.length else 0
-            for number, place in enumerate(places):
+            for number, (place, aside) in enumerate(zip(places, asides, strict=False)):
                 link = min(int(np.searchsorted(limb.places[:7], place, side="right")), 7) - 1
                 point = self.points[slot + number]
-                point.move_to(model, data, limb.links[link], place - limb.places[link])
+                point.move_to(model, data, limb.links[link], place - limb.places[link], aside)
                 speed = float(np.hypot(*point.velocity))
                 if point not in self.resisting:
                     point.direction = point.velocity / speed if speed else np.array([1.0, 0.0])

@@ -26,6 +26,7 @@ from mjsim.files.tables import Tables, build, merged, read_tables
 from mjsim.files.text_table import Column, text_table
 from mjsim.files.typed import Table
 from mjsim.pictures import gl
+from mjsim.results.coasting import coasting
 from mjsim.results.prediction import (
     HALF,
     QUASI_STATIC,
@@ -127,7 +128,7 @@ def _reference(scene: Scene, numerics: Numerics | None) -> Row:
         return _row(None, None, None, "+".join(fine.flags))
     bar, _ = error_bars(scene, fine, reference(scene, numerics, HALF))
     return _row(ahead, bar, fine.height / scene.robot.length,
-                ("+".join(fine.flags) or "ok") + _without_valves(scene),
+                ("+".join(fine.flags) or "ok") + _left_out(scene),
                 math.degrees(fine.turn) if scene.in_space else None)  # fmt: skip
 
 
@@ -142,13 +143,15 @@ def _weak(scene: Scene, model: str) -> Row:
         shift if finite else None,
         bar if math.isfinite(bar) and bar > 0 else None,
         float(walk.shapes.amplitude.max()) / length if finite else None,
-        f"{flags}, {WEAK}{_without_valves(scene)}",
+        f"{flags}, {WEAK}{_left_out(scene)}",
     )
 
 
-def _without_valves(scene: Scene) -> str:
-    """Words for the status of a theory, which takes the gait's pressures as the chambers'."""
-    return "" if scene.valves.ideal else ", ideal valves"
+def _left_out(scene: Scene) -> str:
+    """Words for the status of a theory: it takes the gait's pressures as the chambers', and knows
+    no momentum.
+    """
+    return ("" if scene.valves.ideal else ", ideal valves") + ", coasts" * bool(coasting(scene))
 
 
 def _simulated(scene: Scene, numerics: Numerics | None) -> Row:

@@ -10,6 +10,7 @@ from mjsim.files.files import check_folder
 from mjsim.files.options import SceneOptions, tables_of
 from mjsim.files.tables import build
 from mjsim.files.text_table import Column, text_table
+from mjsim.results.coasting import coasting
 
 if TYPE_CHECKING:
     from mjsim.uncertainty.sensitivity import Effects
@@ -70,7 +71,9 @@ def main(argv: Sequence[str] | None = None) -> int:
             draw(found, options.out)
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
-    records = [{"surface": name, "distance_mm": 1e3 * effects.distance, "rows": _rows(effects)}
+    coast = {scene.ground.name: coasting(scene) for scene, _ in scenes}
+    records = [{"surface": name, "distance_mm": 1e3 * effects.distance, "rows": _rows(effects),
+                "notes": [at.note] if (at := coast[name]) else []}
                for name, effects in found.items()]  # fmt: skip
     if options.json:
         say(strict_json({"scenes": records}))
@@ -99,4 +102,4 @@ def _text(record: dict[str, Any]) -> str:
             "a field, of a stage one per cent of the peak pressure, adds")  # fmt: skip
     columns = [column for column in COLUMNS if any(row[column.key] not in (None, "")
                                                    for row in record["rows"])]  # fmt: skip
-    return "\n".join([head, text_table(columns, record["rows"])])
+    return "\n".join([head, text_table(columns, record["rows"]), *record["notes"]])

@@ -20,6 +20,7 @@ from analytic.friction.laws import LAWS
 from analytic.locomotion import STANDSTILL
 from analytic.prediction import predict, predict_grounds
 from analytic.scene.air import air_per_cycle
+from analytic.scene.feet import proud
 from analytic.scene.gait import Gait
 from analytic.scene.limbs import AnyRobot, LimbedRobot
 from analytic.scene.surface import Surface
@@ -78,6 +79,17 @@ class Objective:
     def __post_init__(self) -> None:
         if self.scene.in_space and self.model != "mujoco":
             raise ValueError(f"model of a robot of limbs must be mujoco, got {self.model}")
+        if self.tethered and self.model not in ("elastica", "mujoco"):
+            raise ValueError(
+                "model must be elastica or mujoco for a strip on a tether that resists, got "
+                f"{self.model!r}"
+            )
+
+    @property
+    def tethered(self) -> bool:
+        """True for a strip on a tether that resists, which weak friction does not know."""
+        tether = None if self.scene.in_space else self.scene.strip.tether
+        return bool(tether and tether.resists)
 
     @property
     def contacts(self) -> tuple[Contacts, ...]:
@@ -87,17 +99,21 @@ class Objective:
         """
         if self.scene.in_space or self.scene.contacts != "auto":
             return (self.scene.contacts,)
+        if proud(self.scene.strip.feet):
+            return ("all",)  # which ends alone do not know
         return ("ends", "all") if self.model in ("elastica", "mujoco") else ("ends",)
 
     @cached_property
     def bent(self) -> bool:
-        """True if friction bends the robot in the search: of the elastica over a nap.
+        """True if friction bends the robot in the search: of the elastica over a nap or a tether.
 
         There contacts that pull at each other cost a part of each turn, half the distance on
         gelatin, that weak friction leaves out.
         """
         if self.model != "elastica":
             return False
+        if self.tethered:
+            return True
         grip = Grip(self.scene.strip, LAWS[self.scene.friction])
         return not all(grip.is_round(surface) for surface in self.surfaces)
 

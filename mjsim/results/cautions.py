@@ -12,6 +12,7 @@ from analytic.friction.laws import Friction
 from analytic.friction.motion import motion, undecided_motion
 from analytic.locomotion import undecided
 from analytic.prediction import Prediction
+from analytic.scene.feet import proud
 from analytic.scene.limbs import acting_pressures, limbs_of
 from analytic.scene.surface import Surface
 from analytic.shapes import ContactShapes, Flag
@@ -113,7 +114,8 @@ def near_end(scene: Scene, prediction: Prediction) -> list[str]:
     inflated = replace(robot, peak_pressure=(1 + NEARLY) * robot.peak_pressure)
     path = acting_pressures(robot, inflated.peak_pressure * scene.gait.pressures(_STATES))
     links = max(_LINKS, 10 * len(robot.segments))
-    shapes = Elastica(links, scene.chamber).solve(inflated, path, scene.ground, Friction(), None)
+    weak = Friction(contacts="all" if proud(robot.feet) else "ends")
+    shapes = Elastica(links, scene.chamber).solve(inflated, path, scene.ground, weak, None)
     flags = Flag(int(np.bitwise_or.reduce(shapes.status)))
     for flag, event in ((Flag.BRANCH_END, "the stable branch ends"),
                         (Flag.ROLLED_UP, "an end rolls up off the ground")):  # fmt: skip
@@ -136,12 +138,7 @@ def between_ends(scene: Scene) -> list[str]:
 def _coasting(scene: Scene) -> list[str]:
     """A note where nothing stops what a ramp has set moving, however slow."""
     found = coasting(scene)
-    if not found:
-        return []
-    if found.contacts == "tips":
-        return [f"nothing brakes tips that slide {found.way}: it coasts, at any speed"]
-    return [f"nothing brakes sides that slide {found.way}, nor tips: it coasts or stands still, at "
-            "any speed"]  # fmt: skip
+    return [found.note] if found else []
 
 
 def _rough(scene: Scene, prediction: Prediction) -> list[str]:

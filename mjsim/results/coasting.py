@@ -26,9 +26,23 @@ class Coasting(NamedTuple):
     contacts: Literal["tips", "sides"]
     way: Literal["ahead", "back"]
 
+    @property
+    def note(self) -> str:
+        """What is said of it beside a number."""
+        if self.contacts == "tips":
+            return f"nothing brakes tips that slide {self.way}: it coasts, at any speed"
+        return (f"nothing brakes sides that slide {self.way}, nor tips: it coasts or stands still, "
+                "at any speed")  # fmt: skip
+
 
 def coasting(scene: Scene) -> Coasting | None:
-    """Contacts of a robot, all feet switched on, that resist one way alone; None if none do."""
+    """Contacts of a robot, all feet switched on, that resist one way alone; None if none do.
+
+    None too of a robot with a tether that drags, which brakes it both ways.
+    """
+    tethers = [limb.strip.tether for limb in limbs_of(scene.robot)]
+    if any(tether and tether.drag for tether in tethers):
+        return None
     for surface in surfaces_of(scene.ground):
         for contacts in ("tips", "sides"):
             ahead, back = _strongest(scene, surface, contacts == "tips")

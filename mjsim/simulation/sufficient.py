@@ -5,19 +5,25 @@ reference, MuJoCo. Each has an error of its own. Of the modes it is a bound: the
 assume (analytic.uncertainty.modes_error), small slopes, and the bending by friction that they leave
 out; of the reference what half of its links and states change; of MuJoCo the change between its two
 finest walks. Quasi-static models do not know inertia: they answer where the gait accelerates the
-robot by less than FAST of gravity, below which walks of random scenes did not depend on it.
+robot by less than FAST of gravity, below which walks of random scenes did not depend on it, and
+where what moves is braked: no contacts resist one way alone, and no tether pulls. What hangs on
+bounds that are nearly alike, which momentum decides as well, is in the reference's error.
 """
 
 import math
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, NamedTuple
 
 from analytic.locomotion import direction
+from analytic.prediction import Prediction
 from analytic.scene.surface import Surface
 from analytic.uncertainty import bending_by_friction, modes_error, small_slopes
 from mjsim.files.text_table import Column, text_table
+from mjsim.results.cautions import NEARLY, tied
+from mjsim.results.coasting import coasting
 from mjsim.results.measures import measure
 from mjsim.results.prediction import (
     HALF,
@@ -102,12 +108,14 @@ Ask = Callable[[], tuple[float, float, str]]
 
 def _models(scene: Scene, tolerance: float, numerics: Numerics | None) -> Iterator[tuple[str, Ask]]:
     """Names of models and what asks them, cheapest first."""
-    fast = swiftness(scene)
+    fast, unbraked = swiftness(scene), _unbraked(scene)
     for model, ask in (
         (MODES, lambda: _modes(scene)),
         (reference_name(scene), lambda: _reference(scene, numerics)),
     ):
         if model != MODES or not scene.in_space:
+            if unbraked:
+                ask = partial(_momentum, unbraked)
             yield model, (lambda: _inertia(fast)) if fast > FAST else ask
     yield MUJOCO, lambda: _mujoco(scene, tolerance, numerics)
 
@@ -117,6 +125,19 @@ def _inertia(fast: float) -> tuple[float, float, str]:
         f"it knows no inertia, and the gait accelerates the robot by {fast:.2g} of gravity, "
         f"more than {FAST:g}"
     )  # fmt: skip
+
+
+def _unbraked(scene: Scene) -> str:
+    """Why momentum counts however slow the gait is, empty if it does not."""
+    if coasts := coasting(scene):
+        return f"nothing brakes {coasts.contacts} that slide {coasts.way}"
+    if not scene.in_space and scene.strip.tether and scene.strip.tether.resists:
+        return "beside the pull of a tether it decides which end slides"
+    return ""
+
+
+def _momentum(why: str) -> tuple[float, float, str]:
+    return math.nan, math.nan, f"it knows no momentum, and {why}"
 
 
 def _modes(scene: Scene) -> tuple[float, float, str]:
@@ -142,7 +163,11 @@ def _reference(scene: Scene, numerics: Numerics | None) -> tuple[float, float, s
     flags = ", ".join(flag.replace("_", " ") for flag in fine.flags)
     if bar is None or flags:
         return float(fine.displacement[0]), math.nan, flags or "it has no distance"
-    return float(fine.displacement[0]), bar, "links and states"
+    if not isinstance(fine.walk, Prediction):
+        return float(fine.displacement[0]), bar, "links and states"
+    hangs = tied(scene, fine.walk, NEARLY)  # which momentum decides as well
+    why = "links and states" + f", bounds within {NEARLY:.0%} of each other" * (hangs > bar)
+    return float(fine.displacement[0]), bar + hangs, why
 
 
 def _mujoco(scene: Scene, tolerance: float, numerics: Numerics | None) -> tuple[float, float, str]:

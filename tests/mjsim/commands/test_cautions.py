@@ -168,6 +168,17 @@ def test_sides_and_feet_that_hold_one_way_alone_are_told_of():
     assert "nothing brakes tips that slide back" in note
 
 
+def test_a_tether_that_drags_brakes_both_ways():
+    """It goes as far as the theory says, at 8 s a ramp, and a spring alone brakes nothing."""
+    ground = Surface(tip_force=0.02, tip_force_back=0.0, shear_strength=0.0)
+    dragged = Scene(Robot(tether=Tether(0.5, drag=0.005)), replace(GAITS["wave"], ramp_time=8.0),
+                    ground)  # fmt: skip
+    assert _coasting(dragged) == []
+    expected = reference(dragged).displacement[0]
+    assert measure(simulate(dragged)).displacement == pytest.approx(expected, rel=0.02)
+    assert _coasting(replace(dragged, robot=Robot(tether=Tether(0.5, stiffness=1.0))))
+
+
 def test_limbs_that_coast_have_no_quasi_static_number():
     one_way = Surface(tip_force=0.02, tip_force_back=0.0, shear_strength=10.0)
     found = reference(Scene("quadruped", ground=one_way))

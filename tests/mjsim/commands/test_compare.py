@@ -125,6 +125,12 @@ def test_a_theory_that_takes_valves_for_ideal_says_so(capsys):
     assert [row["status"] for row in rows] == ["ok, ideal valves", "ok"]
 
 
+def test_a_theory_of_what_coasts_says_so(capsys):
+    rows = rows_of(capsys, "--surface.tip-force", "20mN", "--surface.tip-force-back", "0",
+                   "--gait", "pulse", "--model", "lifted,elastica")  # fmt: skip
+    assert all(row["status"].endswith("coasts") for row in rows)
+
+
 def test_a_body_is_a_model(capsys):
     with pytest.raises(SystemExit):
         main(["--body", "cable"])

@@ -24,8 +24,10 @@ from analytic.scene import pneunet
 from mjsim.files.tables import build
 from mjsim.files.written import as_tables
 from mjsim.model.builder import compile_model
+from mjsim.optimising.objective import Objective
 from mjsim.results.measures import measure
 from mjsim.results.prediction import reference
+from mjsim.results.record import record
 from mjsim.scene import Numerics, Scene, resolved
 from mjsim.simulation.simulation import simulate
 
@@ -72,6 +74,12 @@ def test_on_posts_it_goes_as_far_as_the_theory_says(surface):
     expected = reference(scene).displacement[0]
     assert expected > 0.005
     assert measure(simulate(scene)).displacement == pytest.approx(expected, rel=0.02)
+
+
+def test_their_walks_are_recorded_and_searched_with_friction_where_they_rest():
+    scene = Scene(posts(1e-3), ground="gelatin")
+    assert record(simulate(scene))["status"] == "ok"
+    assert Objective(scene, [SURFACES["gelatin"]], model="elastica").contacts == ("all",)
 
 
 def test_neutral_lines_are_where_the_pads_are_not():

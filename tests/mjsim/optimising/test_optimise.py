@@ -18,6 +18,7 @@ from analytic.scene.feet import Foot
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
+from analytic.scene.tether import Tether
 from analytic.scene.trapezoid import staggered, trapezoid
 from analytic.solvers.models import Elastica, Lifted
 from analytic.uncertainty import flagged_change
@@ -236,3 +237,13 @@ def test_over_a_nap_a_search_counts_what_bending_by_friction_costs():
         assert objective(GAITS["wave"]) == pytest.approx(expected, abs=0.003)
     assert not Objective(Scene(), (gelatin,)).bent
     assert _times(nap, "tip_force", 1.1) == pytest.approx({k: 1.1 * v for k, v in bounds.items()})
+
+
+def test_on_a_tether_that_resists_friction_bends_what_is_searched():
+    """Weak friction does not know it: every gait was worth nothing, without a word."""
+    scene = Scene(Robot(tether=Tether(0.0, drag=0.005)), contacts="ends")
+    objective = Objective(scene, (SURFACES["gelatin"],), backward=True)
+    exact = reference(replace(scene, ground=SURFACES["gelatin"])).displacement[0]
+    assert objective(GAITS["wave"]) == pytest.approx(-exact, abs=1e-3)
+    with pytest.raises(ValueError, match="must be elastica or mujoco for a strip on a tether"):
+        Objective(scene, (SURFACES["gelatin"],), model="lifted")

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analytic import GAITS, SURFACES, Elastica, Robot, Surface, predict
+from analytic import GAITS, SURFACES, Elastica, Robot, Surface, Tether, predict
 from analytic.friction.laws import Friction
 from analytic.scene.ground import Patches
 from analytic.uncertainty import bending_by_friction, modes_error, small_slopes
@@ -89,3 +89,25 @@ def test_tolerances_that_mean_nothing_are_refused(words, message, capsys):
         run.main([*words, "--no-video"])
     assert stop.value.code == 2
     assert message in capsys.readouterr().err
+
+
+def test_where_nothing_brakes_one_way_momentum_decides_and_mujoco_answers():
+    scene = Scene(ground=Surface("one-way", {"ahead": 0.02, "back": 0.0}, 0.0))
+    answer = smallest_sure(scene, 0.05)
+    assert [tried.model for tried in answer.tried] == ["modes", "elastica", "MuJoCo"]
+    assert all("brakes tips that slide back" in tried.why for tried in answer.tried[:2])
+    assert not np.isfinite(answer.tried[1].displacement)
+
+
+@pytest.mark.parametrize(
+    ("robot", "ground"),
+    [(Robot(tether=Tether(0.0, stiffness=1.0)), SURFACES["gelatin"]),
+     (Robot(), Surface("near-tie", {"ahead": 0.034, "back": 0.0333}, 19.6))],
+)  # fmt: skip
+def test_where_momentum_decides_between_ends_mujoco_answers(robot, ground):
+    """Bounds within 2 %, and a spring that nothing damps on a robot that lies flat on gelatin."""
+    answer = smallest_sure(Scene(robot, ground=ground), 0.05)
+    assert answer.sure
+    assert answer.tried[-1].model == "MuJoCo"
+    walked = measure(simulate(Scene(robot, ground=ground))).displacement
+    assert answer.tried[-1].displacement == pytest.approx(walked, rel=0.05)

@@ -96,6 +96,14 @@ def test_the_command_prints_json_of_all_surfaces(capsys):
     assert felt["rows"][0]["distance_mm"] is None
     assert "meet" in felt["rows"][0]["note"]
     assert gelatin["rows"][0]["how"] == EXACT
+    assert gelatin["notes"] == []
+
+
+def test_it_is_told_where_nothing_brakes_the_robot(capsys):
+    words = ["--surface.tip-force", "20mN", "--surface.tip-force-back", "0"]
+    assert call(["sensitivity", *words, "--fields", "surface.tip_force", "--json"]) == 0
+    (scene,) = json.loads(capsys.readouterr().out)["scenes"]
+    assert scene["notes"] == ["nothing brakes tips that slide back: it coasts, at any speed"]
 
 
 @pytest.mark.slow
