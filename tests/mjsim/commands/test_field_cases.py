@@ -109,7 +109,8 @@ def test_a_robot_described_by_six_segments_walks_as_by_three(tmp_path, capsys):
     three = row_of(words, tmp_path, capsys)
     six = row_of([*words, "--segments", "1,1,1,1,1,1", "--gait.stages", doubled], tmp_path, capsys)
     assert six["predicted_displacement_over_L"] == pytest.approx(
-        three["predicted_displacement_over_L"], abs=1e-8  # so far changes of contacts are located
+        three["predicted_displacement_over_L"],
+        abs=1e-8,  # so far changes of contacts are located
     )
     # where sticking ends is a matter of rounding
     assert six["displacement_over_L"] == pytest.approx(three["displacement_over_L"], abs=1e-4)
