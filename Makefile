@@ -5,7 +5,7 @@ MUJOCO_4 := 4.0.0
 # the oldest that reads models/
 MUJOCO_OLD := 3.13.0
 
-.PHONY: zoo run test check check-mujoco4 check-mujoco-old numbers scenes gradients reach auto promises fast quadruped trees loop price startup \
+.PHONY: zoo run test check check-mujoco4 check-mujoco-old numbers scenes gradients reach auto promises fast quadruped trees loop many price startup \
 	bench regression \
 	identify models gallery figures charts chart maps reference architecture clean
 
@@ -65,6 +65,10 @@ trees: .venv/ready
 
 loop: .venv/ready
 	$(PY) benchmarks/loop.py
+
+# walks side by side and alone, and environments
+many: .venv/ready
+	$(PY) benchmarks/many.py
 
 # a prediction beside its walk
 price: .venv/ready

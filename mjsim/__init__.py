@@ -53,7 +53,7 @@ _attribute, __dir__, __all__ = lazily(
         "mjsim.scene.scene": ("Scene",),
         "mjsim.scene.valves": ("Valves",),
         "mjsim.simulation.batch": ("rollout", "simulate_all"),
-        "mjsim.simulation.batch_simulate": ("simulate_batch",),
+        "mjsim.simulation.side_by_side.simulate": ("simulate_batch",),
         "mjsim.simulation.checked": ("Checked", "walk_checked"),
         "mjsim.simulation.observation": ("Observation", "Policy"),
         "mjsim.simulation.simulation": ("Simulation", "simulate"),

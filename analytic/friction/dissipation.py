@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_ALIKE = 1e-9  # part of the whole bound that two halves may differ by and count as equal; chosen
+ALIKE = 1e-9  # part of the whole bound that two halves may differ by and count as equal; chosen
 
 
 def least_dissipation(bounds: Array, moves: Array, back: Array | None = None) -> float:
@@ -49,13 +49,13 @@ def minimisers(
     first, below = None, 0.0
     corners = [0.5 * (v + b) for v, b in zip(bounds, back, strict=True)]
     ordered = sorted(zip(moves, corners, strict=True), reverse=True)
-    if against <= _ALIKE * total:
+    if against <= ALIKE * total:
         first = -math.inf  # all may slide back for nothing
     for move, corner in ordered:
         below += corner
         # the slope of the dissipation right of this place is 2 below - against
-        if first is None and below >= 0.5 * against - _ALIKE * total:
+        if first is None and below >= 0.5 * against - ALIKE * total:
             first = -move
-        if below >= 0.5 * against + _ALIKE * total:
+        if below >= 0.5 * against + ALIKE * total:
             return (-move if first is None else first), -move
     return (-ordered[-1][0] if first is None else first), math.inf

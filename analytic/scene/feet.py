@@ -108,7 +108,7 @@ def drops(feet: Sequence[Foot]) -> tuple[float, float]:
 
 def proud(feet: Sequence[Foot]) -> bool:
     """Tell whether any foot stands proud of the underside."""
-    return any(drops(feet))
+    return bool(feet) and any(drops(feet))
 
 
 def refuse_proud(feet: Sequence[Foot], what: str) -> None:

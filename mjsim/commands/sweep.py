@@ -163,7 +163,7 @@ def sweep(plan: "Plan", store: "Store", workers: "Workers") -> dict[str, Any]:
             count += len(rows)
             advance(len(rows))
 
-        drive(jobs(plan, store, template), workers, keep)
+        drive(jobs(plan, store, template, workers.count), workers, keep)
     if finer is not None:
         _confirm(plan, store, workers, template, finer)
     return _record(plan, store, count, time.perf_counter() - began)

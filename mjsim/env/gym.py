@@ -103,9 +103,9 @@ class WalkEnv(gymnasium.Env):  # type: ignore[misc]
 class WalkVectorEnv(VectorEnv):  # type: ignore[misc]
     """Batch of robots; each is the WalkEnv of its seed.
 
-    Strips with contacts="ends" are stepped side by side, twice as fast; then `info` names the
-    grounds alone, and a strip that does not come to rest in the time of the scene, as where it
-    slides downhill, begins as it is, where WalkEnv waits longer.
+    Strips whose contact paths are straight, as with contacts="ends", are stepped side by side; then
+    `info` names the grounds alone, and a strip that does not come to rest in the time of the scene,
+    as where it slides downhill, begins as it is, where WalkEnv waits longer.
 
     Args:
         num_envs: number of robots.

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from mjsim.env.settings import Settings
 from mjsim.env.task import FALL, Walker, commands, middle, sense
 from mjsim.scene import Scene
-from mjsim.simulation.batch_strips import StripBatch
+from mjsim.simulation.side_by_side.layout import refusal
+from mjsim.simulation.side_by_side.strips import StripBatch
 
 Array = NDArray[np.float64]
 Rows = NDArray[np.int_]
@@ -38,14 +39,18 @@ class Walkers(Protocol):
 
 
 def walkers(settings: Settings, count: int, threads: int) -> Walkers:
-    """Robots, stepped side by side where that can be: strips with friction at the ends alone.
+    """Robots, stepped side by side where they can be.
+
+    See mjsim.simulation.side_by_side.layout.refusal.
 
     Args:
         settings: of the environment.
         count: number of robots.
         threads: of MuJoCo, side by side.
     """
-    if settings.contacts == "ends":
+    scenes = [settings.scene(ground) for ground in settings.grounds]
+    scenes.append(settings.draw(np.random.default_rng(0)))  # has what is drawn, as adhesion
+    if not any(refusal(scene, settings.resolved) for scene in scenes):
         return _SideBySide(settings, count, threads)
     return _OneByOne(settings, count)
 

@@ -70,7 +70,7 @@ def sense(
 
 def middle(scenes: Sequence[Scene], numerics: Resolved, coordinates: Array) -> Array:
     """Place of the middle between the two ends over L, (B,)."""
-    from mjsim.simulation.batch_simulate import planar_nodes
+    from mjsim.simulation.side_by_side.simulate import planar_nodes
 
     return np.array(
         [planar_nodes(scene, numerics, row[None])[0, [0, -1], 0].mean() / scene.robot.length

@@ -18,7 +18,7 @@ from mjsim.model.pads import pads_by_node
 from mjsim.model.parts import NO_BOUND, PREFIX, TETHER, tendon_names
 from mjsim.scene import Resolved, Scene
 
-_APART = 1e12  # divisor of a pulley that takes a node out of the mean
+APART = 1e12  # divisor of a pulley that takes a node out of the mean
 
 
 def node_tendons(model: mujoco.MjModel, nodes: int) -> list[int]:
@@ -240,7 +240,7 @@ class BoundedContacts(BoundedFriction):
         mean = -sum(rates) / len(rates)
         if low < mean < high:
             if nodes != self._averaged:
-                self._divisors[:] = _APART
+                self._divisors[:] = APART
                 self._divisors[nodes] = 1.0
                 self._averaged = nodes
             self._bounds[self._both], self._anchors.anchored = self._tie, tendons

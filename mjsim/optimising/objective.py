@@ -182,7 +182,7 @@ class Objective:
         """Displacement in MuJoCo, whose states have no flags; minus infinity of a fall."""
         from mjsim.results.measures import measure
         from mjsim.results.trajectory import Trajectory
-        from mjsim.simulation.batch_simulate import simulate_batch
+        from mjsim.simulation.side_by_side.simulate import simulate_batch
 
         scenes = [replace(scene, ground=ground) for ground in surfaces]
         walks = simulate_batch(scenes, coarse(scenes[0], self.numerics))

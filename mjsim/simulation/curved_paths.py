@@ -37,7 +37,7 @@ class CurvedPaths:
         self, scene: Scene, numerics: Resolved, model: mujoco.MjModel, data: mujoco.MjData
     ) -> None:
         pads = pads_by_node(model)
-        self._node = node_of_geom(model, pads, other=-1)
+        self._node: list[int] = node_of_geom(model, pads, other=-1).tolist()
         self._lengths = -np.asarray(link_lengths(scene.strip, numerics.links))
         self._rise, self._dt = np.zeros(len(pads)), numerics.timestep
         self._rates, self._angles = data.qvel[_PITCH:], data.qpos[_PITCH:]
@@ -57,24 +57,27 @@ class CurvedPaths:
             mujoco.mj_step(model, data)
             return
         mujoco.mj_step1(model, data)
-        contact = data.contact
-        rows, pads = contact.efc_address, contact.geom2
-        nodes = self._node[pads]
-        # in an adhesive gap, or at the ceiling, where paths are taken for straight
-        if len(rows) and min(rows.min(), nodes.min()) < 0:
-            acts = (rows >= 0) & (nodes >= 0)
-            rows, pads, nodes = rows[acts], pads[acts], nodes[acts]
-        # dt (1 + c), of the pads' time constants c dt
-        reach = self._softness[pads] + self._dt
-        if self._landing:
-            data.efc_margin[rows] = 0.0
-            height = data.efc_pos[rows]
-            over = height > 0.0
-            data.efc_pos[rows] = np.where(over, height * (reach / self._dt) ** 2, height)
-        if not straight:
+        contact, depths, margins = data.contact, data.efc_pos, data.efc_margin
+        pads = contact.geom2.tolist()
+        if pads and not straight:
             # J' v of a node over dt: the links turn by constant rates
             (self._lengths * np.sin(self._angles.cumsum()) * squares).cumsum(out=self._rise[1:])
-            data.efc_pos[rows] += 0.5 * reach * reach * self._rise[nodes]
+        # plain floats: numpy is slow on a few numbers
+        for row, pad in zip(contact.efc_address.tolist(), pads, strict=True):
+            node = self._node[pad]
+            # in an adhesive gap, or at the ceiling, where paths are taken for straight
+            if row < 0 or node < 0:
+                continue
+            # dt (1 + c), of the pads' time constants c dt
+            reach, depth = self._softness.item(pad) + self._dt, depths.item(row)
+            if self._landing:
+                margins[row] = 0.0
+                if depth > 0.0:
+                    stretch = reach / self._dt
+                    depth *= stretch * stretch
+            if not straight:
+                depth += 0.5 * reach * reach * self._rise.item(node)
+            depths[row] = depth
         mujoco.mj_step2(model, data)
 
 

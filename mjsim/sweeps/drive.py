@@ -6,6 +6,7 @@ scene of that job is then run alone, and a scene that breaks its process twice b
 that message.
 """
 
+import math
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
@@ -32,9 +33,9 @@ _STRIKES = 2  # broken processes after which a scene, run alone, is given up
 _LOOK = 1.0  # s between checks of the cluster
 
 
-def jobs(plan: Plan, store: Store, template: Job) -> Iterator[Job]:
-    """Jobs of the scenes without a row, in order."""
-    chunk = _CHUNK[plan.model]
+def jobs(plan: Plan, store: Store, template: Job, workers: int = 1) -> Iterator[Job]:
+    """Jobs of the scenes without a row, in order; a short plan is shared by all workers."""
+    chunk = max(1, min(_CHUNK[plan.model], math.ceil(len(plan) / workers)))
     for begin in range(0, len(plan), chunk):
         numbers = store.missing(range(begin, min(begin + chunk, len(plan))))
         if numbers:

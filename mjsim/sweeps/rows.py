@@ -102,7 +102,7 @@ def refused(message: str, status: str = REFUSED) -> Row:
 
 def _simulated(job: Job, scenes: Sequence[tuple[int, Scene, Numerics]]) -> dict[int, Row]:
     from mjsim.results.trajectory import Trajectory
-    from mjsim.simulation.batch_simulate import simulate_batch
+    from mjsim.simulation.side_by_side.simulate import simulate_batch
 
     rows: dict[int, Row] = {}
     alike: dict[Numerics, list[tuple[int, Scene]]] = {}

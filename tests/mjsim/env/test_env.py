@@ -18,7 +18,7 @@ from analytic.scene.gait import GAITS
 from mjsim.env.gym import WalkEnv, WalkVectorEnv
 from mjsim.env.settings import Settings
 from mjsim.pictures import painter
-from mjsim.scene import Scene
+from mjsim.scene import Numerics, Scene
 from mjsim.simulation.simulation import simulate
 
 RANDOM = {
@@ -44,10 +44,15 @@ def test_registered_names_make_one_and_many(name):
     assert many.observation_space.contains(observations)
 
 
-@pytest.mark.parametrize("contacts", ["all", "ends"])
-def test_many_robots_are_each_the_single_one_of_its_seed_through_resets(contacts):
-    many = WalkVectorEnv(num_envs=3, contacts=contacts, **RANDOM)
-    ones = [WalkEnv(contacts=contacts, **RANDOM) for _ in range(3)]
+STRAIGHT = Numerics(links=12, timestep=0.01, contact_time=2.0, steep_contact_time=8.0)
+
+
+@pytest.mark.parametrize(("contacts", "numerics"), [("all", None), ("ends", None),
+                                                    ("all", STRAIGHT)])  # fmt: skip
+def test_many_robots_are_each_the_single_one_of_its_seed_through_resets(contacts, numerics):
+    settings = {"contacts": contacts, "numerics": numerics, **RANDOM}
+    many = WalkVectorEnv(num_envs=3, **settings)
+    ones = [WalkEnv(**settings) for _ in range(3)]
     actions = np.random.default_rng(1).random((25, 3, 3)).astype(np.float32)
     felt, _ = many.reset(seed=5)
     for i, one in enumerate(ones):

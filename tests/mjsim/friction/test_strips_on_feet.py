@@ -18,7 +18,7 @@ from mjsim.results.measures import measure
 from mjsim.results.prediction import reference
 from mjsim.results.trajectory import load
 from mjsim.scene import Numerics, Scene, resolved
-from mjsim.simulation.batch_layout import refusal
+from mjsim.simulation.side_by_side.layout import refusal
 from mjsim.simulation.simulation import simulate
 
 GROUND = SURFACES["polyethylene"]

@@ -11,7 +11,7 @@ from mjsim.model.standalone import standalone_spec
 from mjsim.results.measures import measure
 from mjsim.results.status import Status
 from mjsim.scene import Numerics, Scene
-from mjsim.simulation.batch_layout import refusal
+from mjsim.simulation.side_by_side.layout import refusal
 from mjsim.simulation.simulation import simulate
 
 KEYS = ("tip_force", "shear_strength", "friction", "tip_friction")

@@ -24,7 +24,7 @@ from mjsim.results.prediction import reference
 from mjsim.results.trajectory import load
 from mjsim.scene import Numerics, Scene, resolved
 from mjsim.simulation.alone import distance
-from mjsim.simulation.batch_layout import refusal
+from mjsim.simulation.side_by_side.layout import refusal
 from mjsim.simulation.simulation import simulate
 
 STRIP = Robot()

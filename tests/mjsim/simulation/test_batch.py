@@ -9,15 +9,16 @@ from mujoco.batch import MODEL_FIELDS
 
 from analytic.scene.actuator import Actuator
 from analytic.scene.gait import GAITS, Gait
+from analytic.scene.ground import Patches
 from analytic.scene.robot import Robot
-from analytic.scene.surface import SURFACES
+from analytic.scene.surface import SURFACES, Surface
 from mjsim.results.measures import measure
 from mjsim.results.status import Status
 from mjsim.scene import Numerics, Scene, Valves
 from mjsim.simulation.batch import Refused
-from mjsim.simulation.batch_layout import FIELDS, bare_model, field
-from mjsim.simulation.batch_simulate import simulate_batch
-from mjsim.simulation.batch_strips import StripBatch
+from mjsim.simulation.side_by_side.layout import FIELDS, bare_model, field, refusal
+from mjsim.simulation.side_by_side.simulate import simulate_batch
+from mjsim.simulation.side_by_side.strips import StripBatch
 from mjsim.simulation.simulation import simulate
 
 COARSE = Numerics(links=12, timestep=0.01)
@@ -38,10 +39,36 @@ def random_scene(rng: np.random.Generator) -> Scene:
     return Scene(robot, gait, ground, valves=Valves(fill_time=lag, vent_time=lag))
 
 
-@pytest.mark.parametrize("slope", [0.0, 0.02])
-def test_side_by_side_every_scene_walks_as_it_does_alone(slope):
+FELT, GELATIN = SURFACES["felt"], SURFACES["gelatin"]
+WET = replace(GELATIN, name="wet", viscosity=200.0)
+HELD = replace(FELT, name="held", static_ratio=1.4, stribeck_speed=0.002)
+DRY = tuple(Surface(str(mu), friction=mu, tip_friction=0.3) for mu in (0.2, 0.5))
+KINDS = {
+    "level": {},
+    "uphill": {"slope": 0.02},
+    "patches": {"ground": Patches("felt_gelatin", (0.05,), (FELT, GELATIN)), "contacts": "ends"},
+    "wet": {"ground": WET, "contacts": "ends"},
+    "static friction": {"ground": HELD, "contacts": "ends"},
+    "all contacts": {"contacts": "all"},
+    "all contacts, uphill": {"contacts": "all", "slope": 0.02},
+    "all contacts, patches": {"ground": Patches("felt_gelatin", (0.05,), (FELT, GELATIN)),
+                              "contacts": "all"},
+    "all contacts, wet": {"ground": WET, "contacts": "all"},
+    "all contacts, by load": {"friction": "coulomb", "ground": DRY[0], "contacts": "all"},
+    "by load": {"friction": "coulomb", "ground": DRY[0], "contacts": "ends"},
+    "by load, patches": {"friction": "coulomb", "ground": Patches("mixed", (0.05,), DRY),
+                         "contacts": "ends"},
+    "actuators": {"actuation": "actuators"},
+    "actuators, by load": {"actuation": "actuators", "friction": "coulomb", "ground": DRY[1],
+                           "contacts": "ends"},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_side_by_side_every_scene_walks_as_it_does_alone(kind):
     rng = np.random.default_rng(7)
-    scenes = [replace(random_scene(rng), slope=slope) for _ in range(8)]
+    scenes = [replace(random_scene(rng), **KINDS[kind]) for _ in range(3 if KINDS[kind] else 6)]
+    assert not any(map(refusal, scenes))
     together = simulate_batch(scenes, COARSE)
     for scene, walk in zip(scenes, together, strict=True):
         alone = simulate(scene, COARSE)
@@ -51,10 +78,13 @@ def test_side_by_side_every_scene_walks_as_it_does_alone(slope):
         assert walk.contact_right == pytest.approx(alone.contact_right, abs=1e-9)
         assert np.array_equal(walk.pressure, alone.pressure)
         assert np.array_equal(walk.time, alone.time)
+        for name in ("left_slip_fraction", "drift"):
+            one, two = getattr(walk, name), getattr(alone, name)
+            assert one == pytest.approx(two, abs=1e-9, nan_ok=True), name
         if alone.status is Status.OK:
             one, two = measure(walk), measure(alone)
             assert one.displacement == pytest.approx(two.displacement, abs=1e-9)
-            assert one.unexplained == pytest.approx(two.unexplained, abs=1e-9)
+            assert one.unexplained == pytest.approx(two.unexplained, abs=1e-9, nan_ok=True)
 
 
 def test_measured_actuators_remember_side_by_side_as_alone():
@@ -67,13 +97,17 @@ def test_measured_actuators_remember_side_by_side_as_alone():
 
 def test_models_of_one_layout_differ_in_the_fields_that_rows_have_and_in_no_other():
     robot, numerics = Robot(), COARSE.resolved("chain", "constant")
-    one = bare_model(Scene(), numerics)
+    plain = bare_model(Scene(), numerics)
     others = [
         Scene(replace(robot, length=0.1, width=0.02, modulus=1.3e6)),
         Scene(replace(robot, segments=(0.5, 0.2, 0.3))),
         Scene(gravity=5.0, slope=0.1),
     ]
-    for scene in others:
+    strips = [(plain, scene) for scene in others]
+    driven = bare_model(Scene(actuation="actuators"), numerics)
+    thirds = (scene for scene in others if scene.strip.segments == robot.segments)
+    strips += [(driven, replace(scene, actuation="actuators")) for scene in thirds]
+    for one, scene in strips:
         other = bare_model(scene, numerics)
         for name in sorted(MODEL_FIELDS - set(FIELDS)):
             if name.startswith("opt.") and not hasattr(mujoco.MjOption(), name[4:]):
@@ -118,7 +152,11 @@ def test_a_row_can_be_given_another_scene():
 
 def test_scenes_of_other_kinds_are_refused_in_one_line():
     numerics = COARSE.resolved("chain", "constant")
-    with pytest.raises(ValueError, match="body, friction and actuation must be chain"):
-        StripBatch([Scene(friction="coulomb")], numerics)
+    with pytest.raises(ValueError, match="body must be chain and friction constant or coulomb"):
+        StripBatch([Scene(body="rod")], numerics)
+    with pytest.raises(ValueError, match="contact paths must be straight"):
+        StripBatch([Scene()], replace(numerics, contact_path="curved"))
+    with pytest.raises(ValueError, match="one layout"):
+        StripBatch([Scene(), Scene(friction="coulomb", contacts="ends")], numerics)
     with pytest.raises(ValueError, match="one layout"):
         StripBatch([Scene(), Scene(settle_time=1.0)], numerics)

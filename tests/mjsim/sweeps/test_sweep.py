@@ -323,6 +323,16 @@ def test_jobs_of_a_sweep_that_was_stopped_are_what_is_left(tmp_path):
     assert sorted([*left, *(n for n, _ in half.points)]) == list(range(len(plan)))
 
 
+def test_a_plan_shorter_than_a_chunk_is_shared_by_all_workers(tmp_path):
+    plan = make_plan(SMALL)
+    with Store(tmp_path / "r.sqlite", plan) as store:
+        shared = list(jobs(plan, store, Job(plan.base, plan.model, ()), workers=2))
+    counts = [len(job.points) for job in shared]
+    assert len(counts) == 2
+    assert max(counts) - min(counts) <= 1
+    assert sorted(n for job in shared for n, _ in job.points) == list(range(len(plan)))
+
+
 def test_auto_of_a_walk_whose_inertia_has_no_account_is_a_row_with_its_last_change():
     base = {"ground": {"shear_strength": 20.0, "viscosity": 100.0}, "gait": {"ramp_time": 0.5}}
     (row,) = rows_of(Job(base, "auto", [(0, {})], tolerance=0.5))

@@ -1,7 +1,7 @@
 """Walks of many scenes by few models: the results of `simulate`, for half its CPU time.
 
-Scenes that cannot be stepped in a batch (see mjsim.simulation.batch_layout.refusal) are walked by
-`simulate`.
+Scenes that cannot be stepped in a batch are walked by `simulate`; see
+mjsim.simulation.side_by_side.layout.refusal.
 """
 
 import time as clock
@@ -17,9 +17,9 @@ from mjsim.results.status import Status
 from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Resolved, Scene, resolved
 from mjsim.simulation.batch import Refused
-from mjsim.simulation.batch_layout import layout, refusal
-from mjsim.simulation.batch_strips import Block, StripBatch
 from mjsim.simulation.schedule import check_steps, walking
+from mjsim.simulation.side_by_side.layout import layout, refusal
+from mjsim.simulation.side_by_side.strips import Block, StripBatch
 from mjsim.simulation.simulation import simulate
 
 Array = NDArray[np.float64]
@@ -47,7 +47,7 @@ def simulate_batch(
         complete = resolved(scene, numerics)
         try:
             check_steps(scene, complete)
-            if refusal(scene):
+            if refusal(scene, complete):
                 walks[i] = simulate(scene, numerics)
             else:
                 alike.setdefault((complete, layout(scene, complete)), []).append(i)
@@ -116,7 +116,7 @@ def _trajectory(
         contact_left=contact[:, 0],
         contact_right=contact[:, 1],
         left_slip_fraction=np.concatenate([b.left_slip[at, steps] for b, at, steps in parts]),
-        drift=np.full(len(coordinates), np.nan),
+        drift=np.concatenate([block.drift[at, steps] for block, at, steps in parts]),
         wall_time=wall,
         cpu_time=cpu,
     )

@@ -13,11 +13,13 @@ from analytic.scene.limbs import memory
 from mjsim.friction.footing import feet_may_be, thrown
 from mjsim.model.chambers import ChamberPressures
 from mjsim.model.pads import pads_by_node
+from mjsim.model.pneumatics import controls
 from mjsim.results.status import AT_REST
 from mjsim.scene import Resolved, Scene
-from mjsim.simulation.batch_ends import BoundedEndsBatch, Indices
-from mjsim.simulation.batch_layout import layout, models, refusal, write
 from mjsim.simulation.schedule import before_start, check_steps
+from mjsim.simulation.side_by_side.between import BATCH_LAWS
+from mjsim.simulation.side_by_side.ends import Indices
+from mjsim.simulation.side_by_side.layout import layout, models, refusal, write
 
 Array = NDArray[np.float64]
 
@@ -33,6 +35,7 @@ class Block:
         coordinates: of MuJoCo after each step, (R, T, nq).
         contact: lengths of side contact, (R, T, 2) [m].
         left_slip: part of a change of separation that is the left end's, (R, T).
+        drift: speed of what friction should have anchored, (R, T) [m/s].
         steps: that were done before a scene stopped, (R,).
     """
 
@@ -40,7 +43,8 @@ class Block:
         shape = pressure.shape[:2]
         self.rows, self.pressure = rows, pressure
         self.coordinates = np.empty((*shape, nq))
-        self.contact, self.left_slip = np.empty((*shape, 2)), np.empty(shape)
+        self.contact = np.empty((*shape, 2))
+        self.left_slip, self.drift = np.empty(shape), np.empty(shape)
         self.steps = np.full(shape[0], shape[1])
 
 
@@ -48,7 +52,7 @@ class StripBatch:
     """Scenes of one layout, stepped together.
 
     Args:
-        scenes: see mjsim.simulation.batch_layout.refusal and layout.
+        scenes: see mjsim.simulation.side_by_side.layout.refusal and layout.
         numerics: of all of them, with a number for everything.
         threads: of MuJoCo.
 
@@ -64,9 +68,7 @@ class StripBatch:
     def __init__(self, scenes: Sequence[Scene], numerics: Resolved, threads: int = 1) -> None:
         self.scenes, self.numerics = list(scenes), numerics
         for scene in scenes:
-            reason = refusal(scene)
-            if reason:
-                raise ValueError(f"to be stepped side by side, {reason}")
+            self._check(scene)
             check_steps(scene, numerics)
         if len({layout(scene, numerics) for scene in scenes}) > 1:
             raise ValueError("scenes that are stepped side by side must be of one layout")
@@ -77,16 +79,22 @@ class StripBatch:
         write(batch, every.tolist(), given)
         self._stiffness, self._rest = batch.expand("jnt_stiffness"), batch.expand("qpos_spring")
         self._qpos, self._place = batch.bind("qpos"), batch.bind("geom_xpos")
-        self._length = batch.bind("ten_length")
+        self._length, self._control = batch.bind("ten_length"), batch.bind("ctrl")
         pads = pads_by_node(self.model)[:, 0]
         self._feet = pads[[0, -1]]
-        self._ends = BoundedEndsBatch(scenes, numerics, batch, self.model)
+        law = BATCH_LAWS[scenes[0].friction, scenes[0].between]
+        self._ends = law(scenes, numerics, batch, self.model)
         self._nodes, self._limits = pads, np.array([_limits(s, numerics) for s in scenes])
         self.pressure = np.zeros((len(scenes), len(scenes[0].strip.segments)))
         self.stopped = np.zeros(len(scenes), dtype=bool)
         self._chambers: list[ChamberPressures] = [self._at_rest(scene) for scene in scenes]
         self._memories: list[Memory] = [memory(scene.strip) for scene in scenes]
         self._lay(every)
+
+    def _check(self, scene: Scene) -> None:
+        reason = refusal(scene, self.numerics)
+        if reason:
+            raise ValueError(f"to be stepped side by side, {reason}")
 
     def __getstate__(self) -> None:
         raise TypeError("strips that are stepped side by side cannot be copied, single ones can")
@@ -100,9 +108,8 @@ class StripBatch:
             self._chambers[row] = self._at_rest(self.scenes[row])
             self._memories[row] = memory(self.scenes[row].strip)
         self.pressure[rows], self.stopped[rows] = 0.0, False
-        self._stiffness[rows, _FIRST_HINGE:], self._rest[rows, _FIRST_HINGE:] = self._springs(
-            rows, np.zeros((len(rows), 1, self.pressure.shape[1]))
-        )[0]
+        none = np.zeros((len(rows), 1, self.pressure.shape[1]))
+        self._apply(rows, self._loads(rows, none, none, none)[0])
         self._batch.reset(rows)
         self._ends.start(rows)
 
@@ -118,6 +125,7 @@ class StripBatch:
         """
         if scenes is not None:
             for row, scene in zip(rows.tolist(), scenes, strict=True):
+                self._check(scene)
                 self.scenes[row] = scene
             write(self._batch, rows.tolist(), models(scenes, self.numerics))
             self._ends.replace(rows, scenes)
@@ -146,18 +154,17 @@ class StripBatch:
             self._memories[row].follow(path)
             for row, path in zip(rows.tolist(), pressure, strict=True)
         ])  # fmt: skip
-        springs = self._springs(rows, acting)
+        loads = self._loads(rows, valves, pressure, acting)
         may = np.array([flat_pressures(self.scenes[row].strip)[[0, -1]] for row in rows])
         flat = np.abs(acting[:, :, [0, -1]]) <= may[:, None]
-        dt, ends, hinges = self.numerics.timestep, self._ends, slice(_FIRST_HINGE, None)
+        dt, ends = self.numerics.timestep, self._ends
         active = np.flatnonzero(~self.stopped[rows])
         block.steps[self.stopped[rows]] = 0
-        for step, (stiffness, rest) in enumerate(springs):
+        for step, load in enumerate(loads):
             moving = rows[active]
             if not len(moving):
                 break
-            self._stiffness[moving, hinges] = stiffness[active]
-            self._rest[moving, hinges] = rest[active]
+            self._apply(moving, [part[active] for part in load])
             angles = self._qpos[moving, _FIRST_HINGE - 1 :]
             slopes = np.stack([angles[:, 0], -angles.sum(axis=1)], axis=1)
             ends.before_step(moving, slopes, flat[active, step])
@@ -166,6 +173,7 @@ class StripBatch:
             block.coordinates[active, step] = self._qpos[moving]
             block.contact[active, step] = ends.contact[moving]
             block.left_slip[active, step] = ends.left_slip[moving]
+            block.drift[active, step] = ends.drift[moving]
             low, high, thrown_from = self._limits[moving].T
             height = self._place[moving[:, None], self._feet, 2]
             stands = ((low[:, None] < height) & (height < high[:, None])).all(axis=1)
@@ -182,14 +190,34 @@ class StripBatch:
         """Coordinates of MuJoCo, (R, nq)."""
         return np.array(self._qpos[rows])
 
-    def _springs(self, rows: Indices, pressure: Array) -> list[tuple[Array, Array]]:
-        """Stiffness and rest angle of the hinges at each step, (R, N) each."""
-        each = [
-            joint_springs(self.scenes[row].strip, self.numerics.links, p, self.scenes[row].chamber)
-            for row, p in zip(rows.tolist(), pressure, strict=True)
-        ]
-        stiffness, rest = (np.array(part).swapaxes(0, 1) for part in zip(*each, strict=True))
-        return list(zip(stiffness, rest, strict=True))
+    def _loads(
+        self, rows: Indices, valves: Array, pressure: Array, acting: Array
+    ) -> list[tuple[Array, ...]]:
+        """What pressure does at each step: stiffness and rest angles of the hinges, or controls.
+
+        Args:
+            rows: which, (R,).
+            valves, pressure: commands of the valves and pressures in the chambers, (R, T, S) [Pa].
+            acting: pressures that bend, see analytic.scene.actuator.Memory, (R, T, S) [Pa].
+        """
+        each: list[tuple[Array, ...]] = []
+        for row, command, inside, bends in zip(
+            rows.tolist(), valves, pressure, acting, strict=True
+        ):
+            scene, numerics = self.scenes[row], self.numerics
+            if scene.actuation == "actuators":
+                each.append((controls(scene, numerics, command, self.pressure[row], inside),))
+            else:
+                each.append(joint_springs(scene.strip, numerics.links, bends, scene.chamber))
+        return list(zip(*(np.array(part).swapaxes(0, 1) for part in zip(*each, strict=True)),
+                        strict=True))  # fmt: skip
+
+    def _apply(self, rows: Indices, load: Sequence[Array]) -> None:
+        """Set springs or controls for the next step, (R, N) each."""
+        if len(load) == 1:
+            (self._control[rows],) = load
+        else:
+            self._stiffness[rows, _FIRST_HINGE:], self._rest[rows, _FIRST_HINGE:] = load
 
 
 def _limits(scene: Scene, numerics: Resolved) -> tuple[float, float, float]:

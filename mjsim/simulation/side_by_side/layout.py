@@ -11,39 +11,49 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
 
-from analytic.scene.ground import depends_on_speed
+from analytic.scene.ground import Patches, is_round, surfaces_of
 from analytic.scene.surface import Surface
 from mjsim.model.builder import bare_spec, compiled
 from mjsim.model.parts import PREFIX
 from mjsim.scene import Resolved, Scene
 from mjsim.simulation.schedule import before_start
+from mjsim.simulation.side_by_side.between import BATCH_LAWS
 
 # what MuJoCo computes of robots of one layout that differ; a test compares all other fields
 FIELDS = (
-    "body_inertia", "body_invweight0", "body_ipos", "body_mass", "body_pos", "body_subtreemass",
-    "bvh_aabb",
+    "actuator_acc0", "actuator_biasprm", "actuator_ctrlrange", "actuator_dynprm",
+    "actuator_gainprm", "body_inertia", "body_invweight0", "body_ipos", "body_mass", "body_pos",
+    "body_subtreemass", "bvh_aabb",
     "dof_M0", "dof_damping", "dof_invweight0", "dof_length", "geom_pos", "jnt_stiffness",
     "opt.gravity", "site_pos", "tendon_frictionloss", "tendon_invweight0", "tendon_length0",
     "tendon_lengthspring",
 )  # fmt: skip
 
 
-def refusal(scene: Scene) -> str | None:
-    """Reason why a scene cannot be stepped in a batch, or None if it can."""
+def refusal(scene: Scene, numerics: Resolved | None = None) -> str | None:
+    """Reason why a scene cannot be stepped in a batch, or None if it can.
+
+    Args:
+        scene: the walk.
+        numerics: how it is discretised; along straight paths if None.
+    """
     ground = scene.ground
     if scene.in_space:
         return "the robot must be a strip"
-    if (scene.body, scene.friction, scene.actuation) != ("chain", "constant", "rest-angles"):
-        return "body, friction and actuation must be chain, constant and rest-angles"
+    laws = {law for law, _ in BATCH_LAWS}
+    if scene.body != "chain" or scene.friction not in laws:
+        return f"body must be chain and friction {' or '.join(sorted(laws))}"
+    if numerics and numerics.contact_path != "straight":
+        return "contact paths must be straight"
     if scene.ceiling is not None:
         return "there must be no ceiling"
-    if scene.between:
-        return "friction must act at the ends alone"
     if scene.chamber == "sealed":
         return "chambers must not be sealed"
-    if not isinstance(ground, Surface) or depends_on_speed(ground) or ground.adhesion:
-        return "ground must be uniform, without viscosity and adhesion"
-    if not ground.is_round:
+    if not isinstance(ground, Surface | Patches):
+        return "ground must be uniform, or patches"
+    if any(surface.adhesion for surface in surfaces_of(ground)):
+        return "ground must be without adhesion"
+    if not is_round(ground):
         return "ground must resist alike in all directions"
     if scene.strip.feet:
         return "the strip must have no feet"
@@ -56,7 +66,12 @@ def refusal(scene: Scene) -> str | None:
 
 def layout(scene: Scene, numerics: Resolved) -> Hashable:
     """Numbers that all scenes of a batch have in common."""
-    return len(scene.strip.segments), len(before_start(scene, numerics))
+    follows = scene.actuation == "actuators" and bool(scene.valves.time_constant)
+    return (
+        scene.friction, scene.between, scene.actuation, scene.chamber, follows,
+        len(surfaces_of(scene.ground)), len(scene.strip.segments),
+        len(before_start(scene, numerics)),
+    )  # fmt: skip
 
 
 def bare_model(scene: Scene, numerics: Resolved) -> mujoco.MjModel:
@@ -86,6 +101,8 @@ def models(scenes: Sequence[Scene], numerics: Resolved) -> list[mujoco.MjModel]:
     for scene in scenes:
         robot = {k: v for k, v in vars(scene.strip).items() if k != "peak_pressure"}
         key = (*robot.items(), scene.gravity, scene.incline)
+        if scene.actuation == "actuators":
+            key = (*key, scene.strip.peak_pressure, scene.valves)
         if key not in compiled_models:
             compiled_models[key] = bare_model(scene, numerics)
         keys.append(key)

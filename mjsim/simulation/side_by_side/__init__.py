@@ -1,0 +1,1 @@
+"""Walks of many strips stepped side by side by mujoco.batch.Batch."""
