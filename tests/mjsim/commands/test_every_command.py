@@ -124,6 +124,13 @@ def case(request, tmp_path_factory):
     )
 
 
+ALSO_SLOW = pytest.mark.parametrize(
+    "case",
+    ["strip", "quadruped", pytest.param("three-legs", marks=pytest.mark.slow)],
+    indirect=True,
+)
+
+
 def said(command, words, capsys):
     """The JSON that a command prints."""
     assert command.main([*map(str, words), "--json"]) in (0, 3)
@@ -140,6 +147,7 @@ def test_the_walk_of_run_is_that_of_simulate_and_is_read_back(case):
     assert row["body"] == "chain"
 
 
+@ALSO_SLOW
 def test_compare_prints_the_distances_of_run(case, capsys):
     row, by = case.row, case.row["predicted_by"]
     table = said(compare, ["--scene", case.path, "--model", f"{by},chain"], capsys)
@@ -206,6 +214,7 @@ def test_controllers_sessions_and_environments_walk_as_the_gait_does(case):
     assert np.sign(went) == np.sign(measure(walk).displacement) or abs(went) < 0.01
 
 
+@ALSO_SLOW
 def test_a_fit_finds_the_modulus_that_a_walk_had(case, tmp_path, capsys):
     path, numerics = case.path, case.numerics
     stiff, _ = build(merged(case.tables, {"robot": {"modulus": 2.1e6}}))

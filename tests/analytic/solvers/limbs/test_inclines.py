@@ -67,6 +67,7 @@ def test_robot_and_slope_turned_alike_it_goes_the_same_way_of_its_own():
     assert [y, -x, turn_too] == pytest.approx([ahead, aside, turn], abs=1e-5)
 
 
+@pytest.mark.slow
 def test_slopes_to_the_left_and_to_the_right_are_mirrored():
     left, right = went(1, 90, states=2), went(1, -90, states=2)
     assert right == pytest.approx(left * [1, -1, -1], abs=1e-5)
