@@ -8,7 +8,8 @@ from matplotlib.figure import Figure
 
 TOP = Path(__file__).resolve().parent.parent
 PACKAGES = ("analytic", "mjsim", "studies")
-_BELOW = ("analytic.checks", "analytic.registry", "analytic.shapes")  # plain data too
+_BELOW = tuple(f"analytic.{name}" for name in  # plain data, and what serves it
+               ("checks", "fields", "lazy", "progress", "registry", "shapes", "units"))  # fmt: skip
 _LABEL = {"analytic": "prediction", "mjsim": "commands"}
 
 
