@@ -4,7 +4,7 @@ import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
@@ -16,6 +16,7 @@ from mjsim.pictures import gl
 
 if TYPE_CHECKING:
     from mjsim.results.trajectory import Trajectory
+    from mjsim.uncertainty.fields import Spread
 
 PROGRAM = "undulator report"
 
@@ -32,6 +33,8 @@ class Options:
     """.nc files of runs"""
     out: Path = Path("page.html")
     """the file to write"""
+    uncertain: str = ""
+    """fields that are not known, as of undulator run: within what the distance lies"""
     plugin: Plugins = ()
     no_video: bool = False
     """without videos"""
@@ -50,6 +53,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         plugins.load(options.plugin)
         loaded = [read(path) for path in options.trajectories]
+        unknown = [_unknown(walk, options.uncertain) for walk, _ in loaded]
         check_folder(options.out.parent)
     except ValueError as error:
         fail(PROGRAM, str(error))
@@ -68,9 +72,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         fail(PROGRAM, f"a video cannot be made: {error}; --no-video makes none")
     entries = []
     with bar("theory", len(loaded)) as advance:
-        for path, (walk, origin), video in zip(options.trajectories, loaded, videos, strict=True):
+        for path, (walk, origin), video, spreads in zip(
+            options.trajectories, loaded, videos, unknown, strict=True
+        ):
             row = record(walk)
             row["prediction_notes"] += doubts(walk, row)
+            if spreads:
+                row["prediction_notes"].append(_interval(walk, spreads, row))
             entries.append(Entry(path.stem, walk, row, origin, video))
             advance(1)
     try:
@@ -80,6 +88,27 @@ def main(argv: Sequence[str] | None = None) -> int:
         fail(PROGRAM, f"out cannot be written: {error}")
     print(options.out)
     return 0
+
+
+def _unknown(walk: "Trajectory", text: str) -> "tuple[Spread, ...]":
+    """What is not known of a walk's scene."""
+    if not text:
+        return ()
+    from mjsim.files.written import as_tables
+    from mjsim.uncertainty.fields import read_spreads
+
+    return read_spreads(as_tables(walk.scene, walk.numerics), text)
+
+
+def _interval(walk: "Trajectory", spreads: "tuple[Spread, ...]", row: dict[str, Any]) -> str:
+    """Within what the distance of a walk's scene lies, in words."""
+    from mjsim.files.written import as_tables
+    from mjsim.uncertainty.interval import distance_interval
+    from mjsim.uncertainty.report import known, sentence
+
+    tables = as_tables(walk.scene, walk.numerics)
+    interval = distance_interval(tables, spreads, centre=row["predicted_displacement_over_L"])
+    return f"{known(spreads)} {sentence(interval)}"
 
 
 def _films(walks: "Sequence[Trajectory]") -> list[bytes | None]:

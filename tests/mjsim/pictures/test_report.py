@@ -48,6 +48,21 @@ def test_the_page_holds_numbers_scene_and_origin(written):
     assert text.count("plotly.js v") == 1  # its script, once
 
 
+def test_the_page_tells_what_is_not_known(saved, tmp_path):
+    words = [saved, "--out", tmp_path / "page.html", "--no-video"]
+    assert commanded([*words, "--uncertain", "robot.modulus=5%"]) == 0
+    text = (tmp_path / "page.html").read_text("utf-8")
+    assert "Known: robot.modulus within 5 %." in text
+    assert re.search(r"-0\.03\d\d to -0\.03\d\d L \(95 %\)", text)
+
+
+def test_what_is_not_known_is_of_fields(saved, tmp_path, capsys):
+    with pytest.raises(SystemExit) as stop:
+        commanded([saved, "--out", tmp_path / "page.html", "--uncertain", "robot.colour=5%"])
+    assert stop.value.code == 2
+    assert "key 'colour' of [robot] is unknown" in capsys.readouterr().err
+
+
 def test_nothing_in_it_is_fetched(written):
     body = re.sub(r"<script>.*?</script>", "", written.read_text("utf-8"), flags=re.DOTALL)
     assert not re.findall(r"(?:src|href)='(?!data:)[^']*'", body)
