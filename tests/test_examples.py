@@ -242,6 +242,7 @@ def test_over_the_seam_wave_and_controller_begin_alike_in_theory_and_mujoco():
     assert went["controller"] == pytest.approx(went["MuJoCo, controller"], abs=0.01)
 
 
+@pytest.mark.slow
 def test_gradient_steps_find_a_gait_that_goes_half_as_far_again_in_a_few_walks():
     first, best, walks = example("steepest_gait")()
     assert best > 1.5 * first

@@ -31,6 +31,7 @@ def test_on_a_slope_it_goes_as_far_as_by_its_reference(uphill):
     assert measure(simulate(scene)).displacement == pytest.approx(ahead, abs=0.003)
 
 
+@pytest.mark.slow
 def test_where_no_bound_holds_its_weight_it_slid_and_says_so(tmp_path, capsys):
     options = ["--robot", "quadruped", "--surface", "polyethylene", "--slope", "6",
                "--gait.ramp-time", "0.5"]  # fmt: skip

@@ -60,6 +60,7 @@ def test_a_scene_is_built_from_the_tables_that_it_is_written_as(ground):
 
 
 @pytest.mark.usefixtures("coarse")
+@pytest.mark.slow
 def test_the_page_of_a_robot_of_limbs_has_its_turn_its_limbs_and_its_scene(tmp_path):
     walk = simulate(scene(), NUMERICS)
     walk.save(tmp_path / "walk.nc")

@@ -12,7 +12,10 @@ from analytic.solvers.limbs.walk import walk
 QUADRUPED = quadruped()
 
 
-@pytest.mark.parametrize(("name", "left", "twists"), [("felt", 1.0, 2), ("gelatin", 0.7, 0)])
+@pytest.mark.parametrize(
+    ("name", "left", "twists"),
+    [("felt", 1.0, 2), pytest.param("gelatin", 0.7, 0, marks=pytest.mark.slow)],
+)
 def test_states_on_their_contacts_are_those_of_least_energy_and_dissipation(
     name, left, twists, monkeypatch
 ):
