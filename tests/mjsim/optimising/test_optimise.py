@@ -82,7 +82,8 @@ def test_several_grounds_at_once_are_each_alone():
         assert abs(shift) < 1e-6 * robot.length
 
 
-@pytest.mark.parametrize("model", ["modes", pytest.param("lifted", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("model", ["modes", "lifted"])
 def test_what_the_modes_promise_and_exact_contact_does_not_keep_does_not_count(model):
     rng, space, fooled = np.random.default_rng(4), Space(3, 10.0), 0
     felt = SURFACES["felt"]
