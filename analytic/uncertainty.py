@@ -11,6 +11,8 @@ from analytic.scene import pneunet
 from analytic.scene.surface import Surface
 from analytic.shapes import Flag
 
+Array = NDArray[np.float64]
+
 _POINTS = 81  # of a shape, whose integrals they are; chosen
 _STILL = 1e-9  # of the length, that no separation changes by
 
@@ -57,9 +59,7 @@ def small_slopes(prediction: Prediction) -> float:
     of about the steepest slope squared. What counts is where one end ceases to slide and the other
     begins, as between the two the displacement is a difference of separations.
     """
-    shapes = prediction.shapes
-    s = np.linspace(0.0, shapes.robot.length, _POINTS)
-    _, y = shapes.curve(s)
+    shapes, (s, y) = prediction.shapes, _heights(prediction)
     slope = np.abs(np.gradient(y, s, axis=1)).max(axis=1)
     return _at_changes(prediction, slope**2 * (shapes.robot.length - shapes.separation))
 
@@ -76,14 +76,18 @@ def bending_by_friction(prediction: Prediction, surface: Surface, law: str = "co
         prediction: by a solver of weak friction.
         surface, law: under it.
     """
-    shapes = prediction.shapes
-    s = np.linspace(0.0, shapes.robot.length, _POINTS)
-    _, y = shapes.curve(s)
+    shapes, (s, y) = prediction.shapes, _heights(prediction)
     yielding = np.trapezoid(y**2, s, axis=1) / pneunet.base_rigidity(shapes.robot)
     return _at_changes(prediction, yielding * weaker_bound(shapes, surface, law))
 
 
-def _at_changes(prediction: Prediction, change: NDArray[np.float64]) -> float:
+def _heights(prediction: Prediction) -> tuple[Array, Array]:
+    """Arclengths (S,) and heights of the strip there in all states, (B, S) [m]."""
+    s = np.linspace(0.0, prediction.shapes.robot.length, _POINTS)
+    return s, prediction.shapes.curve(s)[1]
+
+
+def _at_changes(prediction: Prediction, change: Array) -> float:
     """Sum of changes of separation (B,), each times how much the slip of an end changes there."""
     shift, slid = np.diff(prediction.shapes.separation), np.diff(prediction.locomotion.left)
     moves = np.abs(shift) > _STILL * prediction.shapes.robot.length

@@ -140,16 +140,16 @@ def _objective(
 def _corners(text: str, tables: Sequence[Tables]) -> "Corners":
     """Robots and their surfaces at the corners of what is not known."""
     from mjsim.fitting.parameters import with_values
-    from mjsim.uncertainty.fields import corners, read_spreads
+    from mjsim.uncertainty.fields import Within, corners, read_spreads
 
-    for word in ("valves.", ".json"):
-        if word in text:
+    by_robot: dict[AnyRobot, list[Surface]] = {}
+    for table in tables:
+        spreads = read_spreads(table, text)
+        if not all(isinstance(spread, Within) and spread.of_robot_and_ground for spread in spreads):
             raise ValueError(
                 f"uncertain must be fields of robot and surface in a search, got {text!r}"
             )
-    by_robot: dict[AnyRobot, list[Surface]] = {}
-    for table in tables:
-        for values in corners(read_spreads(table, text)):
+        for values in corners(spreads):
             scene, _ = build(with_values(table, values))
             assert isinstance(scene.ground, Surface)
             by_robot.setdefault(scene.robot, []).append(scene.ground)

@@ -103,12 +103,11 @@ def _unknown(walk: "Trajectory", text: str) -> "tuple[Spread, ...]":
 def _interval(walk: "Trajectory", spreads: "tuple[Spread, ...]", row: dict[str, Any]) -> str:
     """Within what the distance of a walk's scene lies, in words."""
     from mjsim.files.written import as_tables
-    from mjsim.uncertainty.interval import distance_interval
-    from mjsim.uncertainty.report import known, sentence
+    from mjsim.uncertainty.report import described
 
     tables = as_tables(walk.scene, walk.numerics)
-    interval = distance_interval(tables, spreads, centre=row["predicted_displacement_over_L"])
-    return f"{known(spreads)} {sentence(interval)}"
+    words = described(tables, spreads, row["predicted_displacement_over_L"])
+    return f"{words['known']} {words['text']}"
 
 
 def _films(walks: "Sequence[Trajectory]") -> list[bytes | None]:

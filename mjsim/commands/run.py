@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Optional
 
 from mjsim.files.cli import FAILED, bar, fail, parse, reference_bar, say, strict_json, warn
-from mjsim.files.dataclass_options import given
 from mjsim.files.files import check_folder
 from mjsim.files.interruption import uninterrupted
 from mjsim.files.options import SceneOptions, tables_of
@@ -60,19 +59,18 @@ class Options(SceneOptions):
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv, EXAMPLES)
-    if options.tolerance is not None and given(options.numerics_).get("body") is None:
-        try:
-            cases = [build(table) for table in tables_of(options)]
-            if all(scene.body == Scene.body for scene, _ in cases):
-                return _smallest(options, cases, options.tolerance)
-        except ValueError as error:
-            fail(PROGRAM, str(error))
+    try:
+        tables = tables_of(options)
+        if options.tolerance is not None and "body" not in tables[0]["numerics"]:
+            return _smallest(options, tables, options.tolerance)
+    except (ValueError, OSError) as error:
+        fail(PROGRAM, str(error))
     gl.prepare()
     records: list[dict[str, Any]] = []
     walks: list[Trajectory] = []
     joint, end = None, None
     try:
-        _walk(options, records, walks)
+        _walk(options, tables, records, walks)
     except (ValueError, OSError, KeyboardInterrupt) as error:
         end = error  # of what was not done yet; what was done is printed first
     if records and not options.json:
@@ -94,13 +92,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     return 0 if all(row["status"] in WALKED for row in records) else FAILED
 
 
-def _smallest(options: Options, cases: list[tuple[Scene, Numerics]], tolerance: float) -> int:
+def _smallest(options: Options, tables: list[Tables], tolerance: float) -> int:
     """Print the smallest answers that are sure; returns the exit code."""
     from mjsim.simulation.sufficient import record, smallest_sure, table
 
     if options.uncertain:
         raise ValueError("uncertain is for runs without tolerance, got both")
-    rows = []
+    cases, rows = [build(table) for table in tables], []
     with bar("asking models", len(cases)) as advance:
         for scene, numerics in cases:
             rows.append(record(scene, smallest_sure(scene, tolerance, numerics)))
@@ -154,7 +152,10 @@ def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables]
     return tables, tolerance
 
 
-def _walk(options: Options, records: list[dict[str, Any]], walks: "list[Trajectory]") -> None:
+def _walk(
+    options: Options, tables: list[Tables], records: list[dict[str, Any]],
+    walks: "list[Trajectory]",
+) -> None:  # fmt: skip
     """Simulate each scene and save its walk; add both to lists, that outlive an error.
 
     Raises:
@@ -162,7 +163,7 @@ def _walk(options: Options, records: list[dict[str, Any]], walks: "list[Trajecto
         OSError: a walk cannot be saved.
         KeyboardInterrupt: with what was stopped, if anything was done before.
     """
-    tables, tolerance = _bodies(tables_of(options), options.tolerance)
+    tables, tolerance = _bodies(tables, options.tolerance)
     cases = [build(table) for table in tables]
     unknown: list[tuple[Spread, ...]] = [()] * len(tables)
     if options.uncertain:
@@ -206,13 +207,12 @@ def _walk(options: Options, records: list[dict[str, Any]], walks: "list[Trajecto
 
 def _not_known(row: dict[str, Any], tables: Tables, spreads: "tuple[Spread, ...]") -> None:
     """Add to a record within what its distance lies for what is not known of its scene."""
-    from mjsim.uncertainty.interval import distance_interval, walks_for
-    from mjsim.uncertainty.report import known, record, sentence
+    from mjsim.uncertainty.interval import walks_for
+    from mjsim.uncertainty.report import described
 
-    centre = row["predicted_displacement_over_L"]
     with bar(f"what is not known, {row['surface']}", walks_for(spreads)) as advance:
-        interval = distance_interval(tables, spreads, centre=centre, advance=advance)
-    row["uncertain"] = {"known": known(spreads), "text": sentence(interval), **record(interval)}
+        centre = row["predicted_displacement_over_L"]
+        row["uncertain"] = described(tables, spreads, centre, advance)
 
 
 def _recorded(walk: "Trajectory") -> tuple[dict[str, Any], bool]:

@@ -14,7 +14,7 @@ from scipy.special import ndtri
 from analytic.checks import missing
 from mjsim.files.tables import Tables, build
 from mjsim.files.units import in_unit
-from mjsim.fitting.parameters import check_free, unit_of, value_of, with_values
+from mjsim.fitting.parameters import OWN_GROUND, check_free, unit_of, value_of, with_values
 
 Array = NDArray[np.float64]
 
@@ -38,6 +38,11 @@ class Spread(ABC):
     names: tuple[str, ...]
     axes: int
     end: float
+
+    @property
+    def of_robot_and_ground(self) -> bool:
+        """True if all fields are of the robot or of the scene's ground, none of valves."""
+        return all(name.partition(".")[0] in ("robot", OWN_GROUND) for name in self.names)
 
     @property
     @abstractmethod

@@ -22,7 +22,7 @@ from scipy.stats import qmc
 
 from analytic.locomotion import direction
 from mjsim.files.tables import Tables, build
-from mjsim.fitting.parameters import OWN_GROUND, with_values
+from mjsim.fitting.parameters import with_values
 from mjsim.results.prediction import HALF, displacement, prediction, reference
 from mjsim.scene import Numerics
 from mjsim.uncertainty.fields import Spread, by_spread, values_at
@@ -121,7 +121,7 @@ def _straight(base: Tables, spreads: Sequence[Spread], centre: float | None) -> 
     """Interval by derivatives, None where there are none or the distance is not straight."""
     scene, numerics = build(base)
     names = [name for spread in spreads for name in spread.names]
-    if scene.in_space or any(name.partition(".")[0] not in ("robot", OWN_GROUND) for name in names):
+    if scene.in_space or not all(spread.of_robot_and_ground for spread in spreads):
         return None
     try:
         walk = prediction(scene, gradient=names)
@@ -157,12 +157,12 @@ def interval_of(spreads: Sequence[Spread], places: Array, walked: Array) -> Inte
         places: coordinates, (N, axes of all).
         walked: distances over L, NaN where there is none, (N,).
     """
-    found = np.isfinite(walked)
-    failed = int((~found).sum())
-    if found.sum() < 2:
+    finite = np.isfinite(walked)
+    failed = int((~finite).sum())
+    if finite.sum() < 2:
         return Interval(math.nan, math.nan, {}, math.nan, {}, len(walked), failed, SAMPLE)
-    values = walked[found]
-    terms = _terms(places[found])
+    values = walked[finite]
+    terms = _terms(places[finite])
     inverse = np.linalg.pinv(terms)
     coefficients = inverse @ values
     lever = np.einsum("nt,tn->n", terms, inverse)

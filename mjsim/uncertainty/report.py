@@ -1,14 +1,26 @@
 """An interval as plain data, and in words."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
+from mjsim.files.tables import Tables
 from mjsim.uncertainty.fields import Spread
-from mjsim.uncertainty.interval import Interval
+from mjsim.uncertainty.interval import Interval, distance_interval
 
 _NAMED = 0.005  # part of the variance from which on it is told; chosen
 _NOTHING = 1e-9  # part of it that is rounding
+
+
+def described(
+    base: Tables,
+    spreads: Sequence[Spread],
+    centre: float | None,
+    advance: Callable[[int], object] = lambda _: None,
+) -> dict[str, Any]:
+    """Plain data and words of the interval of a scene; see distance_interval."""
+    interval = distance_interval(base, spreads, centre=centre, advance=advance)
+    return {"known": known(spreads), "text": sentence(interval), **record(interval)}
 
 
 def record(interval: Interval) -> dict[str, Any]:

@@ -76,6 +76,15 @@ def test_the_command_says_which_model_and_why_not_a_cheaper_one(capsys):
     assert row["passed_over"][0]["model"] == "modes"
 
 
+def test_a_body_that_a_file_names_is_walked(tmp_path, capsys):
+    path = tmp_path / "scene.toml"
+    path.write_text('[gait]\nramp_time = 0.5\n[numerics]\nbody = "auto"\n')
+    words = ["--scene", path, "--tolerance", "0.1", "--no-video", "--out", tmp_path, "--json"]
+    assert run.main([str(word) for word in words]) == 0
+    row = json.loads(capsys.readouterr().out)
+    assert any(note.startswith("auto: ") for note in row["prediction_notes"])
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
