@@ -92,7 +92,7 @@ def distance_interval(
         centre: distance over L of the scene itself, by finer links and states; as `distance` has it
             if not given.
         seed: of the draws.
-        advance: is told of each walk.
+        advance: called with 1 after each walk.
 
     Raises:
         ValueError: valves are not ideal: the pressures that they let through are not those that the
