@@ -125,11 +125,11 @@ def predict(
         return walked
     if not own:
         raise ValueError("gradient must be of a gait, not of a path that is given")
-    from analytic.gradient.gradient import gradient as found
+    from analytic.gradient.gradient import gradient as differentiate
 
     inputs = Inputs(robot, gait, cast(Surface, ground), friction)  # others are told apart
     return walked._replace(
-        gradient=found(inputs, solver, walked.shapes, walked.locomotion.left, walked.times, cycles,
+        gradient=differentiate(inputs, solver, walked.shapes, walked.locomotion.left, walked.times, cycles,
                        gradient)
     )  # fmt: skip
 
