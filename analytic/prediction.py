@@ -129,9 +129,10 @@ def predict(
 
     inputs = Inputs(robot, gait, cast(Surface, ground), friction)  # others are told apart
     return walked._replace(
-        gradient=differentiate(inputs, solver, walked.shapes, walked.locomotion.left, walked.times, cycles,
-                       gradient)
-    )  # fmt: skip
+        gradient=differentiate(
+            inputs, solver, walked.shapes, walked.locomotion.left, walked.times, cycles, gradient
+        )
+    )
 
 
 def predict_grounds(
