@@ -14,6 +14,7 @@ import itertools
 import json
 import math
 import sys
+import time
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import replace
 from pathlib import Path
@@ -30,12 +31,10 @@ from mjsim.simulation import checked
 from mjsim.simulation.simulation import simulate
 
 TOLERANCES = (0.1, 0.02, 0.005)
-LADDER = {"ends": ((4, 0.01), (6, 0.005), (12, 0.002)),
-          "all": ((8, 0.005), (16, 0.0025), (32, 0.00125))}  # fmt: skip
-FAST = {
-    "ends": ((4, 0.05), (6, 0.05), (4, 0.02)),
-    "all": ((8, 0.05), (8, 0.02), (8, 0.01)),
-}  # for the record
+LADDER = {  # links a segment, time step [s], steps that a ramp has at least
+    "ends": ((4, 0.05, 25), (6, 0.03, 50), (8, 0.02, 60), (10, 0.005, 100), (12, 0.002, 250)),
+    "all": ((6, 0.02, 40), (8, 0.01, 50), (10, 0.008, 80), (16, 0.005, 100), (32, 0.00125, 400)),
+}
 KEPT = Path(__file__).resolve().parents[1] / "build"
 
 
@@ -43,7 +42,10 @@ def scene_of(seed: int, kind: int) -> Scene:
     """A random scene; of kind 0 for the design, 1 for the check."""
     for more in range(100):
         rng = np.random.default_rng([77, kind, seed, more])
-        scene, _ = draw(100_000 * (1 + kind) + 100 * seed + more)
+        try:
+            scene, _ = draw(100_000 * (1 + kind) + 100 * seed + more)
+        except ValueError:  # friction so weak that a scene takes it for a slip of units
+            continue
         ramp = float(np.exp(rng.uniform(np.log(0.5), np.log(4.0))))
         scene = replace(scene, friction="constant", gait=replace(scene.gait, ramp_time=ramp))
         if scene.between == bool(seed % 2) and (seed % 2 or len(scene.robot.segments) <= 6):
@@ -72,16 +74,19 @@ def distance(walk) -> float:
 
 
 def design_rows(seed: int) -> list[list]:
-    """A row a level: seed, contacts, links a segment, step, distances and how they ended."""
+    """A row a level: seed, contacts, level, true distance and end, those found, speed, ..."""
     scene = scene_of(seed, 0)
-    contacts, shortest = "all" if scene.between else "ends", min(scene.gait.ramp_times)
+    contacts = "all" if scene.between else "ends"
     exact, status = kept_truth(0, seed)
     rows = []
-    for part, timestep in FAST[contacts] + LADDER[contacts]:
+    for part, longest, steps in LADDER[contacts]:
         links = max(12, part * len(scene.robot.segments))
-        walk = simulate(scene, Numerics(links=links, timestep=min(timestep, shortest / 40)))
-        rows.append([seed, contacts, part, timestep, exact, status, distance(walk),
-                     str(walk.status), speed([walk])])  # fmt: skip
+        timestep = min(longest, min(scene.gait.ramp_times) / steps)
+        walk = simulate(scene, Numerics(links=links, timestep=timestep))
+        numbers = measure(walk)
+        rows.append([seed, contacts, [part, longest, steps], exact, status, distance(walk),
+                     str(walk.status), speed([walk]), timestep,
+                     numbers.unexplained if numbers else math.nan])  # fmt: skip
     return rows
 
 
@@ -90,10 +95,13 @@ def check_rows(seed: int) -> list[list]:
     scene = scene_of(seed, 1)
     exact, status = kept_truth(1, seed)
     walks: dict[Numerics, Trajectory] = {}
+    whole: dict[Numerics, float] = {}
 
-    def once(scene: Scene, numerics: Numerics, progress: object = None) -> Trajectory:
+    def once(scene: Scene, numerics: Numerics, *_: object) -> Trajectory:
         if numerics not in walks:
+            began = time.process_time()
             walks[numerics] = simulate(scene, numerics)
+            whole[walks[numerics].numerics] = time.process_time() - began
         return walks[numerics]
 
     checked.simulate = once
@@ -103,7 +111,8 @@ def check_rows(seed: int) -> list[list]:
         spent = [walk for walk in walks.values() if walk.numerics in found.tried]
         rows.append([seed, "all" if scene.between else "ends", tolerance, exact, status,
                      distance(found.walk), str(found.walk.status), found.agreed, len(found.tried),
-                     speed([found.walk]), speed(spent)])  # fmt: skip
+                     speed([found.walk]), speed(spent),
+                     simulated(found.walk) / sum(whole[used] for used in found.tried)])  # fmt: skip
     return rows
 
 
@@ -113,7 +122,12 @@ def right(found: float, exact: float, tolerance: float) -> bool:
 
 def speed(walks: list[Trajectory]) -> float:
     """Simulated seconds of the last one over the CPU seconds of all."""
-    return len(walks[-1].time) * walks[-1].numerics.timestep / sum(w.cpu_time for w in walks)
+    return simulated(walks[-1]) / sum(walk.cpu_time for walk in walks)
+
+
+def simulated(walk: Trajectory) -> float:
+    """Seconds that a walk simulates."""
+    return len(walk.time) * walk.numerics.timestep
 
 
 def measured(work, name: str, count: int, only: set[int] | None = None) -> list[list]:
@@ -133,22 +147,21 @@ def measured(work, name: str, count: int, only: set[int] | None = None) -> list[
 
 
 def design(count: int) -> None:
-    rows = [row for row in measured(design_rows, "auto-design", count) if row[5] == "ok"]
+    rows = [row for row in measured(design_rows, "auto-design", count) if row[4] == "ok"]
     table = []
-    for contacts in LADDER:
-        for part, timestep in FAST[contacts] + LADDER[contacts]:
-            here = [row for row in rows if row[1:4] == [contacts, part, timestep]]
-            parts = [np.mean([right(row[6], row[4], t) for row in here]) for t in TOLERANCES]
-            line = Level(contacts, part, timestep, len(here), *(round(float(p), 3) for p in parts),
-                        float(f"{np.median([row[8] for row in here]):.2g}"))  # fmt: skip
-            print(*line, "failed", sum(row[7] != "ok" for row in here))
-            if (part, timestep) in LADDER[contacts]:
-                table.append(line)
+    for contacts, ladder in LADDER.items():
+        for level in ladder:
+            here = [row for row in rows if row[1] == contacts and tuple(row[2]) == level]
+            parts = [np.mean([right(row[5], row[3], t) for row in here]) for t in TOLERANCES]
+            line = Level(contacts, *level, len(here), *(round(float(part), 3) for part in parts),
+                         float(f"{np.median([row[7] for row in here]):.2g}"))  # fmt: skip
+            print(*line, "failed", sum(row[6] != "ok" for row in here))
+            table.append(line)
     for contacts, tolerance in itertools.product(LADDER, TOLERANCES):
-        for part in (1.0, 0.5, 0.25):
-            found = [rule(here, contacts, tolerance, part) for here in by_scene(rows, contacts)]
+        for part in (0.25, 0.4, 0.5):
+            found = [rule(here, tolerance, part) for here in by_scene(rows, contacts)]
             ok, realtime = zip(*found, strict=True)
-            print(f"{contacts}, {tolerance:.1%}: two within {part:g} of it: right "
+            print(f"{contacts}, {tolerance:.1%}: two calm ones within {part:g} of it: right "
                   f"{np.mean(ok):.0%}, {np.median(realtime):.0f} times real time")  # fmt: skip
     with TABLE.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
@@ -160,17 +173,16 @@ def by_scene(rows: list[list], contacts: str) -> list[list[list]]:
     return [[row for row in rows if row[0] == seed] for seed in seeds]
 
 
-def rule(rows: list[list], contacts: str, tolerance: float, part: float) -> tuple[bool, float]:
+def rule(rows: list[list], tolerance: float, calm: float) -> tuple[bool, float]:
     """Whether the answer is right if two coarse walks must agree so closely, and its speed."""
     before, spent = math.nan, 0.0
-    for pair in LADDER[contacts]:
-        (row,) = (row for row in rows if tuple(row[2:4]) == pair)
-        spent += 1 / row[8]
-        part = max(part, checked.closeness(pair[1]))
-        if abs(row[6] - before) <= part * checked.allowed(row[6], tolerance):
+    for row in rows:
+        spent += 1 / row[7]
+        most = checked.allowed(row[5], tolerance)
+        if abs(row[5] - before) <= checked.closeness(row[8], row[9] / most, calm) * most:
             break
-        before = row[6]
-    return right(row[6], row[4], tolerance), 1 / spent
+        before = row[5]
+    return right(row[5], row[3], tolerance), 1 / spent
 
 
 def check(count: int) -> None:
@@ -186,7 +198,8 @@ def check(count: int) -> None:
                   f"fails in {len(walks) - len(kept)}; within {np.mean(fine):.1%}, of the "
                   f"{len(said)} that agreed {np.mean(said):.1%}; the finest walk "
                   f"{np.median([row[9] for row in kept]):.0f} times real time, all of them "
-                  f"{np.median([row[10] for row in kept]):.0f}; "
+                  f"{np.median([row[10] for row in kept]):.0f}, compilation included "
+                  f"{np.median([row[11] for row in kept]):.0f}; "
                   f"{np.mean([row[8] for row in kept]):.1f} walks a scene")  # fmt: skip
     for row in rows:
         if row[4] == "ok" and not (row[6] == "ok" and right(row[5], row[3], row[2])):

@@ -22,6 +22,7 @@ class Level(NamedTuple):
     Attributes:
         contacts: where friction acts, "ends" or "all".
         links_per_segment, timestep: [1, s].
+        steps_per_ramp: that a ramp has at least, however short.
         scenes: number of scenes on which it was measured.
         within_10, within_2, within_half: part of them within 10 %, 2 % and 0.5 %.
         realtime: median of simulated time over CPU time.
@@ -30,6 +31,7 @@ class Level(NamedTuple):
     contacts: str
     links_per_segment: int
     timestep: float
+    steps_per_ramp: int
     scenes: int
     within_10: float
     within_2: float
@@ -53,6 +55,7 @@ def levels(contacts: str, path: Path = TABLE) -> list[Level]:
     with path.open(newline="", encoding="utf-8") as file:
         return [
             Level(row["contacts"], int(row["links_per_segment"]), float(row["timestep"]),
-                 int(row["scenes"]), *(float(row[name]) for name in Level._fields[4:]))
+                 int(row["steps_per_ramp"]), int(row["scenes"]),
+                 *(float(row[name]) for name in Level._fields[5:]))
             for row in csv.DictReader(file) if row["contacts"] == contacts
         ]  # fmt: skip
