@@ -1,6 +1,6 @@
 """What body auto rests on, and whether it keeps its word.
 
-    python benchmarks/auto.py design [count]   measure mjsim/scene/auto.csv
+    python benchmarks/auto.py design [count]   what the levels of mjsim/scene/auto.csv are worth
     python benchmarks/auto.py check [count]    on scenes that it knows nothing of: `make auto`
 
 Scenes of benchmarks/reach.py under constant bounds, ramps of 0.5 to 4 s; every second one has its
@@ -9,7 +9,6 @@ between the ends, and 2 ms, so that inertia is in both. What was measured is kep
 truth by itself, so that another rule can be tried soon.
 """
 
-import csv
 import itertools
 import json
 import math
@@ -26,15 +25,12 @@ from mjsim.files.files import whole
 from mjsim.results.measures import measure
 from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Scene
-from mjsim.scene.auto import TABLE, Level
+from mjsim.scene.auto import levels
 from mjsim.simulation import checked
 from mjsim.simulation.simulation import simulate
 
 TOLERANCES = (0.1, 0.02, 0.005)
-LADDER = {  # links a segment, time step [s], steps that a ramp has at least
-    "ends": ((4, 0.05, 25), (6, 0.03, 50), (8, 0.02, 60), (10, 0.005, 100), (12, 0.002, 250)),
-    "all": ((6, 0.02, 40), (8, 0.01, 50), (10, 0.008, 80), (16, 0.005, 100), (32, 0.00125, 400)),
-}
+LADDER = {contacts: levels(contacts) for contacts in ("ends", "all")}
 KEPT = Path(__file__).resolve().parents[1] / "build"
 
 
@@ -79,12 +75,12 @@ def design_rows(seed: int) -> list[list]:
     contacts = "all" if scene.between else "ends"
     exact, status = kept_truth(0, seed)
     rows = []
-    for part, longest, steps in LADDER[contacts]:
-        links = max(12, part * len(scene.robot.segments))
-        timestep = min(longest, min(scene.gait.ramp_times) / steps)
+    for level in LADDER[contacts]:
+        links = max(12, level.links_per_segment * len(scene.robot.segments))
+        timestep = min(level.timestep, min(scene.gait.ramp_times) / level.steps_per_ramp)
         walk = simulate(scene, Numerics(links=links, timestep=timestep))
         numbers = measure(walk)
-        rows.append([seed, contacts, [part, longest, steps], exact, status, distance(walk),
+        rows.append([seed, contacts, level, exact, status, distance(walk),
                      str(walk.status), speed([walk]), timestep,
                      numbers.unexplained if numbers else math.nan])  # fmt: skip
     return rows
@@ -95,13 +91,13 @@ def check_rows(seed: int) -> list[list]:
     scene = scene_of(seed, 1)
     exact, status = kept_truth(1, seed)
     walks: dict[Numerics, Trajectory] = {}
-    whole: dict[Numerics, float] = {}
+    cost: dict[Numerics, float] = {}
 
     def once(scene: Scene, numerics: Numerics, *_: object) -> Trajectory:
         if numerics not in walks:
             began = time.process_time()
             walks[numerics] = simulate(scene, numerics)
-            whole[walks[numerics].numerics] = time.process_time() - began
+            cost[walks[numerics].numerics] = time.process_time() - began
         return walks[numerics]
 
     checked.simulate = once
@@ -112,7 +108,7 @@ def check_rows(seed: int) -> list[list]:
         rows.append([seed, "all" if scene.between else "ends", tolerance, exact, status,
                      distance(found.walk), str(found.walk.status), found.agreed, len(found.tried),
                      speed([found.walk]), speed(spent),
-                     simulated(found.walk) / sum(whole[used] for used in found.tried)])  # fmt: skip
+                     simulated(found.walk) / sum(cost[used] for used in found.tried)])  # fmt: skip
     return rows
 
 
@@ -148,24 +144,18 @@ def measured(work, name: str, count: int, only: set[int] | None = None) -> list[
 
 def design(count: int) -> None:
     rows = [row for row in measured(design_rows, "auto-design", count) if row[4] == "ok"]
-    table = []
-    for contacts, ladder in LADDER.items():
-        for level in ladder:
-            here = [row for row in rows if row[1] == contacts and tuple(row[2]) == level]
-            parts = [np.mean([right(row[5], row[3], t) for row in here]) for t in TOLERANCES]
-            line = Level(contacts, *level, len(here), *(round(float(part), 3) for part in parts),
-                         float(f"{np.median([row[7] for row in here]):.2g}"))  # fmt: skip
-            print(*line, "failed", sum(row[6] != "ok" for row in here))
-            table.append(line)
+    for level in itertools.chain(*LADDER.values()):
+        here = [row for row in rows if row[2] == list(level)]
+        parts = [np.mean([right(row[5], row[3], t) for row in here]) for t in TOLERANCES]
+        print(*level, f"{len(here)} scenes, within 10, 2 and 0.5 %", *(f"{p:.0%}" for p in parts),
+              f"{np.median([row[7] for row in here]):.2g} times real time,",
+              sum(row[6] != "ok" for row in here), "fail")  # fmt: skip
     for contacts, tolerance in itertools.product(LADDER, TOLERANCES):
         for part in (0.25, 0.4, 0.5):
             found = [rule(here, tolerance, part) for here in by_scene(rows, contacts)]
             ok, realtime = zip(*found, strict=True)
             print(f"{contacts}, {tolerance:.1%}: two calm ones within {part:g} of it: right "
                   f"{np.mean(ok):.0%}, {np.median(realtime):.0f} times real time")  # fmt: skip
-    with TABLE.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerows([Level._fields, *table])
 
 
 def by_scene(rows: list[list], contacts: str) -> list[list[list]]:
