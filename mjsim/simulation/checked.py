@@ -29,9 +29,8 @@ from mjsim.simulation.simulation import simulate
 _STEPS_A_RAMP = 40  # chosen
 _IN_SPACE = ((4, 0.02), (6, 0.01), (8, 0.005), (12, 0.0025), (16, 0.001))  # links of a limb, s
 _FINE = 0.005  # s: at longer steps a strip may fall by the numerics alone
-_CALM = 0.4  # of the tolerance that two walks may be apart by at steps longer than _FINE; chosen
-_CLOSE = 0.25  # the same at steps down to
-_FINEST = 0.002  # s, and of robots in space
+_CLOSE = 0.25  # of the tolerance that two walks may be apart by, at steps
+_FINEST = 0.002  # s; longer than this
 _SHORT = 1e-3  # of the length: less is as good as the same, whatever the tolerance
 
 
@@ -125,29 +124,28 @@ def agreement(before: Trajectory, walk: Trajectory, tolerance: float) -> tuple[f
         return math.nan, alike and before.numerics.timestep <= _FINE
     error = abs(coarse.displacement - fine.displacement)
     most, timestep = allowed(fine.displacement, tolerance), walk.numerics.timestep
+    unexplained = fine.unexplained / most
     if walk.scene.in_space:  # where no rule tells what is to be expected
-        close = closeness(timestep, 0.0, _CLOSE)
-    else:
-        explained = not unbraked(walk.scene)
-        close = closeness(timestep, fine.unexplained / most if explained else math.inf)
-    return error, error <= close * most
+        unexplained = 0.0
+    elif unbraked(walk.scene):
+        unexplained = math.inf
+    return error, error <= closeness(timestep, unexplained) * most
 
 
-def closeness(timestep: float, unexplained: float, calm: float = _CALM) -> float:
+def closeness(timestep: float, unexplained: float) -> float:
     """Part of the tolerance within which a walk must agree with the one before.
 
     Args:
         timestep: of the walk [s].
         unexplained: displacement that the rule of friction does not account for, over the
             tolerance; NaN where there is no rule.
-        calm: the part at steps longer than _FINE.
 
     Returns:
         The part, below 0 where no agreement is enough.
     """
-    if timestep <= _FINE:
-        return 1.0 if timestep <= _FINEST else _CLOSE
-    return calm if abs(unexplained) <= 1.0 else -1.0
+    if timestep <= _FINEST:
+        return 1.0
+    return _CLOSE if timestep <= _FINE or abs(unexplained) <= 1.0 else -1.0
 
 
 def allowed(displacement: float, tolerance: float) -> float:
