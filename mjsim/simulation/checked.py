@@ -4,7 +4,7 @@ Two walks in a row must agree within a part of the tolerance, as coarse ones may
 and within all of it once steps are so short that errors halve; they differ in links as well as in
 steps. Coarse walks are wrong where inertia counts, which damps out of long steps, and where
 contacts creep. The quasi-static rule of which end slides, for the shapes that the walk itself went
-through, tells both, at no cost: steps longer than 5 ms are believed only where that rule accounts
+through, tells both, at no cost: steps longer than 2 ms are believed only where that rule accounts
 for the distance to within the tolerance, and where no momentum decides. The quasi-static reference,
 solved for by itself, costs as much as ten such walks. The levels are chosen and measured, see
 mjsim.scene.auto; steps are made shorter where a ramp needs it. A failure counts as the robot's only
@@ -29,8 +29,9 @@ from mjsim.simulation.simulation import simulate
 _STEPS_A_RAMP = 40  # chosen
 _IN_SPACE = ((4, 0.02), (6, 0.01), (8, 0.005), (12, 0.0025), (16, 0.001))  # links of a limb, s
 _FINE = 0.005  # s: at longer steps a strip may fall by the numerics alone
-_CLOSE = 0.25  # of the tolerance that two walks may be apart by, at steps
-_FINEST = 0.002  # s; longer than this
+_CALM = 0.4  # of the tolerance that two walks may be apart by, at steps longer than _FINE; chosen
+_CLOSE = 0.25  # the same at steps down to _FINEST, and of robots in space; chosen
+_FINEST = 0.002  # s
 _SHORT = 1e-3  # of the length: less is as good as the same, whatever the tolerance
 
 
@@ -124,16 +125,14 @@ def agreement(before: Trajectory, walk: Trajectory, tolerance: float) -> tuple[f
         return math.nan, alike and before.numerics.timestep <= _FINE
     error = abs(coarse.displacement - fine.displacement)
     most, timestep = allowed(fine.displacement, tolerance), walk.numerics.timestep
-    unexplained = fine.unexplained / most
     if walk.scene.in_space:  # where no rule tells what is to be expected
-        unexplained = 0.0
-    elif unbraked(walk.scene):
-        unexplained = math.inf
+        return error, error <= (1.0 if timestep <= _FINEST else _CLOSE) * most
+    unexplained = math.inf if unbraked(walk.scene) else fine.unexplained / most
     return error, error <= closeness(timestep, unexplained) * most
 
 
 def closeness(timestep: float, unexplained: float) -> float:
-    """Part of the tolerance within which a walk must agree with the one before.
+    """Part of the tolerance within which a strip's walk must agree with the one before.
 
     Args:
         timestep: of the walk [s].
@@ -145,7 +144,9 @@ def closeness(timestep: float, unexplained: float) -> float:
     """
     if timestep <= _FINEST:
         return 1.0
-    return _CLOSE if timestep <= _FINE or abs(unexplained) <= 1.0 else -1.0
+    if abs(unexplained) > 1.0 or (math.isnan(unexplained) and timestep > _FINE):
+        return -1.0
+    return _CALM if timestep > _FINE else _CLOSE
 
 
 def allowed(displacement: float, tolerance: float) -> float:

@@ -64,7 +64,7 @@ def test_walks_that_agree_are_closer_than_the_tolerance_since_coarse_ones_err_al
     found = walk_checked(HIGH, 0.02)
     shift = measure(found.walk).displacement
     assert found.walk.numerics.timestep > 0.002
-    assert found.error <= 0.25 * allowed(shift, 0.02)
+    assert found.error <= 0.4 * allowed(shift, 0.02)
 
 
 def test_two_levels_in_a_row_differ_in_links_as_well_as_in_steps():
@@ -74,10 +74,17 @@ def test_two_levels_in_a_row_differ_in_links_as_well_as_in_steps():
             assert two.timestep < one.timestep
 
 
-@pytest.mark.parametrize("unexplained", [1.5, -1.5, math.nan, math.inf])
-def test_steps_are_short_where_the_rule_of_friction_does_not_account_for_the_distance(unexplained):
-    assert closeness(0.02, unexplained) < 0.0 < closeness(0.02, 0.5) < 1.0
-    assert closeness(0.005, unexplained) == closeness(0.005, 0.0)
+@pytest.mark.parametrize("timestep", [0.05, 0.02, 0.005])
+@pytest.mark.parametrize("unexplained", [1.5, -1.5, math.inf])
+def test_steps_are_short_where_the_rule_of_friction_does_not_account_for_the_distance(
+    timestep, unexplained
+):
+    assert closeness(timestep, unexplained) < 0.0 < closeness(timestep, 0.5) < 1.0
+    assert closeness(0.002, unexplained) == 1.0
+
+
+def test_where_no_rule_of_friction_is_known_coarse_walks_are_not_believed():
+    assert closeness(0.02, math.nan) < 0.0 < closeness(0.005, math.nan)
 
 
 def test_coarse_walks_of_a_gait_with_inertia_are_not_believed_though_they_agree():
