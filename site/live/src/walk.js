@@ -66,6 +66,7 @@ export class Walk {
   // Vertices of the limbs' middle lines, height over where they lie flat, [[x, y, z], ...] each [m].
   // Nothing is computed anew in MuJoCo: its numbers are of the step before, and friction reads them.
   nodes() {
+    this.physics.lookIfMoved();
     return this.inSpace ? this.nodesOfLimbs() : [this.nodesOfStrip()];
   }
 
@@ -82,17 +83,26 @@ export class Walk {
   }
 
   nodesOfLimbs() {
+    return this.edges().map(({ right, left }) => right.map((point, node) =>
+      point.map((each, i) => 0.5 * (each + left[node][i]))));
+  }
+
+  // Right and left edge of each limb in space, at its vertices [m].
+  edges() {
+    this.physics.lookIfMoved();
     const { pads, padRadius } = this.settings, at = this.physics.geom_xpos;
     const half = pads.length / 2, count = half / this.robot.limbs.length;
-    return this.robot.limbs.map((_, limb) => Array.from({ length: count }, (_, node) => {
-      const right = 3 * pads[limb * count + node], left = 3 * pads[half + limb * count + node];
-      return [0, 1, 2].map((i) => 0.5 * (at[right + i] + at[left + i]) - (i === 2 ? padRadius : 0));
-    }));
+    const point = (pad) => [at[3 * pad], at[3 * pad + 1], at[3 * pad + 2] - padRadius];
+    return this.robot.limbs.map((_, limb) => {
+      const [right, left] = [0, half].map((first) =>
+        pads.slice(first + limb * count, first + (limb + 1) * count).map(point));
+      return { right, left };
+    });
   }
 
   // Where strip or trunk begins and ends, and where it points [m, rad].
   pose() {
-    const { qpos } = this.physics, trunk = this.nodes()[0], [x, y] = trunk[trunk.length - 1];
+    const trunk = this.nodes()[0], [x, y] = trunk[trunk.length - 1], { qpos } = this.physics;
     const [aside, heading] = this.inSpace ? [qpos[1], qpos[3]] : [0, 0];
     return { rear: [qpos[0], aside], front: [x, y], heading };
   }
