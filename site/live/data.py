@@ -51,8 +51,11 @@ def main() -> None:
     for robot in ("strip", "quadruped"):
         gaits = [gait for gait in gaits_of(robot) if not names or gait.name in names]
         robots[robot] = {**of_robot(robot), "gaits": [of_gait(gait) for gait in gaits]}
-    keys = [(robot, gait["name"], law, ground) for robot in robots for gait in robots[robot]["gaits"]
-            for law in LAWS for ground in SURFACES]  # fmt: skip
+    keys = [
+        (robot, gait["name"], law, ground)
+        for robot, written in robots.items() for gait in written["gaits"]
+        for law in LAWS for ground in SURFACES
+    ]  # fmt: skip
     with ProcessPoolExecutor() as pool:
         answers = dict(zip(map("/".join, keys), pool.map(answer, keys), strict=True))
     grounds = [
@@ -152,9 +155,9 @@ def _model(scene: Scene, numerics: Resolved) -> tuple[mujoco.MjModel, dict[str, 
     rounded = {}
     for name in dir(model):
         exact = getattr(model, name)
-        if isinstance(exact, np.ndarray) and exact.dtype == float and not name.startswith(_LOOKS):
-            if not np.array_equal(exact, getattr(read, name)):
-                rounded[name] = exact.ravel().tolist()
+        is_physics = isinstance(exact, np.ndarray) and not name.startswith(_LOOKS)
+        if is_physics and exact.dtype == float and not np.array_equal(exact, getattr(read, name)):
+            rounded[name] = exact.ravel().tolist()
     return model, {"mjcf": " ".join(text.split()), "exact": rounded}
 
 

@@ -7,7 +7,10 @@ export const asset = async (name) => {
   return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
 };
 
-export const quadrupedView = async () => {
-  const script = new Blob([await unpacked(await asset("quadruped_view.js"))], { type: "text/javascript" });
-  return import(URL.createObjectURL(script));
-};
+let view = null; // one module, however often it is asked for
+
+export function quadrupedView() {
+  view ??= asset("quadruped_view.js").then(unpacked).then((script) =>
+    import(URL.createObjectURL(new Blob([script], { type: "text/javascript" }))));
+  return view;
+}

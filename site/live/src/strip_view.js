@@ -2,10 +2,11 @@
 
 import { colours, shade } from "./theme.js";
 
-const WIDTH = 0.27; // m that a canvas shows across, unless zoomed
+const WIDTH = 0.27, HEIGHT = 0.05; // m that a canvas shows at least, unless zoomed
 const UNDER = 22; // CSS pixels below the ground's surface, for ruler and markers
 const SKIN = 0.0016; // m that ribs are lower than chambers
 const GAP = 0.16; // between the tops of chambers, of one
+const FIBRE = 0.0012, DROP = 0.009; // m from one to the next
 const HEAD = 7; // CSS pixels: half of an arrow's head
 const TICK = 0.01, LABEL = 0.05; // m of the ruler
 
@@ -20,7 +21,7 @@ export class StripView {
     const { canvas, context: c } = this, scale = fit(canvas);
     const width = canvas.clientWidth, height = canvas.clientHeight;
     const [nodes] = walk.nodes(), limb = robot.limbs[0];
-    const perMetre = (width / Math.max(WIDTH, 0.001)) * camera.zoom;
+    const perMetre = Math.min(width / WIDTH, (height - UNDER) / HEIGHT) * camera.zoom;
     const shown = width / perMetre, centre = 0.5 * (nodes[0][0] + nodes.at(-1)[0]);
     this.middle = camera.at(centre, start.rear[0] + robot.length / 2, shown, this.middle);
     const base = height - UNDER;
@@ -42,18 +43,21 @@ export class StripView {
     c.strokeStyle = ground;
     c.lineWidth = 1;
     const left = this.middle - shown / 2, right = this.middle + shown / 2;
+    c.beginPath();
     if (name === "felt") { // fibres
-      for (let i = Math.floor(left / 0.0012); i * 0.0012 < right; i++) {
-        const lean = 3 * Math.sin(12.9898 * i), tall = 2.5 + 2 * Math.sin(78.233 * i);
-        line(c, [x(i * 0.0012), base], [x(i * 0.0012) + lean, base - tall]);
+      for (let i = Math.floor(left / FIBRE); i * FIBRE < right; i++) {
+        c.moveTo(x(i * FIBRE), base);
+        c.lineTo(x(i * FIBRE) + 3 * noise(i), base - 2.5 - 2 * noise(-i));
       }
     } else if (name === "gelatin") { // drops
-      for (let i = Math.floor(left / 0.009); i * 0.009 < right; i++) {
-        c.beginPath();
-        c.ellipse(x((i + 0.4 * Math.sin(12.9898 * i)) * 0.009), base, 5 + 2 * Math.sin(78.233 * i), 2, 0, Math.PI, 0);
-        c.fill();
+      for (let i = Math.floor(left / DROP); i * DROP < right; i++) {
+        const at = x((i + 0.4 * noise(i)) * DROP), half = 5 + 2 * noise(-i);
+        c.moveTo(at - half, base);
+        c.ellipse(at, base, half, 2, 0, Math.PI, 0);
       }
     }
+    c.stroke();
+    c.fill();
     c.strokeStyle = c.fillStyle = ink;
     c.globalAlpha = 0.65;
     c.font = "10px system-ui, sans-serif";
@@ -79,7 +83,7 @@ export class StripView {
 
   // How far whole cycles have taken it.
   drawWay(x, from, gone) {
-    const { context: c } = this, to = x(from + gone), begin = x(from), high = 20;
+    const { context: c } = this, to = x(from + gone), begin = x(from), high = 4 + HEAD;
     c.strokeStyle = c.fillStyle = colours()[gone > 0 ? "forward" : "backward"];
     c.lineWidth = 4;
     if (Math.abs(to - begin) < HEAD) {
@@ -89,6 +93,7 @@ export class StripView {
     }
     const back = Math.sign(gone) * HEAD;
     line(c, [begin, high], [to - back, high]);
+    c.beginPath();
     polygon(c, [[to, high], [to - 1.4 * back, high - HEAD], [to - 1.4 * back, high + HEAD]]);
     c.fill();
   }
@@ -101,21 +106,20 @@ export class StripView {
       const [tx, tz] = [(bx - ax) / size, (bz - az) / size];
       return [x(ax + along * (bx - ax) - up * tz), y(az + along * (bz - az) + up * tx)];
     };
+    const paths = pressures.map(() => new Path2D());
     for (let i = 0; i < last; i++) {
       const part = springs.overlap[Math.min(Math.max(i - 1, 0), springs.overlap.length - 1)];
-      const segment = part.indexOf(Math.max(...part));
-      c.fillStyle = shade(pressures[segment] / peak);
-      const ribs = ribsOf(arclength, i);
+      const path = paths[part.indexOf(Math.max(...part))], ribs = ribsOf(arclength, i);
       for (let rib = 0; rib < ribs; rib++) {
         const at = (along) => (rib + along) / ribs;
-        const up = (low, high, inset) => [point(i, low, at(0)), point(i, low, at(1)),
-          point(i, high, at(1 - inset)), point(i, high, at(inset))];
-        polygon(c, up(0, height - SKIN, 0));
-        c.fill();
-        polygon(c, up(height - SKIN, height, GAP));
-        c.fill();
+        polygon(path, [point(i, 0, at(0)), point(i, 0, at(1)), point(i, height - SKIN, at(1)), point(i, height, at(1 - GAP)),
+          point(i, height, at(GAP)), point(i, height - SKIN, at(0))]);
       }
     }
+    paths.forEach((path, segment) => {
+      c.fillStyle = shade(pressures[segment] / peak);
+      c.fill(path);
+    });
     c.strokeStyle = dark;
     c.lineWidth = 2;
     c.lineJoin = "round";
@@ -153,6 +157,9 @@ export function ribsOf(arclength, link) {
   return Math.max(1, Math.round((arclength[link + 1] - arclength[link]) / (2 * arclength[1])));
 }
 
+// A number between -1 and 1 that is always the same for a place
+const noise = (place) => Math.sin(78.233 * place + 12.9898 * Math.sin(place));
+
 // Pixels of the screen for those of the page; returns how many each [1].
 export function fit(canvas) {
   const scale = Math.min(window.devicePixelRatio || 1, 2);
@@ -168,8 +175,7 @@ export function line(context, [ax, ay], [bx, by]) {
   context.stroke();
 }
 
-function polygon(context, points) {
-  context.beginPath();
-  points.forEach((point, i) => context[i ? "lineTo" : "moveTo"](...point));
-  context.closePath();
+function polygon(path, points) {
+  points.forEach((point, i) => path[i ? "lineTo" : "moveTo"](...point));
+  path.closePath();
 }
