@@ -30,6 +30,7 @@ from analytic.solvers.limbs.contact_search import parts_of
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.resting_limb import resting_limbs
 from mjsim import SURFACES, Scene, measure, reference, simulate
+from mjsim.files.assets import MODELS
 from mjsim.friction.footing import feet_may_be, thrown
 from mjsim.model.builder import bare_spec, compiled
 from mjsim.model.limbs import ROWS, joints_to, link_prefix, point_names
@@ -63,7 +64,9 @@ def main() -> None:
          "friction": ground.friction, "tipFriction": ground.tip_friction}
         for ground in SURFACES.values()
     ]  # fmt: skip
-    data = {"grounds": grounds, "robots": robots, "answers": answers}
+    # all but the rod, which has no controls
+    models = sorted(path.name for path in MODELS.glob("*.xml") if path.stem != "rod")
+    data = {"grounds": grounds, "robots": robots, "answers": answers, "models": models}
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps(data, separators=(",", ":"), allow_nan=False), encoding="utf-8")
 

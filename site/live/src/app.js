@@ -43,6 +43,10 @@ export class App {
   }
 
   async show(mode) {
+    if (mode === "quadruped" && !hasWebGL()) {
+      alert("The quadruped is drawn by WebGL, which this browser does not offer.");
+      return;
+    }
     const View = mode === "quadruped" ? (await this.quadrupedView()).QuadrupedView : StripView;
     const before = this.drive?.gait?.name;
     this.mode = mode;
@@ -166,6 +170,7 @@ export class App {
     if (drive.atEndOfCycle) lanes.forEach((lane) => lane.beginCycle(true));
   }
 
+  // Texts and the plot, which change less often than the pictures.
   tell() {
     const { drive, lanes, controls } = this;
     lanes.forEach((lane) => lane.tell(drive.gait));
@@ -187,4 +192,8 @@ export class App {
     const { frames } = this;
     return (1000 * (frames.length - 1)) / (frames.at(-1) - frames[0]);
   }
+}
+
+function hasWebGL() {
+  return Boolean(document.createElement("canvas").getContext("webgl2"));
 }

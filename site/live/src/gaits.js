@@ -2,21 +2,14 @@
 
 // Parts of the peak pressure at a time since the start of a gait's first cycle [s].
 export function fractions({ stages, ramps }, time) {
-  const times = typeof ramps === "number" ? stages.slice(1).map(() => ramps) : ramps;
-  const cycle = times.reduce((sum, each) => sum + each, 0);
-  let within = time % cycle;
-  for (let ramp = 0; ramp < times.length; ramp++) {
-    if (within < times[ramp] || ramp === times.length - 1) {
-      const part = Math.min(within / times[ramp], 1);
-      return stages[ramp].map((begin, i) => begin + part * (stages[ramp + 1][i] - begin));
-    }
-    within -= times[ramp];
-  }
+  let within = time % period({ ramps }), ramp = 0;
+  while (ramp + 1 < ramps.length && within >= ramps[ramp]) within -= ramps[ramp++];
+  const part = Math.min(within / ramps[ramp], 1);
+  return stages[ramp].map((begin, i) => begin + part * (stages[ramp + 1][i] - begin));
 }
 
 // Duration of a cycle [s].
-export function period({ stages, ramps }) {
-  if (typeof ramps === "number") return ramps * (stages.length - 1);
+export function period({ ramps }) {
   return ramps.reduce((sum, each) => sum + each, 0);
 }
 

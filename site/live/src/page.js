@@ -6,8 +6,6 @@ import { asset, quadrupedView } from "./assets.js";
 import { unpacked } from "./unpacked.js";
 import { displacement } from "./walk.js";
 
-const NAMES = ["felt", "polyethylene", "gelatin"];
-
 async function start() {
   const begun = performance.now();
   const [wasm, text] = await Promise.all(["mujoco.wasm.gz", "data.json.gz"].map(async (name) =>
@@ -19,8 +17,10 @@ async function start() {
   const seconds = ((performance.now() - begun) / 1000).toFixed(1);
   document.querySelector("#measured").textContent = `First step ${seconds} s after loading began, by MuJoCo ${mujoco.mj_versionString()}.`;
   if (REPOSITORY) {
-    const links = NAMES.map((name) => `<a href="https://live.mujoco.org/?model=${REPOSITORY}/models/${name}.xml">${name}</a>`);
-    document.querySelector("#links").innerHTML = `In MuJoCo’s own live viewer, by files that walk without a script: ${links.join(", ")}.`;
+    const links = data.models.map((name) =>
+      `<a href="https://live.mujoco.org/?model=${REPOSITORY}/models/${name}">${name}</a>`);
+    document.querySelector("#links").innerHTML = `Files of this robot that walk without a script, their friction carried by
+      shoes or by load, in MuJoCo’s own live viewer: ${links.join(", ")}.`;
   }
   // for the browser's console: await undulator.displacement("strip", "constant", "gelatin", "wave")
   const find = (list, name) => list.find((each) => each.name === name);
@@ -29,7 +29,7 @@ async function start() {
     displacement: (robot, law, ground, gait) => displacement(mujoco, data.robots[robot], law,
       find(data.grounds, ground), find(data.robots[robot].gaits, gait)),
   };
-  quadrupedView(); // so that the page needs no network from here on
+  quadrupedView().catch(console.error); // so that the page needs no network from here on
 }
 
 start().catch((error) => {
