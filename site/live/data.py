@@ -33,7 +33,7 @@ from mjsim import SURFACES, Scene, measure, reference, simulate
 from mjsim.files.assets import MODELS
 from mjsim.friction.footing import feet_may_be, thrown
 from mjsim.model.builder import bare_spec, compiled
-from mjsim.model.limbs import ROWS, joints_to, link_prefix, point_names
+from mjsim.model.limbs import ROWS, hinge_prefix, joints_to, link_prefix, point_names
 from mjsim.model.pads import edges, pads_of
 from mjsim.model.parts import PREFIX, TENDONS, contact_softness, tie_force
 from mjsim.model.standalone_limbs import allow_rounding
@@ -42,6 +42,7 @@ from mjsim.results.status import AT_REST, THROWN
 from mjsim.scene import Resolved, resolved
 
 LAWS = ("constant", "coulomb")
+HINGE_PREFIX = f"{PREFIX}hinge_"  # of a strip
 _LOOKS = ("cam_", "light_", "mat_", "tex_", "name", "geom_rgba", "site_size")  # no physics
 
 
@@ -164,12 +165,19 @@ def _model(scene: Scene, numerics: Resolved) -> tuple[mujoco.MjModel, dict[str, 
     return model, {"mjcf": " ".join(text.split()), "exact": rounded}
 
 
+def _hinges(model: mujoco.MjModel, prefix: str, numerics: Resolved) -> dict[str, list[int]]:
+    """Places of a limb's hinges among the joints, and of their angles among the coordinates."""
+    joints = [model.joint(f"{prefix}{i}") for i in range(1, numerics.links + 1)]
+    return {"hinges": [joint.id for joint in joints],
+            "angles": [int(joint.qposadr[0]) for joint in joints]}  # fmt: skip
+
+
 def _of_strip(scene: Scene) -> dict[str, Any]:
     """A strip under a law, see StripFriction."""
     numerics = resolved(scene, None)
     model, written = _model(scene, numerics)
     return written | {
-        "pads": pads_of(model, scene)[0, :, 0].tolist(),
+        "pads": pads_of(model, scene)[0, :, 0].tolist(), **_hinges(model, HINGE_PREFIX, numerics),
         "tendons": [model.tendon(PREFIX + name).id for name in TENDONS],
         "flatEnds": end_flat_pressures(scene.strip, scene.ground.at(0.0)).tolist(),
         "weight": FlatLoad(scene.strip).weights[0][1], "width": scene.strip.width,
@@ -194,12 +202,11 @@ def _of_limbs(scene: Scene) -> dict[str, Any]:
          "joints": len(joints_to(robot, numerics.links, i, numerics.twists))}
         for i, limb in enumerate(robot.limbs) for part in parts_of(limb, robot)
     ]  # fmt: skip
-    joints = [model.joint(f"{PREFIX}{name}_hinge_{i}") for name in robot.names
-              for i in range(1, numerics.links + 1)]  # fmt: skip
+    hinges = [_hinges(model, hinge_prefix(name), numerics) for name in robot.names]
     return written | {
         "pads": edges(pads_of(model, scene)).tolist(), "padRadius": numerics.pad_radius,
-        "twists": numerics.twists, "hinges": [joint.id for joint in joints],
-        "angles": [int(joint.qposadr[0]) for joint in joints],
+        "twists": numerics.twists, **{key: [each for own in hinges for each in own[key]]
+                                      for key in ("hinges", "angles")},
         "links": [[model.body(f"{link_prefix(name)}{i}").id for i in range(numerics.links + 1)]
                   for name in robot.names],
         "starts": [starts.tolist() for starts in tree.starts],

@@ -92,7 +92,7 @@ export class App {
   playGait(name) {
     const gait = this.robot.gaits.find((each) => each.name === name);
     if (gait) this.drive.play(gait);
-    else this.drive.byHand(-1, 0);
+    else this.drive.stay();
     this.lanes.forEach((lane) => lane.forgetCycle());
     this.redraw();
   }

@@ -36,7 +36,6 @@ export class Controls {
   key(event) {
     const { target, key, ctrlKey, metaKey, altKey } = event, { actions } = this;
     if (ctrlKey || metaKey || altKey || target.matches("select")) return;
-    const onControl = target.matches("input, button");
     const keys = {
       " ": () => actions.playOrPause(), r: () => actions.restart(), g: () => this.nextGait(),
       v: () => actions.showNext(), f: () => actions.follow(), t: () => $("#theme").click(),
@@ -45,7 +44,7 @@ export class Controls {
       1: () => actions.stepOn(0), 2: () => actions.stepOn(1), 3: () => actions.stepOn(2),
     };
     const action = keys[key.length === 1 ? key.toLowerCase() : key];
-    const taken = key === " " ? target.matches("button") : onControl && key.startsWith("Arrow") && !target.matches("button");
+    const taken = key === " " ? target.matches("button") : target.matches("input") && key.startsWith("Arrow");
     if (!action || taken) return; // the control that has the focus takes these itself
     event.preventDefault();
     action();
@@ -102,10 +101,10 @@ export class Controls {
   }
 
   offerGrounds(grounds) {
-    $("#grounds").append(...grounds.map(({ name }) => {
+    $("#grounds").append(...grounds.map(({ name }, number) => {
       const label = document.createElement("label");
       label.innerHTML = `<input type="radio" name="ground" value="${name}"> ${title(name)}`;
-      label.firstChild.addEventListener("change", () => this.actions.stepOn(grounds.findIndex((each) => each.name === name)));
+      label.firstChild.addEventListener("change", () => this.actions.stepOn(number));
       return label;
     }));
   }

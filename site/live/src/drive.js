@@ -19,9 +19,14 @@ export class Drive {
     this.ready = false;
   }
 
-  byHand(chamber, pressure) {
+  // Pressures stay as they are until a slider is moved.
+  stay() {
     if (this.gait) this.goals = [...this.pressures];
     this.gait = null;
+  }
+
+  byHand(chamber, pressure) {
+    this.stay();
     this.goals = this.goals.map((goal, i) => (i === chamber ? pressure : goal));
   }
 

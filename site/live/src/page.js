@@ -15,12 +15,13 @@ async function start() {
   const app = new App({ mujoco, data, quadrupedView });
   await app.start();
   const seconds = ((performance.now() - begun) / 1000).toFixed(1);
-  document.querySelector("#measured").textContent = `First step ${seconds} s after loading began, by MuJoCo ${mujoco.mj_versionString()}.`;
+  document.querySelector("#measured").textContent =
+    `First step ${seconds} s after loading began, by MuJoCo ${mujoco.mj_versionString()}.`;
   if (REPOSITORY) {
     const links = data.models.map((name) =>
       `<a href="https://live.mujoco.org/?model=${REPOSITORY}/models/${name}">${name}</a>`);
-    document.querySelector("#links").innerHTML = `Files of this robot that walk without a script, their friction carried by
-      shoes or by load, in MuJoCo’s own live viewer: ${links.join(", ")}.`;
+    document.querySelector("#links").innerHTML = `Files of this robot that walk without a script, their friction
+      carried by shoes or by load, in MuJoCo’s own live viewer: ${links.join(", ")}.`;
   }
   // for the browser's console: await undulator.displacement("strip", "constant", "gelatin", "wave")
   const find = (list, name) => list.find((each) => each.name === name);

@@ -72,7 +72,8 @@ export class QuadrupedView {
       this.scene.add(mesh);
       return mesh;
     });
-    const outline = edges.flatMap(({ right, left }) => [right[0], right.at(-1), right.at(-1), left.at(-1), left.at(-1), left[0]]);
+    const outline = edges.flatMap(({ right, left }) =>
+      [right[0], right.at(-1), right.at(-1), left.at(-1), left.at(-1), left[0]]);
     const points = new Float32Array(outline.flatMap(([x, y]) => [x, y, 0.0002]));
     const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(points, 3));
     this.scene.add(new LineSegments(geometry, new LineBasicMaterial({ color: dark })));
@@ -185,10 +186,12 @@ function place(geometry, { right, left }, { height, arclength }) {
     const [ra, rb, la] = [right[link], right[link + 1], left[link]];
     const along = rb.map((each, i) => each - ra[i]), across = la.map((each, i) => each - ra[i]);
     const up = cross(along, across), size = Math.hypot(...up);
-    for (const [rib, end, side, level] of Array.from({ length: ribs }, (_, rib) => BOX.map((corner) => [rib, ...corner])).flat()) {
-      const inset = level === 2 ? GAP : 0, part = (rib + inset + end * (1 - 2 * inset)) / ribs;
-      const lift = ([0, ROOF, 1][level] * height) / size, edge = 0.04 * (level === 2) * (1 - 2 * side);
-      for (let i = 0; i < 3; i++) array[at++] = ra[i] + part * along[i] + (side + edge) * across[i] + lift * up[i];
+    for (let rib = 0; rib < ribs; rib++) {
+      for (const [end, side, level] of BOX) {
+        const inset = level === 2 ? GAP : 0, part = (rib + inset + end * (1 - 2 * inset)) / ribs;
+        const lift = ([0, ROOF, 1][level] * height) / size;
+        for (let i = 0; i < 3; i++) array[at++] = ra[i] + part * along[i] + side * across[i] + lift * up[i];
+      }
     }
   }
   geometry.attributes.position.needsUpdate = true;

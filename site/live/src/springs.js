@@ -1,7 +1,7 @@
 // Springs of the hinges, by the pressures in the chambers: joint_springs of analytic/scene/chain.py.
 
 // Sets them for the next step; `hinges` and `angles` are their places in MuJoCo's arrays.
-export function setSprings(physics, limbs, hinges, angles, pressures) {
+export function setSprings(physics, limbs, { hinges, angles }, pressures) {
   let at = 0;
   for (const { chambers, springs } of limbs) {
     const { overlap, rigidity, stiffening, bending } = springs;

@@ -30,6 +30,7 @@ export class StripView {
     c.setTransform(scale, 0, 0, scale, 0, 0);
     c.clearRect(0, 0, width, height);
     this.drawGround(ground.name, x, base, shown);
+    this.drawRuler(x, base, shown);
     this.drawStart(x, y, start, limb);
     this.drawWay(x, start.rear[0] + robot.length / 2, cycle ? cycle.rear[0] - start.rear[0] : 0);
     this.drawBody(nodes, limb, walk.pressures, robot.peak, x, y);
@@ -37,7 +38,7 @@ export class StripView {
   }
 
   drawGround(name, x, base, shown) {
-    const { canvas, context: c } = this, width = canvas.clientWidth, { [name]: ground, ink } = colours();
+    const { canvas, context: c } = this, width = canvas.clientWidth, ground = colours()[name];
     c.fillStyle = ground;
     c.fillRect(0, base, width, UNDER);
     c.strokeStyle = ground;
@@ -58,8 +59,13 @@ export class StripView {
     }
     c.stroke();
     c.fill();
-    c.strokeStyle = c.fillStyle = ink;
+  }
+
+  drawRuler(x, base, shown) {
+    const { context: c } = this, left = this.middle - shown / 2, right = this.middle + shown / 2;
+    c.strokeStyle = c.fillStyle = colours().ink;
     c.globalAlpha = 0.65;
+    c.lineWidth = 1;
     c.font = "10px system-ui, sans-serif";
     c.textAlign = "center";
     const each = shown < 0.16 ? TICK : LABEL;
@@ -112,8 +118,10 @@ export class StripView {
       const path = paths[part.indexOf(Math.max(...part))], ribs = ribsOf(arclength, i);
       for (let rib = 0; rib < ribs; rib++) {
         const at = (along) => (rib + along) / ribs;
-        polygon(path, [point(i, 0, at(0)), point(i, 0, at(1)), point(i, height - SKIN, at(1)), point(i, height, at(1 - GAP)),
-          point(i, height, at(GAP)), point(i, height - SKIN, at(0))]);
+        polygon(path, [
+          point(i, 0, at(0)), point(i, 0, at(1)), point(i, height - SKIN, at(1)),
+          point(i, height, at(1 - GAP)), point(i, height, at(GAP)), point(i, height - SKIN, at(0)),
+        ]);
       }
     }
     paths.forEach((path, segment) => {

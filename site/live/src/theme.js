@@ -1,6 +1,8 @@
 // Dark and light: as the system has it, or as the button says. Canvases take their colours from CSS.
 
-const NAMES = ["ink", "muted", "paper", "line", "dark", "felt", "polyethylene", "gelatin", "rest", "full", "forward", "backward"];
+const NAMES = [
+  "ink", "muted", "paper", "line", "dark", "felt", "polyethylene", "gelatin", "rest", "full", "forward", "backward",
+];
 let known = null;
 
 export function colours() {

@@ -6,7 +6,7 @@ import { Physics } from "./physics.js";
 import { setSprings } from "./springs.js";
 import { STRIP_LAWS } from "./strip_law.js";
 
-const RESTS = 100; // times that settling is prolonged; see _settle
+const RESTS = 100; // times that settling is prolonged; see settle
 
 export class Walk {
   // `robot` as data.py writes it; `law` is "constant" or "coulomb".
@@ -19,10 +19,8 @@ export class Walk {
     this.law = new Law(this.physics, robot, this.settings, law);
     this.ground = ground;
     this.pressures = robot.chambers.map(() => 0);
-    const hinges = robot.limbs[0].springs.overlap.map((_, i) => i + 3);
-    this.hinges = this.settings.hinges ?? hinges;
-    this.angles = this.settings.angles ?? hinges;
     this.stopped = false;
+    this.steps = 0;
     this.settle();
     this.steps = 0; // since the first cycle began
   }
@@ -30,7 +28,8 @@ export class Walk {
   // At rest before the first cycle: the last tenth of that time is repeated until nothing moves.
   settle() {
     const { settle, timestep, atRest, length } = this.robot;
-    const steps = Math.round(settle / timestep), late = Math.max(1, Math.round((0.1 * settle) / timestep));
+    const steps = Math.round(settle / timestep);
+    const late = Math.max(1, Math.round((0.1 * settle) / timestep));
     for (let i = 0; i < steps - late; i++) this.step(this.pressures);
     for (let i = 0; i < RESTS; i++) {
       const before = this.moving();
@@ -50,7 +49,7 @@ export class Walk {
   step(pressures) {
     if (this.stopped) return;
     this.physics.lookIfMoved();
-    setSprings(this.physics, this.robot.limbs, this.hinges, this.angles, pressures);
+    setSprings(this.physics, this.robot.limbs, this.settings, pressures);
     this.law.beforeStep(pressures, this.ground);
     this.physics.step();
     this.law.afterStep();
