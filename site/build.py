@@ -21,7 +21,8 @@ def build(folder: Path) -> list[str]:
     shutil.rmtree(folder, ignore_errors=True)
     gather(stage, LIVE.is_dir())
     sphinx = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-c", TOP / "site",
-              "-D", f"html_static_path={stage}/_static", "-d", f"{stage}-cache", stage, folder]  # fmt: skip
+              "-D", f"html_static_path={stage}/_static", "-d", f"{stage}-cache",
+              stage, folder]  # fmt: skip
     subprocess.run(sphinx, check=True)
     subprocess.run([sys.executable, TOP / "scripts" / "reference.py", folder / "reference"],
                    check=True, cwd=TOP)  # fmt: skip

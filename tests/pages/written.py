@@ -5,12 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
-PAGES = sorted(
-    path
-    for pattern in ("*.md", "docs/*.md", "zoo/README.md", "zoo/*/README.md", "models/README.md",
-                    "studies/data/README.md", "videos/README.md")  # fmt: skip
-    for path in TOP.glob(pattern)
-)
+_PATTERNS = ("*.md", "docs/*.md", "zoo/README.md", "zoo/*/README.md", "models/README.md",
+             "studies/data/README.md", "site/README.md")  # fmt: skip
+PAGES = sorted(path for pattern in _PATTERNS for path in TOP.glob(pattern))
 _FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.M | re.S)
 _INLINE = re.compile(r"`((?:undulator|python|make|pip install|bash) [^`]+|scripts/[^`]+)`")
 
