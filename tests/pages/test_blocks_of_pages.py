@@ -11,7 +11,7 @@ from written import PAGES, TOP, blocks, prose
 from mjsim.files.tables import build, read_tables
 from mjsim.sweeps.plan import read_plan
 
-LANGUAGES = {"sh", "python", "toml", "csv", "text"}
+LANGUAGES = {"sh", "python", "toml", "text"}
 UNFINISHED = ("[project",)  # tables of other programs
 
 
