@@ -34,9 +34,10 @@ def test_the_rate_of_a_node_without_a_tendon_is_what_its_tendon_would_have():
     tilt = data.geom_xpos[:, 2].max() / FAR  # of the tendons, which end on the ground
     speeds = np.hypot(np.abs(data.qvel).sum() * simulation.scene.robot.length, data.qvel[1])
     assert np.abs(asked - data.ten_velocity[rows.of]).max() < tilt * speeds
-    heights = data.site_xpos[model.wrap_objid[model.tendon_adr[rows.of] + 2], 2]
-    lengths = np.hypot(np.array(places) + FAR, heights)
-    assert data.ten_length[rows.of] == pytest.approx(lengths, abs=1e-12 * FAR)
+    sites = data.site_xpos[model.wrap_objid[model.tendon_adr[rows.of] + 2]]
+    _, aside, up = (sites - data.site("robot_far").xpos).T
+    along = np.sqrt(data.ten_length[rows.of] ** 2 - aside**2 - up**2)
+    assert np.array(places) + FAR == pytest.approx(along, abs=1e-12 * FAR)
 
 
 @pytest.mark.parametrize("ground", SURFACES)
