@@ -56,14 +56,14 @@ def check_robot(robot: AnyRobot, given: Collection[str] = (), gravity: float = G
 
 def _check_payload(robot: AnyRobot) -> None:
     """Refuse a payload that no robot of this mass could carry."""
-    own = robot.weight / GRAVITY - robot.payload_mass
+    bare = robot.weight / GRAVITY - robot.payload_mass
     heaviest = max(
         (payload.mass for limb in limbs_of(robot) for payload in limb.strip.payload), default=0.0
     )
-    if heaviest <= _LADEN * own:
+    if heaviest <= _LADEN * bare:
         return
-    near = [words for words, scale in readings(heaviest, _MASSES) if heaviest * scale <= own]
-    raise ValueError(f"mass of a payload must be one that a robot of {own:.3g} kg carries, got "
+    near = [words for words, scale in readings(heaviest, _MASSES) if heaviest * scale <= bare]
+    raise ValueError(f"mass of a payload must be one that a robot of {bare:.3g} kg carries, got "
                      f"{heaviest:g} kg{asked(near[:1])}")  # fmt: skip
 
 
