@@ -14,7 +14,8 @@ PAGES = ("docs/*.md", "zoo/README.md", "zoo/*/README.md", "models/README.md", "C
          "studies/data/*/README.md")  # fmt: skip
 SHOWN = {".py": "python", ".toml": "toml"}  # files that become pages, and their language
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s#:]+)(#[^)\s]*)?\)")
-LIVE = "**[Drive the robot in your browser](live/index.html)**: nothing to install.\n"
+LIVE = ('<p><strong><a href="live/index.html">Drive the robot in your browser</a></strong>: '
+        "nothing to install.</p>\n")  # fmt: skip
 
 
 def gather(stage: Path, live: bool) -> None:
