@@ -42,7 +42,8 @@ def main(folder: Path) -> None:
         warnings.simplefilter("error")
         # a package without __all__ brings its modules by itself
         warnings.filterwarnings("ignore", "The module specification")
-        pdoc.render.configure(template_directory=Path(__file__).with_name("reference"))
+        folders = Path(__file__).with_name("reference")
+        pdoc.render.configure(template_directory=folders, show_source=False)
         pdoc.pdoc(*modules(), output_directory=folder)
 
 
