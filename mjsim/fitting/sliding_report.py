@@ -190,7 +190,7 @@ def _verdict(sample: Sample) -> list[str]:
     where = f"{sample.contact}, {sample.way}, {sample.state}, {sample.test}"
     misses = ", ".join(f"{_LAWS[law]} by {f'{100 * miss:.2g}' if miss > _ALIKE else '0'} %"
                        for law, miss in verdict.misses.items())  # fmt: skip
-    words = {"": "either law may hold", BOTH: f"neither law alone, but {_sum(sample, verdict)}"}
+    words = {"": "either law may be right", BOTH: f"neither law alone, but {_sum(sample, verdict)}"}
     said = words.get(verdict.law) or f"the data support {_LAWS[verdict.law]}"
     return [f"{where}: {said} (misses: {misses} of the resistance)"]
 
@@ -212,7 +212,7 @@ def _missing(quantities: Sequence[Quantity], ground: Ground) -> list[str]:
     contacts = {quantity.contact for quantity in quantities}
     needed = {"constant": "mass and area are", "coulomb": "their mass is"}
     lines = [f"{each}s give no {_SHORT[law]}, for which {needed[law]} needed: the file does not "
-             f"say what holds them under --friction {law}"
+             f"say how they resist under --friction {law}"
              for each in ("side", "tip") for law in ([ground.law] if ground.law else LAWS)
              if each in contacts and (each, law) not in pairs]  # fmt: skip
     if "tip" not in contacts and ground.law != "coulomb":
@@ -228,7 +228,7 @@ def _missing(quantities: Sequence[Quantity], ground: Ground) -> list[str]:
     for each, tried in ways.items():
         if others := [way for way in WAYS if way in set().union(*ways.values()) - tried]:
             lines.append(f"{each}s were not tested {' and '.join(others)}: what the file says of "
-                         "them ahead holds there")  # fmt: skip
+                         "them ahead is taken there")  # fmt: skip
     return lines
 
 
