@@ -71,14 +71,16 @@ def _draw_tracks(axes: Any, tracks: Any, walks: Any, robot: Robot, policy: Any) 
     for cycle, choice in enumerate(chosen.tolist()):
         part = (time >= cycle) & (time <= cycle + 1)
         axes.plot(time[part], x[part], color=COLOURS[choice], lw=1.5)
-    for choice in np.unique(chosen).tolist():
-        middle = float(np.median(np.flatnonzero(chosen == choice)))
-        place = float(x[np.searchsorted(time, middle)])
-        axes.annotate(REPERTOIRE[choice].name, (middle, place), xytext=(0, -12), ha="center",
-                      textcoords="offset points", color=COLOURS[choice], fontsize=8)  # fmt: skip
+    names = np.array([REPERTOIRE[choice].name for choice in chosen])
+    for name in dict.fromkeys(names.tolist()):
+        middle = float(np.median(np.flatnonzero(names == name)))
+        place = middle, float(x[np.searchsorted(time, middle)])
+        colour = COLOURS[chosen[names == name][0]]
+        axes.annotate(name, place, xytext=(8, -14), textcoords="offset points", color=colour,
+                      fontsize=8)  # fmt: skip
     axes.set(xlabel="cycles", ylabel="place of the right end [L]", ylim=(0.65, 2.0),
              xlim=(0, cycles))  # fmt: skip
-    for name, place in (("gelatin", SEAM + 0.02), ("felt", SEAM - 0.07)):
+    for name, place in (("gelatin", SEAM + 0.09), ("felt", SEAM - 0.35)):
         axes.text(0.99 * cycles, place, name, ha="right", fontsize=9)
     axes.set_title("The controller crosses from felt to gelatin; the wave alone stalls", fontsize=9)
     axes.legend(fontsize=7, loc="upper left")

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Annotation
 from matplotlib.transforms import Bbox
 
 from studies import Array
@@ -25,12 +25,12 @@ def name_lines(axes: Axes, lines: Mapping[str, tuple[Array, Array, str]]) -> Non
     """
     figure = axes.get_figure(root=True)
     assert figure is not None
-    FigureCanvasAgg(figure).draw()
+    figure.draw_without_rendering()
     marks = np.concatenate([_filled(axes.transData.transform(np.stack([x, y], axis=1)))
                             for x, y, _ in lines.values()])  # fmt: skip
     inside, taken = axes.get_window_extent(), [text.get_window_extent() for text in axes.texts]
     for name, (x, y, colour) in sorted(lines.items(), key=lambda line: len(line[1][0])):
-        tried = []
+        tried: list[tuple[float, int, Annotation, Bbox]] = []
         for place, (across, up) in itertools.product(zip(x, y, strict=True), _WAYS):
             shift = {"left": _GAP, "right": -_GAP, "bottom": _GAP, "top": -_GAP}
             text = axes.annotate(

@@ -45,13 +45,14 @@ def draw(rows: pd.DataFrame, case: str) -> Figure:
     figure = Figure(figsize=(1.6 + 4.4 * columns, 5.0), layout="constrained", dpi=130)
     title, label = _TITLES[case]
     panels = figure.subplots(1, columns, sharey=True, squeeze=False)[0]
-    figure.suptitle("\n".join(wrap(message(rows), 60 * columns)), fontsize=9.5)
+    figure.suptitle(_titled(message(rows), 76 * columns), fontsize=9.5)
     for axes, (scene, measured) in zip(panels, scenes, strict=False):
         finished = measured["status"] == "ok"
         level = 3 * measured["error"].fillna(0).max() or 3.0
         _draw_methods(axes, measured[finished])
         _draw_failures(axes, measured[~finished], level)
         axes.set(xscale="log", yscale="log", xlabel="CPU seconds per simulated second")
+        axes.margins(x=0.12)
         axes.set_ylim(top=2.5 * level)
         axes.set_title(title if scene == heavy_cantilever.TIP else f"{title}, {scene}", fontsize=9)
         axes.grid(which="major", color="0.92", lw=0.6)
@@ -64,16 +65,21 @@ def draw(rows: pd.DataFrame, case: str) -> Figure:
     return figure
 
 
-def message(rows: pd.DataFrame) -> str:
+def _titled(lines: tuple[str, ...], width: int) -> str:
+    """Lines of a title, broken at so many letters."""
+    return "\n".join(part for line in lines for part in wrap(line, width))
+
+
+def message(rows: pd.DataFrame) -> tuple[str, ...]:
     """What a case shows: the cheapest method to the least goal, and what the others cost."""
     goal = GOALS[-1]
     best = list(cheapest(rows, goal).itertuples())
     if not best:
-        return f"No method comes within {goal:.1%}"
+        return (f"No method comes within {goal:.1%}",)
     first, *others = best
     costs = (f"{_name(row.method)} {_rounded(row.cost / first.cost)}" for row in others)
-    return (f"Within {goal:.1%} at the least cost: {_name(first.method)}; "
-            f"times that cost: {', '.join(costs)}")  # fmt: skip
+    return (f"Within {goal:.1%} of the exact answer {_name(first.method)} costs least.",
+            f"Times its cost: {', '.join(costs)}")  # fmt: skip
 
 
 def _rounded(ratio: float) -> str:

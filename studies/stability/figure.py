@@ -8,6 +8,7 @@ import pandas as pd  # type: ignore[import-untyped]
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
@@ -39,8 +40,7 @@ def draw_integrators(table: pd.DataFrame) -> Figure:
     body = table["body"].iloc[0]
     few, default = table["links"] == maps.USUAL_LINKS, table["stiffness"] == 1.0
     short = table["cycles"] == table["cycles"].min()
-    figure = Figure(figsize=(12, 6.6), layout="constrained", dpi=110)
-    figure.get_layout_engine().set(hspace=0.09)  # type: ignore[union-attr]
+    figure = Figure(figsize=(12, 6.6), layout=ConstrainedLayoutEngine(hspace=0.09), dpi=110)
     figure.suptitle(
         f"Walks of the {body} on {maps.GROUND}: how they come out, and how many are accurate, by "
         "MuJoCo's integrator", fontsize=10,
