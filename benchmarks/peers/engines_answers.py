@@ -40,14 +40,14 @@ def main():
     """Print all."""
     strip = STRIP.limbs[0]
     for finer in (1.0, 4.0):
-        print(f"strip, elastica of {60 * finer:g} links: "
-              f"{reference(scene(STRIP), finer=finer).displacement[0]:+.5f}", flush=True)  # fmt: skip
+        walk = reference(scene(STRIP), finer=finer)
+        print(f"strip, {60 * finer:g} links: {walk.displacement[0]:+.5f}", flush=True)
     for links in (6, 12):
         walk = reference(scene(QUADRUPED), Numerics(links=links, twists=0))
         print(f"quadruped, {links} links a limb: {walk.displacement[0]:+.5f}", flush=True)
     third = strip.length / 3
-    thirds = [Limb(third, strip.width, strip.mass * third, on, end, angle)
-              for on, end, angle in ((-1, True, 0.0), (0, False, np.pi), (0, True, 0.0))]  # fmt: skip
+    places = ((-1, True, 0.0), (0, False, np.pi), (0, True, 0.0))
+    thirds = [Limb(third, strip.width, strip.mass * third, *place) for place in places]
     stages = [(middle, rear, front) for rear, middle, front in STRIP.pressed]
     by_nodes("strip", thirds, strip.bent, stages, STRIP.friction, 0.0, STRIP.length)
     stages = [(0, rear, rear, front, front) for rear, front in QUADRUPED.pressed]

@@ -77,7 +77,7 @@ def test_only_free_ends_of_limbs_are_rougher():
 
 
 def test_links_that_leave_chambers_half_an_element_are_refused():
-    with pytest.raises(ValueError, match="multiple of 6 .* got 8"):
+    with pytest.raises(ValueError, match=r"multiple of 6 .* got 8"):
         link_lengths(STRIP.limbs[0], 8)
 
 
