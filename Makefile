@@ -146,6 +146,7 @@ build/live-data.json: .venv/ready site/live/data.py $(shell find analytic mjsim 
 	$(PY) site/live/data.py $@
 
 site/live/node_modules/ready: site/live/package.json
+	@command -v npm > /dev/null || { echo 'the live page needs Node.js with npm'; exit 1; }
 	npm install --prefix $(<D) --no-package-lock --no-audit --no-fund --ignore-scripts
 	touch $@
 
@@ -169,4 +170,4 @@ architecture: .venv/ready
 	touch $@
 
 clean:
-	rm -rf .venv build dist
+	rm -rf .venv build dist site/live/node_modules
