@@ -9,8 +9,6 @@ position of all contacts, or the contact at the border of what the bounds leave 
 import math
 
 import mujoco
-import numpy as np
-from numpy.typing import NDArray
 
 from analytic.friction.contacts import ContactFinder, StripContact
 from analytic.friction.dissipation import minimisers
@@ -20,8 +18,6 @@ from mjsim.friction.traction import BoundedEnds, BoundedFriction, ContactFrictio
 from mjsim.model.pads import pads_by_node
 from mjsim.model.parts import NO_BOUND, PREFIX, TETHER
 from mjsim.scene import Resolved, Scene
-
-Array = NDArray[np.float64]
 
 
 def tether_tendons(scene: Scene, model: mujoco.MjModel) -> list[int]:
