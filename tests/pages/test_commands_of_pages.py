@@ -129,9 +129,7 @@ def tripod():
 
 @pytest.mark.usefixtures("reader", "forgets")
 def test_every_command_of_a_page_is_read_by_its_program(monkeypatch):
-    shown = dict.fromkeys(
-        (part, where) for where, line in commands() for part in line.split(" && ")
-    )
+    shown = {part: where for where, line in commands() for part in line.split(" && ")}
     assert len(shown) > 100
     seen, wrong = set(), []
     for line, where in shown.items():
