@@ -115,7 +115,7 @@ class StripOverlay(Overlay):
     def _anchor(self, pen: Pen, left: float, top: float, step: int) -> None:
         end = anchored_end(self.walk, step)
         if end is not None:
-            words = f"{'left' if end == 0 else 'right'} end holds"
+            words = f"{'left' if end == 0 else 'right'} end sticks"
             pen.text((left, top), words, font=self.small, fill=_GREEN)
 
     def _track(self, pen: Pen, left: float, top: float, step: int) -> None:
