@@ -111,7 +111,11 @@ def main() -> None:
     for axes in (lines, plane):
         axes.set_xticks([0.25, 0.5, 1, 2, 4], ["1/4", "1/2", "1", "2", "4"])
         axes.minorticks_off()
-    figure.colorbar(shown, ax=plane, label="distance; black: 0, dashed in MuJoCo")
+    figure.colorbar(
+        shown,
+        ax=plane,
+        label="distance per cycle over length: − back, + ahead; black: 0, dashed in MuJoCo",
+    )
     save(figure, Path(sys.argv[1]), dpi=110, format="png")
 
 

@@ -126,7 +126,12 @@ def draw_parameters(rows: pd.DataFrame) -> Figure:
         axes.set(xscale="log", xlabel=label, ylim=(-_CLIP, _CLIP))
     for left in panels[::3]:
         left.set_ylabel("error of displacement [%]")
-    panels[0].legend(frameon=False)
+    panels[0].axhspan(0, 0, color="0.92", label="within 2 %")
+    panels[0].axvline(parameters.default(next(iter(parameters.PARAMETERS))), color="0.2", lw=1,
+                      ls=":", label="default")  # fmt: skip
+    panels[0].legend(frameon=False, fontsize=9)
+    figure.suptitle("Default walk, one parameter varied: how far its distance is off the reference",
+                    fontsize=10)  # fmt: skip
     return figure
 
 
