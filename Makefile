@@ -5,7 +5,7 @@ MUJOCO_4 := 4.0.0
 # the oldest that reads models/
 MUJOCO_OLD := 3.13.0
 
-.PHONY: zoo run test check check-mujoco4 check-mujoco-old numbers scenes gradients reach auto promises fast quadruped trees loop many price startup \
+.PHONY: zoo run test check check-mujoco4 check-mujoco-old numbers scenes gradients reach auto promises fast quadruped trees loop many engines price startup \
 	bench regression \
 	identify models gallery figures charts chart maps reference site notebooks architecture live check-live clean
 
@@ -69,6 +69,10 @@ loop: .venv/ready
 # walks side by side and alone, and environments
 many: .venv/ready
 	$(PY) benchmarks/many.py
+
+# speed of engines at a given error of the distance, see docs/benchmark.md
+engines: .venv/ready
+	$(PY) -m benchmarks.engines
 
 # a prediction beside its walk
 price: .venv/ready
@@ -142,6 +146,7 @@ build/live-data.json: .venv/ready site/live/data.py $(shell find analytic mjsim 
 	$(PY) site/live/data.py $@
 
 site/live/node_modules/ready: site/live/package.json
+	@command -v npm > /dev/null || { echo 'the live page needs Node.js with npm'; exit 1; }
 	npm install --prefix $(<D) --no-package-lock --no-audit --no-fund --ignore-scripts
 	touch $@
 
@@ -165,4 +170,4 @@ architecture: .venv/ready
 	touch $@
 
 clean:
-	rm -rf .venv build dist
+	rm -rf .venv build dist site/live/node_modules

@@ -1,6 +1,7 @@
-// What the views of strips show: a place along the walk, and how large.
+// What views of strips show: where along the walk, and how large.
 
-const NEAREST = 0.5, FARTHEST = 3; // of the usual width
+const LEAST = 0.5, MOST = 3; // times the usual size
+const MARGIN = 0.22; // of the width, either way, in which a robot moves before the view follows
 
 export class Camera {
   constructor() {
@@ -9,19 +10,17 @@ export class Camera {
 
   reset() {
     this.zoom = 1;
-    this.middle = null; // m; the strip's start
     this.follow = true;
   }
 
   zoomBy(factor) {
-    this.zoom = Math.min(Math.max(this.zoom * factor, NEAREST), FARTHEST);
+    this.zoom = Math.min(Math.max(this.zoom * factor, LEAST), MOST);
   }
 
   // Where the middle of a view of a width is, that a robot at a place is to stay in [m].
   at(place, start, width, before) {
     const middle = before ?? start;
     if (!this.follow) return middle;
-    const margin = Math.max(0.22 * width, 0);
-    return Math.min(Math.max(middle, place - margin), place + margin);
+    return Math.min(Math.max(middle, place - MARGIN * width), place + MARGIN * width);
   }
 }

@@ -7,7 +7,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { ribsOf } from "./strip_view.js";
-import { colours, shade } from "./theme.js";
+import { colours, isDark, shade } from "./theme.js";
 
 const GAP = 0.15; // between their tops, of a chamber
 const ROOF = 0.75; // of the height: where chambers begin to narrow
@@ -48,6 +48,7 @@ export class QuadrupedView {
     const { walk, robot, ground, start } = lane, edges = walk.edges();
     if (!this.limbs) this.build(robot, edges);
     this.paintFloor(ground.name);
+    this.outline.material.color.set(colours().dark);
     edges.forEach((edge, i) => {
       const mesh = this.limbs[i], { chambers: [chamber] } = robot.limbs[i];
       place(mesh.geometry, edge, robot.limbs[i]);
@@ -62,7 +63,6 @@ export class QuadrupedView {
   }
 
   build(robot, edges) {
-    const { dark } = colours();
     this.limbs = robot.limbs.map(({ arclength }) => {
       const links = arclength.slice(1).map((_, link) => ribsOf(arclength, link));
       const count = links.reduce((sum, each) => sum + each, 0), geometry = new BufferGeometry();
@@ -76,7 +76,8 @@ export class QuadrupedView {
       [right[0], right.at(-1), right.at(-1), left.at(-1), left.at(-1), left[0]]);
     const points = new Float32Array(outline.flatMap(([x, y]) => [x, y, 0.0002]));
     const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(points, 3));
-    this.scene.add(new LineSegments(geometry, new LineBasicMaterial({ color: dark })));
+    this.outline = new LineSegments(geometry, new LineBasicMaterial());
+    this.scene.add(this.outline);
   }
 
   // Squares of 10 mm, each fifth line darker.
@@ -87,6 +88,8 @@ export class QuadrupedView {
     const side = 500, canvas = Object.assign(document.createElement("canvas"), { width: side, height: side });
     const c = canvas.getContext("2d");
     c.fillStyle = colour;
+    c.fillRect(0, 0, side, side);
+    c.fillStyle = isDark() ? "rgb(0 0 0 / 45%)" : "transparent";
     c.fillRect(0, 0, side, side);
     for (let i = 0; i < 5; i++) {
       c.fillStyle = i ? "rgb(255 255 255 / 28%)" : "rgb(255 255 255 / 85%)";

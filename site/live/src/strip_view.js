@@ -14,7 +14,7 @@ export class StripView {
   constructor(canvas) {
     this.canvas = canvas;
     this.context = canvas.getContext("2d");
-    this.middle = null;
+    this.reset();
   }
 
   draw({ walk, robot, ground, start, cycle }, camera) {
@@ -35,6 +35,10 @@ export class StripView {
     this.drawWay(x, start.rear[0] + robot.length / 2, cycle ? cycle.rear[0] - start.rear[0] : 0);
     this.drawBody(nodes, limb, walk.pressures, robot.peak, x, y);
     this.drawContacts(walk, nodes, x, base);
+  }
+
+  reset() {
+    this.middle = null;
   }
 
   drawGround(name, x, base, shown) {
