@@ -23,6 +23,7 @@ _COLOURS = dict(zip(
     (*maps.OUTCOMES, "rolled up"),
     ("#66a182", "#edae49", "#e76f51", "#8d6a9f", "#30343f", "#d9d2c5", "#3a7ca5"), strict=True,
 ))  # fmt: skip
+_TOLD = {"finished": "walks, with no reference"}
 _BRANCH = {"ok": "accurate", "branch_end": "toppled", "rolled_up": "rolled up"}
 _SHADED = {
     "sunk": "the paper's modes: depth below the ground / L",
@@ -104,7 +105,10 @@ def draw_robots(rows: pd.DataFrame) -> Figure:
         axes.set_ylabel("peak pressure [kPa]")
     for axes in panels[1]:
         axes.set_xlabel(r"$\Gamma = w L^3 / D_0$")
-    _legend(figure, [name for name in _COLOURS if name != "diverged"])
+    figure.suptitle(f"Default gait on {maps.GROUND}: which robots walk, and what they cost theory",
+                    fontsize=10)  # fmt: skip
+    end = Line2D([], [], color="black", lw=1.2, label="the elastica's stable branch ends")
+    _legend(figure, [name for name in _COLOURS if name != "diverged"], [end], columns=4)
     return figure
 
 
@@ -176,6 +180,7 @@ def _legend(
     figure: Figure, names: Sequence[str], lines: Sequence[Line2D] = (), columns: int | None = None
 ) -> None:
     """Outcomes of tiles, and lines, below a figure."""
-    handles = [*(Patch(color=_COLOURS[name], label=name) for name in names), *lines]
+    handles = [*(Patch(color=_COLOURS[name], label=_TOLD.get(name, name))
+                 for name in names), *lines]  # fmt: skip
     figure.legend(handles=handles, loc="outside lower center", ncols=columns or len(handles),
                   frameon=False, fontsize=9)  # fmt: skip
