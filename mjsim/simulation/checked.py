@@ -6,9 +6,11 @@ steps. Coarse walks are wrong where inertia counts, which damps out of long step
 contacts creep. The quasi-static rule of which end slides, for the shapes that the walk itself went
 through, tells both, at no cost: steps longer than 2 ms are believed only where that rule accounts
 for the distance to within the tolerance, and where no momentum decides. The quasi-static reference,
-solved for by itself, costs as much as ten such walks. The levels are chosen and measured, see
-mjsim.scene.auto; steps are made shorter where a ramp needs it. A failure counts as the robot's only
-if two fine walks fail alike.
+solved for by itself, costs as much as ten such walks. On 129 scenes that were not used to choose,
+with friction at the ends, the distance is then within 10 %, 2 % and 0.5 % (or 0.001 L) in 99, 97
+and 97 %, see `python benchmarks/auto.py check`. The levels are chosen, see mjsim.scene.auto; steps
+are made shorter where a ramp needs it. A failure counts as the robot's only if two fine walks fail
+alike.
 """
 
 import math
