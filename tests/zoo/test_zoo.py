@@ -15,7 +15,8 @@ from zoo.piezo_inchworm import rigid_links
 from zoo.pneumatic_inchworm import model as pneumatic
 from zoo.ten_wheels import model as wheels
 from zoo.terresoro_iv import best, decide, fit
-from zoo.terresoro_iv import model as terresoro
+from zoo.terresoro_iv import hub as terresoro
+from zoo.terresoro_iv import model as lagged
 
 SLOW = {"piezo_inchworm", "pneumatic_inchworm"}
 
@@ -124,28 +125,24 @@ def test_gaits_alike_by_quarter_turns_are_one():
     two, three, four = (120 + 12 + 2 + 2) // 4, (1120 + 8) // 4, (10920 + 36 + 6 + 6) // 4
     every = list(best.cycles())
     assert len(every) == len(set(every)) == two + three + four
-    law = terresoro.by_friction(terresoro.fitted()[0])
-    reaches = [best.reach(best.shifted(every[7], limbs), law) for limbs in range(4)]
-    assert reaches == pytest.approx(4 * reaches[:1])
+    values, _ = lagged.remembered()
+    reaches = best.reaches([best.shifted(every[7], limbs) for limbs in range(4)], values)
+    assert reaches == pytest.approx([reaches[0]] * 4)
 
 
 def test_a_gait_that_turns_reaches_as_far_as_its_cycles_put_together():
-    pairs, measured = terresoro.transitions()
-    law = terresoro.together(pairs, measured)
-    states = ("0111", "1000", "1111")
-    walked = terresoro.cycle(states * (best.TRANSITIONS // 3), law)
-    assert best.reach(states, law) == pytest.approx(walked[0])
+    steps = np.array([[1.0, 0.2, 3.0], [-0.5, 0.4, 5.0], [0.1, -0.2, -1.0]])
+    walked = lagged.together(np.tile(steps, (best.TRANSITIONS // 3, 1)))
+    assert best.reach(steps) == pytest.approx(walked[0])
 
 
 def test_what_is_measured_exactly_leaves_no_error_of_itself():
-    spread = decide.covariance(terresoro.fitted()[1])
-    slope = np.eye(len(spread))[0]
-    gain = spread @ slope
-    after = spread - np.outer(gain, gain) / (slope @ gain)
+    _, left_out = lagged.remembered()
+    spread = decide.covariance(left_out)
+    after = decide.narrowed(spread, np.eye(len(spread))[0], 0.0)
     assert after[0] == pytest.approx(np.zeros(len(spread)), abs=1e-12)
     assert (np.linalg.eigvalsh(after) > -1e-12).all()
-    jackknifed = terresoro.jackknife(terresoro.fitted()[1])
-    assert np.sqrt(np.diag(spread)) == pytest.approx(jackknifed)
+    assert np.sqrt(np.diag(spread)) == pytest.approx(terresoro.jackknife(left_out))
 
 
 def test_fits_of_terresoro_have_not_seen_what_is_held_out():
