@@ -11,6 +11,7 @@ from mjsim import Scene, Surface, build, read_tables
 from studies import inchworm as dielectric
 from zoo.__main__ import HERE, ROBOTS, main, walk
 from zoo.comparison import Predicted, rows
+from zoo.deciding import narrowed
 from zoo.piezo_inchworm import rigid_links
 from zoo.pneumatic_inchworm import model as pneumatic
 from zoo.ten_wheels import model as wheels
@@ -139,7 +140,7 @@ def test_a_gait_that_turns_reaches_as_far_as_its_cycles_put_together():
 def test_what_is_measured_exactly_leaves_no_error_of_itself():
     _, left_out = lagged.remembered()
     spread = decide.covariance(left_out)
-    after = decide.narrowed(spread, np.eye(len(spread))[0], 0.0)
+    after = narrowed(spread, np.eye(len(spread))[0], 0.0)
     assert after[0] == pytest.approx(np.zeros(len(spread)), abs=1e-12)
     assert (np.linalg.eigvalsh(after) > -1e-12).all()
     assert np.sqrt(np.diag(spread)) == pytest.approx(terresoro.jackknife(left_out))

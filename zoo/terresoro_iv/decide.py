@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from studies import Array
+from zoo.deciding import errors, narrowed
 from zoo.terresoro_iv.best import cycles, reach, reaches
 from zoo.terresoro_iv.hub import gaits, jackknife
 from zoo.terresoro_iv.model import Lagged, cycle, motions, remembered, steady
@@ -87,12 +88,6 @@ def covariance(left_out: Array) -> Array:
     return np.asarray((folds - 1) ** 2 / folds * np.cov(left_out, rowvar=False))
 
 
-def narrowed(spread: Array, slope: Array, error: float) -> Array:
-    """Covariance after a measurement whose value has a slope by the numbers and an error."""
-    gain = spread @ slope
-    return np.asarray(spread - np.outer(gain, gain) / (slope @ gain + error**2))
-
-
 def distances(numbers: Lagged) -> Array:
     """Distances of the five gaits, (5,) [cm]."""
     return np.array([cycle(gait.states, numbers)[0] for gait in gaits()])
@@ -128,7 +123,7 @@ def main() -> None:
 
 def _error(gradient: Array, spread: Array) -> float:
     """Root mean square of the standard errors of the gaits' distances [cm]."""
-    return float(np.sqrt(np.mean(np.einsum("ij,jk,ik->i", gradient, spread, gradient))))
+    return float(np.sqrt(np.mean(errors(spread, gradient) ** 2)))
 
 
 if __name__ == "__main__":
