@@ -12,6 +12,7 @@ from studies import inchworm as dielectric
 from zoo.__main__ import HERE, ROBOTS, main, walk
 from zoo.comparison import Predicted, rows
 from zoo.deciding import narrowed
+from zoo.geckobot_actuators import decide as gecko
 from zoo.piezo_inchworm import rigid_links
 from zoo.pneumatic_inchworm import model as pneumatic
 from zoo.ten_wheels import model as wheels
@@ -144,6 +145,15 @@ def test_what_is_measured_exactly_leaves_no_error_of_itself():
     assert after[0] == pytest.approx(np.zeros(len(spread)), abs=1e-12)
     assert (np.linalg.eigvalsh(after) > -1e-12).all()
     assert np.sqrt(np.diag(spread)) == pytest.approx(terresoro.jackknife(left_out))
+
+
+def test_the_law_of_an_actuator_goes_through_its_points_and_one_more_point_never_widens():
+    pressure, numbers = np.array([0.0, 30.0, 55.0, 80.0]), np.array([12.0, np.log(0.4), 1.3])
+    angle = gecko.bend(numbers, pressure)
+    assert gecko.bend(gecko.through(pressure, angle), pressure) == pytest.approx(angle, abs=1e-3)
+    spread = np.diag([100.0, 1.0, 0.1])
+    few, more = (gecko.left(plan, numbers, spread) for plan in ((60, 90), (10, 60, 90)))
+    assert (more <= few).all()
 
 
 def test_fits_of_terresoro_have_not_seen_what_is_held_out():
