@@ -40,12 +40,12 @@ def solve_bordered(matrix: Array, right: Array) -> Array:
         begin = max(off, 0)
         band[_BANDS - off, begin : begin + len(diagonal)] = diagonal
     both = np.concatenate([sides[order], matrix[order, size:]], axis=1)
-    found = solve_banded((_BANDS, _BANDS), band, both, check_finite=False)
+    columns = solve_banded((_BANDS, _BANDS), band, both, check_finite=False)
     count = sides.shape[1]
     below = matrix[size:, order]
-    small = matrix[size:, size:] - below @ found[:, count:]
-    last = np.linalg.solve(small, sides[size:] - below @ found[:, :count])
+    reduced = matrix[size:, size:] - below @ columns[:, count:]
+    border = np.linalg.solve(reduced, sides[size:] - below @ columns[:, :count])
     result = np.zeros_like(sides, dtype=float)
-    result[order] = found[:, :count] - found[:, count:] @ last
-    result[size:] = last
+    result[order] = columns[:, :count] - columns[:, count:] @ border
+    result[size:] = border
     return result.reshape(right.shape)

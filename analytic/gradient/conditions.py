@@ -1,4 +1,4 @@
-"""What may change of the contacts of a state next."""
+"""Conditions that may change the contacts of a state next."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,32 +17,32 @@ _ENDS = ("left", "right")
 
 def possible(balance: Balance, u: Array, contacts: Contacts) -> list[tuple[Condition, bool]]:
     """Conditions that may be met next, and whether a slide ends there."""
-    found = []
+    conditions = []
     y = balance.split(u)[0]
-    last = len(y) - 1
+    end_node = len(y) - 1
     pressure = np.abs(balance.pressure(float(u[-1])))
     robot = balance.inputs.robot
     flat = flat_pressures(robot, balance.inputs.surface)
-    at_edge = {0: 1, 1: last - 1}[contacts.edge] if contacts.tension == "edge" else None
+    at_edge = {0: 1, 1: end_node - 1}[contacts.edge] if contacts.tension == "edge" else None
     for node in _near(balance, u, contacts):
         if node == at_edge:
             continue
         end = 0 if node == 1 else 1
-        beside = node in (1, last - 1) and pressure[-end] <= flat[-end]
+        beside = node in (1, end_node - 1) and pressure[-end] <= flat[-end]
         kind = "force" if contacts.active[node] else "height"
         what = f"the {_ENDS[end]} end changes between a tip and a side"
-        found.append((Condition(kind, node, what), beside))
+        conditions.append((Condition(kind, node, what), beside))
     for end, name in enumerate(_ENDS):
         as_side = _as_side(balance, u, contacts, end)
         if contacts.sides[end] != 0 or as_side > 0:
             what = f"the pressure of the {name} end lets it lie flat or not"
-            found.append((Condition("pressure", end, what), True))
+            conditions.append((Condition("pressure", end, what), True))
     if contacts.slider != "both" and contacts.tension != "edge":
-        found.append((Condition("bounds", 0, "both ends resist alike"), True))
+        conditions.append((Condition("bounds", 0, "both ends resist alike"), True))
     if contacts.tension == "edge":
-        found += [(Condition("tip", 0, "an end is a tip again"), True),
+        conditions += [(Condition("tip", 0, "an end is a tip again"), True),
                   (Condition("other", 0, "both ends resist alike"), True)]  # fmt: skip
-    return found + [(Condition("ripple", node, "a flat stretch lifts off or comes down"), True)
+    return conditions + [(Condition("ripple", node, "a flat stretch lifts off or comes down"), True)
                     for node in _that_count(balance, u, contacts)]  # fmt: skip
 
 
@@ -92,9 +92,9 @@ def _that_count(balance: Balance, u: Array, contacts: Contacts) -> list[int]:
         near = np.abs(y[places[:count]] - level) < _NEAR
         rising = [[node] for node in places[:count][near] if not contacts.active[node]]
         for group in [*rising, list(beside)]:
-            other = air.copy()
-            other[group] = ~air[group]
-            lengths = [_length(balance, u, contacts, force, mask, end) for mask in (air, other)]
+            turned = air.copy()
+            turned[group] = ~air[group]
+            lengths = [_length(balance, u, contacts, force, mask, end) for mask in (air, turned)]
             if group and abs(lengths[1] - lengths[0]) > _LENGTH * robot.length:
                 nodes.add(int(max(group, key=lambda node: y[node])))
     return sorted(nodes)

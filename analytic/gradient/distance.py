@@ -35,7 +35,7 @@ _NONE = Flag.BRANCH_END | Flag.ROLLED_UP | Flag.JUMPED | Flag.NOT_CONVERGED
 
 
 class Term(NamedTuple):
-    """End of a slide, and what its separation counts in the distance."""
+    """End of a slide, and the weight of its separation in the distance."""
 
     end: RunEnd
     weight: float
@@ -70,22 +70,22 @@ def terms(
     walk = _Walk(inputs, shapes, times, chamber)
     counted = [run for run in runs if run.counts]
     before = [run for run in runs if not run.counts]
-    found = []
+    slide_ends = []
     if counted:
         begin = walk.end(before[-1], counted[0]) if before else walk.begin(counted[0])
-        found.append(Term(begin, counted[0].slip))
+        slide_ends.append(Term(begin, counted[0].slip))
     for run, after in zip(counted, [*counted[1:], None], strict=True):
         weight = (after.slip if after else 0.0) - run.slip
         if weight:
-            found.append(Term(walk.end(run, after), weight))
+            slide_ends.append(Term(walk.end(run, after), weight))
         if run.slip == 0.5:
-            found += [Term(state, 0.0) for state in walk.tied_sides(run)]
-    return found
+            slide_ends += [Term(state, 0.0) for state in walk.tied_sides(run)]
+    return slide_ends
 
 
-def distance(found: Sequence[Term]) -> float:
+def distance(slide_ends: Sequence[Term]) -> float:
     """Displacement per cycle from the ends of slides [m]."""
-    return sum(term.weight * term.end.separation for term in found)
+    return sum(term.weight * term.end.separation for term in slide_ends)
 
 
 class _Walk:
@@ -103,15 +103,15 @@ class _Walk:
 
     def end(self, run: Run, after: Run | None) -> RunEnd:
         """The state in which a slide ends, before another one."""
-        row = run.last
+        row = run.end
         if after is None and self.lies_flat(len(self._times) - 1):
             row = len(self._times) - 1
-        elif after and after.counts > run.counts and self.lies_flat(after.first):
-            row = after.first
+        elif after and after.counts > run.counts and self.lies_flat(after.begin):
+            row = after.begin
         ramp, x = self._place(row, 0.5 * (self._times[row - 1] + self._times[row]))
         until = 1.0
         if row + 1 < len(self._times):
-            later = row + 1 if self._inputs.friction.tension or not after else after.first
+            later = row + 1 if self._inputs.friction.tension or not after else after.begin
             until = min(1.0, self._part(ramp, max(self._times[later], self._times[row]), row))
         if x >= 1.0 - 1e-9:
             return self._at(row, ramp, x, run, None)
@@ -119,13 +119,13 @@ class _Walk:
             return self._at(row, ramp, x, run, until)
         except UnclearError:
             # the contacts may have changed in this state, which is as near behind as before it
-            if row - 1 <= run.first:
+            if row - 1 <= run.begin:
                 raise
             return self._at(row - 1, ramp, self._part(ramp, self._times[row - 1], row), run, until)
 
     def tied_sides(self, run: Run) -> list[RunEnd]:
         """A state in which both ends slide as sides that resist alike, if there is any."""
-        rows = np.arange(run.first + 1, run.last)
+        rows = np.arange(run.begin + 1, run.end)
         sides = self._shapes.contact_left[rows] * self._shapes.contact_right[rows] > 0
         rows = rows[sides & (self._shapes.amplitude[rows] > _FLAT * self._inputs.robot.length)]
         if not len(rows):
@@ -181,20 +181,20 @@ class _Walk:
 
 
 def derivatives(
-    inputs: Inputs, found: Sequence[Term], names: Sequence[str], links: int, chamber: str
+    inputs: Inputs, slide_ends: Sequence[Term], names: Sequence[str], links: int, chamber: str
 ) -> dict[str, Derivative]:
     """Derivatives of the distance by fields.
 
     Args:
         inputs: the scene.
-        found: ends of its slides.
+        slide_ends: of its walk.
         names: of the fields, as in robot.length.
         links, chamber: of the chain.
 
     Raises:
         ValueError: there is no such field, or it has no number.
     """
-    ends = [_Adjoint(term, Balance(inputs, links, chamber, term.end.ramp)) for term in found]
+    ends = [_Adjoint(term, Balance(inputs, links, chamber, term.end.ramp)) for term in slide_ends]
     make = partial(Balance, links=links, chamber=chamber)
     result = {}
     for name in names:
@@ -238,7 +238,7 @@ def _by(
 
 
 class _Adjoint:
-    """What the end of a slide contributes to derivatives.
+    """Contribution of the end of a slide to derivatives.
 
     Attributes:
         ramp: of the cycle, that it is on.
@@ -279,9 +279,9 @@ class _Adjoint:
         end, place = self._term.end, 0.0
         if end.place is not None:
             place = float(balance.condition(end.u, end.contacts, end.place))
-        others = [float(balance.condition(end.u, end.contacts, what))
+        conditions = [float(balance.condition(end.u, end.contacts, what))
                   for what, _ in self._conditions]  # fmt: skip
         return np.concatenate([
             balance.residual(end.u, end.contacts),
-            [place, float(balance.separation(end.u)), *others],
+            [place, float(balance.separation(end.u)), *conditions],
         ])  # fmt: skip

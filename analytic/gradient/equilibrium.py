@@ -91,7 +91,7 @@ class Balance:
         return self.chain.force_unit * self.inputs.robot.length**2
 
     def pressure(self, x: float) -> Array:
-        """Of the segments at a place on the ramp [Pa]."""
+        """Pressures of the segments at a place on the ramp [Pa]."""
         return np.asarray(self._begin + x * (self._end - self._begin))
 
     def split(self, u: Array) -> tuple[Array, Array, Array, Array, Array]:
@@ -104,7 +104,7 @@ class Balance:
         return np.asarray(np.cos(self.split(u)[1]) @ (self.chain.length * self.inputs.robot.length))
 
     def forces(self, u: Array) -> Array:
-        """Of the ground on the nodes [D0 / L^2]."""
+        """Forces of the ground on the nodes [D0 / L^2]."""
         shear = self.split(u)[2]
         force = np.zeros((*u.shape[:-1], shear.shape[-1] + 1)) + self.chain.weight
         force[..., 1:] += shear
@@ -142,7 +142,7 @@ class Balance:
         return np.asarray(way * self.inputs.friction.tension * bound)
 
     def at_edge(self, u: Array, end: int, active: Mask) -> Array:
-        """What is 0 where an end is between a tip and a side: force or height of the next node."""
+        """Force or height of the node beside an end, 0 where it is between a tip and a side."""
         node = -2 if end else 1
         values = self.forces(u) if active[node] else self.split(u)[0]
         return np.asarray(values[..., node])
@@ -186,8 +186,8 @@ class Balance:
         if what.kind == "bounds":
             return left - right
         if what.kind == "other":
-            other = right if contacts.edge == 0 else left
-            return np.abs(tension) - self.inputs.friction.tension * other
+            opposite = right if contacts.edge == 0 else left
+            return np.abs(tension) - self.inputs.friction.tension * opposite
         as_tip = contacts._replace(sides=(0, 0))
         tip = self.bound(u, as_tip, contacts.edge)
         return np.abs(tension) - self.inputs.friction.tension * tip

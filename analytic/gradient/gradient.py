@@ -48,13 +48,13 @@ def gradient(
     reason = why_not(inputs, solver)
     if not reason and isinstance(shapes, ContactShapes) and isinstance(solver, Elastica):
         try:
-            found = terms(inputs, shapes, left, times, cycles, solver.chamber)
+            slide_ends = terms(inputs, shapes, left, times, cycles, solver.chamber)
             walked = _last_cycle(left, times, cycles)
-            if not abs(distance(found) - walked) <= _AGREES * inputs.robot.length:
+            if not abs(distance(slide_ends) - walked) <= _AGREES * inputs.robot.length:
                 raise UnclearError("the ends of slides that were found do not add up to the walk's "
                                    "distance")  # fmt: skip
-            known = [name for name in names if name not in _OTHERS]
-            result = derivatives(inputs, found, known, solver.links, solver.chamber)
+            smooth = [name for name in names if name not in _OTHERS]
+            result = derivatives(inputs, slide_ends, smooth, solver.links, solver.chamber)
             return {
                 name: result.get(name)
                 or _none(inputs, name, f"{_OTHERS.get(name)} is not differentiated")
@@ -82,8 +82,8 @@ def why_not(inputs: Inputs, solver: Solver) -> str:
     if isinstance(surface, Surface):
         asked["adhesive ground"] = surface.adhesion > 0
         asked["ground that resists by speed"] = depends_on_speed(surface)
-    found = [what for what, present in asked.items() if present]
-    return f"there is no derivative yet for {found[0]}" if found else ""
+    refused = [what for what, present in asked.items() if present]
+    return f"there is no derivative yet for {refused[0]}" if refused else ""
 
 
 def _last_cycle(left: Array, times: Array, cycles: int) -> float:

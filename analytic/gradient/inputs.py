@@ -21,7 +21,7 @@ _FROM_ZERO = {"robot": 1e-6, "surface": 1e-3, "gait": 1e-5, "friction": 1e-5}  #
 
 @dataclass(frozen=True)
 class Inputs:
-    """What a distance is of.
+    """Scene that a distance is of.
 
     Attributes:
         robot, gait, surface, friction: see analytic.prediction.predict.
@@ -100,7 +100,7 @@ class Number(NamedTuple):
 
     Attributes:
         name, place: of the field, and its place in it.
-        value: of it.
+        value: of the number.
         step: of differences; 0 if it cannot be changed.
         way: 1 or -1 if it can be changed that way only, or has a corner there; 0 if both.
     """

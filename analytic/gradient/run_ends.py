@@ -94,7 +94,7 @@ def frozen(
 
 
 class Search:
-    """What ends a slide, from its last state in a walk on.
+    """Search for what ends a slide, from its last state in a walk on.
 
     Args:
         balance: of the ramp it is on.

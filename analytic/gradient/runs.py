@@ -18,14 +18,14 @@ class Run(NamedTuple):
 
     Attributes:
         slip: fraction of the left end.
-        first, last: rows where it begins and ends.
+        begin, end: rows where it begins and ends.
         change: of the separation [m].
         counts: whether it is in the cycle that is measured.
     """
 
     slip: float
-    first: int
-    last: int
+    begin: int
+    end: int
     change: float
     counts: bool
 
@@ -43,13 +43,13 @@ def runs_of(separation: Array, left: Array, times: Array, start: float, length: 
         run = Run(near, int(row), int(row) + 1, float(change[row]), counts)
         if runs and (runs[-1].slip, runs[-1].counts) == (near, counts):
             total = runs[-1].change + abs(run.change)
-            runs[-1] = runs[-1]._replace(last=run.last, change=total)
+            runs[-1] = runs[-1]._replace(end=run.end, change=total)
         else:
             runs.append(run._replace(change=abs(run.change)))
     long = [run for run in runs if run.change > _SHORT * length]
     merged: list[Run] = []
     for run in long:
         if merged and (merged[-1].slip, merged[-1].counts) == (run.slip, run.counts):
-            run = run._replace(first=merged[-1].first, change=merged.pop().change + run.change)
+            run = run._replace(begin=merged[-1].begin, change=merged.pop().change + run.change)
         merged.append(run)
     return merged

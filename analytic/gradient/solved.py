@@ -13,7 +13,7 @@ _STEPS = 12  # of Newton's method, at most; chosen
 
 
 class UnclearError(Exception):
-    """What ends a slide is not clear; the text says why there is no derivative."""
+    """Failure to tell what ends a slide; the text says why there is no derivative."""
 
 
 def solved(balance: Balance, u: Array, contacts: Contacts, place: Condition | None) -> Array:

@@ -7,18 +7,24 @@ position of all contacts, or the contact at the border of what the bounds leave 
 """
 
 import math
+from collections.abc import Iterable
 
 import mujoco
+import numpy as np
+from numpy.typing import NDArray
 
 from analytic.friction.contacts import ContactFinder, StripContact
 from analytic.friction.dissipation import minimisers
 from analytic.scene.chain import node_positions
 from mjsim.friction.traction import BoundedEnds, BoundedFriction, ContactFriction
 from mjsim.model.pads import pads_by_node
-from mjsim.model.parts import NO_BOUND, PREFIX, TETHER, tendon_names
+from mjsim.model.parts import NO_BOUND, PREFIX, TENDONS, TETHER, tendon_names
 from mjsim.scene import Resolved, Scene
 
-APART = 1e12  # divisor of a pulley that takes a node out of the mean
+Array = NDArray[np.float64]
+
+WRAPS = 3  # of a tendon for each of its sites: a pulley, the far site, the site
+_SITE = mujoco.mjtObj.mjOBJ_SITE
 
 
 def node_tendons(model: mujoco.MjModel, nodes: int) -> list[int]:
@@ -32,6 +38,73 @@ def tether_tendons(scene: Scene, model: mujoco.MjModel) -> list[int]:
     return [model.tendon(PREFIX + TETHER).id] if tether and tether.resists else []
 
 
+def mean_sites(model: mujoco.MjModel) -> NDArray[np.int32]:
+    """Sites of the tendon on a mean position, first those that are in it; a view, (N + 2,)."""
+    both = model.tendon(PREFIX + TENDONS[2]).id
+    begin = int(model.tendon_adr[both])
+    end = int(model.tendon_adr[both + 1]) if both + 1 < model.ntendon else model.nwrap
+    return model.wrap_objid[begin + 2 : end : WRAPS]
+
+
+class NodeTendons:
+    """Tendons of the nodes, of which MuJoCo works out those that resist and no other.
+
+    MuJoCo spends a quarter of a step on the tendons of 26 nodes and of their mean. One of no wraps
+    costs nothing, but its rate has to be asked for.
+
+    Args:
+        model, data: as compiled.
+        nodes: number of nodes.
+
+    Attributes:
+        of: tendons of the nodes, left first.
+        mean: the one on a mean position.
+    """
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, nodes: int) -> None:
+        self.of = node_tendons(model, nodes)
+        self._model, self._data = model, data
+        self.mean = model.tendon(PREFIX + TENDONS[2]).id
+        self._wraps, self._rate = model.tendon_num, data.ten_velocity
+        # each ends at the site of its node
+        self._sites: list[int] = model.wrap_objid[model.tendon_adr[self.of] + 2].tolist()
+        self._site = dict(zip(self.of, self._sites, strict=True))
+        self._mean_sites = mean_sites(model)
+        self._averaged: list[int] = []
+        self._x = data.site_xpos[:, 0]
+        self._inner = set(self.of[1:-1])
+        self._wraps[[*self._inner, self.mean]] = 0
+        self._used: set[int] = set()
+        self._velocity = np.zeros(6)
+
+    def use(self, tendons: Iterable[int], averaged: list[int]) -> None:
+        """Let MuJoCo work out these in the coming step, those of the ends, and a mean of nodes."""
+        used = self._inner.intersection(tendons)
+        if used != self._used:
+            for tendon in self._used - used:
+                self._wraps[tendon] = 0
+            for tendon in used - self._used:
+                self._wraps[tendon] = WRAPS
+            self._used = used
+        if averaged != self._averaged:
+            self._averaged, count = averaged, len(averaged)
+            self._mean_sites[:count] = [self._sites[node] for node in averaged]
+            self._wraps[self.mean] = WRAPS * count
+
+    def x(self, tendon: int) -> float:
+        """Place of its node in the step just done [m]."""
+        return self._x.item(self._site[tendon])
+
+    def rate(self, tendon: int) -> float:
+        """Speed of its node in the step just done [m/s]."""
+        if tendon in self._used or tendon not in self._inner:
+            return self._rate.item(tendon)
+        mujoco.mj_objectVelocity(
+            self._model, self._data, _SITE, self._site[tendon], self._velocity, 0
+        )
+        return self._velocity.item(3)
+
+
 class AnchoredContacts:
     """Contacts that friction anchors, and how far a step moved them by its order alone.
 
@@ -39,6 +112,7 @@ class AnchoredContacts:
         anchored: tendons of the nodes that are anchored in the coming step.
         contacts, bounds: tendons and bounds of all contacts in the coming step.
         back: bounds against motion back, if `bounds` are of motion ahead only.
+        anchored_before: tendons of those that were anchored in the step before.
     """
 
     def __init__(self, data: mujoco.MjData) -> None:
@@ -46,7 +120,7 @@ class AnchoredContacts:
         self.contacts: list[int] = []
         self.bounds: list[float] = []
         self.back: list[float] | None = None
-        self._anchored_before: list[int] = []
+        self.anchored_before: list[int] = []
         self._rate, self._places = data.ten_velocity, data.ten_length
         self._before: list[float] = self._places.tolist()
 
@@ -54,7 +128,7 @@ class AnchoredContacts:
         """See StripFriction.after_step; the mean over the anchored nodes."""
         excess, before = 0.0, self._before
         places: list[float] = self._places.tolist()
-        tendons, self._anchored_before = self._anchored_before, self.anchored
+        tendons, self.anchored_before = self.anchored_before, self.anchored
         if tendons:
             moved = [dt * self._rate.item(i) - places[i] + before[i] for i in tendons]
             excess = sum(moved) / len(moved)
@@ -171,13 +245,11 @@ class BoundedContacts(BoundedFriction):
         press = scene.ground.at(0.0).press(scene.strip.width)
         self._finder = ContactFinder(scene.strip, nodes, scene.roughness, press)
         self._half = 0.5 * scene.strip.length
-        self._tendons = node_tendons(model, len(nodes))
+        self._rows = NodeTendons(model, data, len(nodes))
+        self._tendons = self._rows.of
         self._nodes = dict(zip(self._tendons, nodes.tolist(), strict=True))
         self._bounds[self._tendons] = 0.0
         self._resisting: list[int] = [self._both]
-        self._averaged: list[int] = []  # nodes in the mean position
-        begin = model.tendon_adr[self._both]
-        self._divisors = model.wrap_prm[begin : begin + model.tendon_num[self._both] : 3]
         self._anchors = AnchoredContacts(data)
         self._tether = tether_tendons(scene, model)
         self._drags: list[float] = self._bounds[self._tether].tolist()
@@ -198,6 +270,7 @@ class BoundedContacts(BoundedFriction):
         if not contacts:
             self.contact_left = self.contact_right = 0.0
             self._resisting = self._anchors.contacts = []
+            self._rows.use(self._anchors.anchored_before, [])
             return
         self.contact_left, self.contact_right = contacts[0].length, contacts[-1].length
         nodes = [_middle(contact) for contact in contacts]
@@ -214,14 +287,16 @@ class BoundedContacts(BoundedFriction):
             tendons, bounds = [*tendons, *self._tether], [*bounds, *self._drags]
             ahead, back = [*ahead, *self._drags], back and [*back, *self._drags]
         self._anchors.contacts, self._anchors.bounds, self._anchors.back = tendons, ahead, back
-        rates = [self._rate.item(tendon) for tendon in tendons]
+        rates = [self._rate_of(tendon) for tendon in tendons]
         low, high = minimisers(ahead, rates, back)
         viscous = self._by_speed and any(self._drag[tendon] for tendon in tendons)
+        averaged: list[int] = []
         if high > low and self._level and not (viscous or self._tether):
-            self._anchor_undecided(nodes, rates, low, high)
+            averaged = self._anchor_undecided(nodes, rates, low, high)
         else:
             speeds = [abs(v) if bound else math.inf for v, bound in zip(rates, bounds, strict=True)]
             self._anchors.anchored = [tendons[speeds.index(min(speeds))]]
+        self._rows.use([*tendons, *self._anchors.anchored_before], averaged)
 
     def after_step(self, dt: float) -> float:
         """See StripFriction.after_step."""
@@ -229,26 +304,33 @@ class BoundedContacts(BoundedFriction):
             self.drift = self._anchors.drift()
         return self._anchors.after_step(dt)
 
+    def _x_of(self, tendon: int) -> float:
+        return self._rows.x(tendon)
+
+    def _rate_of(self, tendon: int) -> float:
+        return self._rows.rate(tendon)
+
     def _inward(self, tendon: int) -> float:
         return {self._left: 1.0, self._right: 0.0}.get(tendon, 0.5)
 
     def _anchor_undecided(
         self, nodes: list[int], rates: list[float], low: float, high: float
-    ) -> None:
-        """Anchor what equal bounds leave open: velocities of the whole between two [m/s]."""
+    ) -> list[int]:
+        """Anchor what equal bounds leave open: velocities of the whole between two [m/s].
+
+        Returns:
+            Nodes whose mean position is anchored; none where a contact is.
+        """
         tendons = [self._tendons[node] for node in nodes]
         mean = -sum(rates) / len(rates)
         if low < mean < high:
-            if nodes != self._averaged:
-                self._divisors[:] = APART
-                self._divisors[nodes] = 1.0
-                self._averaged = nodes
             self._bounds[self._both], self._anchors.anchored = self._tie, tendons
-        else:
-            border = low if mean <= low else high
-            off = [abs(rate + border) for rate in rates]
-            self._anchors.anchored = [tendons[off.index(min(off))]]
-            self._bounds[self._anchors.anchored[0]] += self._tie
+            return nodes
+        border = low if mean <= low else high
+        off = [abs(rate + border) for rate in rates]
+        self._anchors.anchored = [tendons[off.index(min(off))]]
+        self._bounds[self._anchors.anchored[0]] += self._tie
+        return []
 
 
 def _middle(contact: StripContact) -> int:
