@@ -1,10 +1,16 @@
 """What TerreSoRo-IV remembers, and how its tracks are cut, by closed forms and planted faults."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from analytic import Surface
 from analytic.friction.dissipation_in_plane import least_dissipation_in_plane
-from zoo.terresoro_iv import hub, model, tracks
+from analytic.scene.feet import Foot
+from analytic.solvers.limbs.walk import follow, shapes
+from mjsim import build, read_tables
+from zoo.terresoro_iv import hub, limbs, model, scenes, tracks
 from zoo.terresoro_iv.at_once import SHARPEST, least_dissipation
 from zoo.terresoro_iv.forms import FORMS
 
@@ -88,3 +94,36 @@ def test_means_that_are_cut_anew_are_of_the_same_transitions():
     order = [known.index(pair) for pair in pairs]
     for column in range(3):
         assert np.corrcoef(means[:, column], published[order, column])[0, 1] > 0.95
+
+
+def test_limbs_that_all_resist_alike_go_as_the_reference_has_it():
+    bounds = dict.fromkeys(("resting", "curling", "uncurling"), 0.0)
+    numbers = limbs.known()[0]._replace(**bounds, lag=0.0, curl=1.6, rigidity=-1.0)
+    before, after = np.array([[0, 0, 0, 0]]), np.array([[0, 0, 1, 1]])
+    found = limbs.Walker(before[:, None], after)(numbers)
+    of = limbs.robot(numbers)
+    slides = replace(of.limbs[0].strip, feet=(Foot(0.0, 1.0, grip=0.0),))
+    of = replace(of, limbs=(replace(of.limbs[0], strip=slides), *of.limbs[1:]))
+    # two limbs begin at either end of the hub and share the bound of a tip
+    flat = 10.0 * of.limbs[1].strip.length * of.limbs[1].strip.width
+    ground = Surface("mat", tip_force=2 * flat, shear_strength=10.0)
+    curls = np.linspace(before[0], after[0], limbs.STEPS + 1)
+    pressures = limbs.PEAK * np.insert(curls, 0, 0.0, axis=1)
+    tree, rests = shapes(of, pressures, limbs.ELEMENTS, twists=0)
+    path = follow(tree, rests, pressures, ground)
+    half, last = len(rests[0].nodes) // 2, tree.vertices[0].stop - 1
+    first, end = (rest.nodes[[0, last, half, half + last], :2].mean(axis=0)
+                  for rest in (rests[0], rests[-1]))  # fmt: skip
+    moved = path.place[-1] + hub.turned(end, path.heading[-1]) - first
+    assert found[0] == pytest.approx([*100 * moved, np.degrees(path.turn)], abs=0.01)
+
+
+def test_the_scene_of_limbs_is_a_file_that_builds_and_goes_round():
+    fitted, _ = limbs.known()
+    states = hub.gaits()[2].states
+    assert (hub.HERE / "scene.toml").read_text("utf-8") == scenes.scene(
+        fitted, scenes.stages(fitted, *model.steady(states)), 2
+    )
+    built = build(read_tables(hub.HERE / "scene.toml"))[0]
+    assert len(built.robot.chambers) == 9
+    assert built.gait.stages[0] == pytest.approx(built.gait.stages[-1])
