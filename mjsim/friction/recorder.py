@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from analytic.friction.grip import Grip
 from analytic.friction.laws import LAWS
 from analytic.scene.ground import depends_on_speed
-from mjsim.friction.between_ends import WRAPS, mean_sites
 from mjsim.friction.lean import Lean
+from mjsim.friction.node_tendons import WRAPS, mean_sites
 from mjsim.model.pads import node_of_geom, pads_by_node
 from mjsim.model.parts import PREFIX, TENDONS, tendon_names
 from mjsim.results.forces import GroundForces

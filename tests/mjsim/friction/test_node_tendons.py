@@ -6,7 +6,7 @@ import pytest
 
 from analytic import Robot
 from analytic.scene.surface import SURFACES
-from mjsim.friction.between_ends import NodeTendons
+from mjsim.friction.node_tendons import NodeTendons
 from mjsim.model.parts import FAR
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.simulation import Simulation, simulate
