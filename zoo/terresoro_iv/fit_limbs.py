@@ -2,7 +2,7 @@
 
 Of many robots, drawn at random and near the best one so far, those numbers of friction are fitted
 that cost no new shapes; the best is kept in limbs.csv, with standard errors by the information
-matrix. --fit SECONDS [SEED] goes on from there. Prints what limbs explain; gaits are looked at last.
+matrix. --fit SECONDS [SEED] goes on from there. Prints what limbs explain; gaits come last.
 """
 
 import csv
