@@ -53,6 +53,15 @@ def coasting(scene: Scene) -> Coasting | None:
     return None
 
 
+def unbraked(scene: Scene) -> str:
+    """Why momentum counts however slow the gait is, empty if it does not."""
+    if coasts := coasting(scene):
+        return f"nothing brakes {coasts.contacts} that slide {coasts.way}"
+    if not scene.in_space and scene.strip.tether and scene.strip.tether.resists:
+        return "beside the pull of a tether it decides which end slides"
+    return ""
+
+
 def _strongest(scene: Scene, surface: Surface, tips: bool) -> tuple[float, float]:
     """Greatest bounds ahead and back of any tip, or of any underside, under a unit load."""
     bounds = []

@@ -23,7 +23,7 @@ from analytic.scene.surface import Surface
 from analytic.uncertainty import bending_by_friction, modes_error, small_slopes
 from mjsim.files.text_table import Column, text_table
 from mjsim.results.cautions import NEARLY, tied
-from mjsim.results.coasting import coasting
+from mjsim.results.coasting import unbraked
 from mjsim.results.measures import measure
 from mjsim.results.prediction import (
     HALF,
@@ -108,14 +108,14 @@ Ask = Callable[[], tuple[float, float, str]]
 
 def _models(scene: Scene, tolerance: float, numerics: Numerics | None) -> Iterator[tuple[str, Ask]]:
     """Names of models and what asks them, cheapest first."""
-    fast, unbraked = swiftness(scene), _unbraked(scene)
+    fast, free = swiftness(scene), unbraked(scene)
     for model, ask in (
         (MODES, lambda: _modes(scene)),
         (reference_name(scene), lambda: _reference(scene, numerics)),
     ):
         if model != MODES or not scene.in_space:
-            if unbraked:
-                ask = partial(_momentum, unbraked)
+            if free:
+                ask = partial(_momentum, free)
             yield model, (lambda: _inertia(fast)) if fast > FAST else ask
     yield MUJOCO, lambda: _mujoco(scene, tolerance, numerics)
 
@@ -125,15 +125,6 @@ def _inertia(fast: float) -> tuple[float, float, str]:
         f"it knows no inertia, and the gait accelerates the robot by {fast:.2g} of gravity, "
         f"more than {FAST:g}"
     )  # fmt: skip
-
-
-def _unbraked(scene: Scene) -> str:
-    """Why momentum counts however slow the gait is, empty if it does not."""
-    if coasts := coasting(scene):
-        return f"nothing brakes {coasts.contacts} that slide {coasts.way}"
-    if not scene.in_space and scene.strip.tether and scene.strip.tether.resists:
-        return "beside the pull of a tether it decides which end slides"
-    return ""
 
 
 def _momentum(why: str) -> tuple[float, float, str]:
