@@ -48,7 +48,7 @@ def search(
     pool: ProcessPoolExecutor | None = None,
     begin: Iterable[Array] = (),
 ) -> Iterator[Generation]:
-    """Look for the best gait.
+    """Look for the best gait: by the gradient if there is one, then by CMA-ES.
 
     Args:
         objective: to be maximised.
@@ -56,24 +56,40 @@ def search(
         evaluations: number after which the search ends, to a generation.
         seed: of the random numbers.
         pool: processes, if there are any.
-        begin: points to begin at, in turn as restarts; the middle of the space if none.
+        begin: points that CMA-ES begins at, in turn as restarts; the middle of the space if none.
 
     Raises:
         ModuleNotFoundError: cma is not installed.
     """
+    optional("cma", "the search")
+    best = Generation(0, objective.scene.gait, -np.inf, -np.inf)
+    if objective.has_gradient:
+        for ascent in ascents(objective, space, evaluations, pool):
+            count, value = best.evaluations + ascent.evaluations, max(ascent.values)
+            gait = best.best if best.value > value else ascent.best
+            best = Generation(count, gait, max(value, best.value), float(np.median(ascent.values)))
+            yield best
+    left = evaluations - best.evaluations
+    for generation in by_strategy(objective, space, left, seed, pool, begin) if left > 0 else ():
+        count = best.evaluations + generation.evaluations
+        better = generation if generation.value > best.value else best
+        yield Generation(count, better.best, better.value, generation.median)
+
+
+def by_strategy(
+    objective: Objective,
+    space: Space,
+    evaluations: int,
+    seed: int,
+    pool: ProcessPoolExecutor | None = None,
+    begin: Iterable[Array] = (),
+) -> Iterator[Generation]:
+    """Look for the best gait by CMA-ES alone; see search."""
     cma = optional("cma", "the search")
     evaluate = pool.map if pool else map
     starts = list(begin) or [space.middle()]
     robot, valves = objective.scene.robot, objective.scene.valves
     best, most, count = within_supply(space.gait(starts[0]), robot, valves), -np.inf, 0
-    if objective.has_gradient:
-        for ascent in ascents(objective, space, evaluations, pool):
-            count += ascent.evaluations
-            if max(ascent.values) > most:
-                best, most = ascent.best, max(ascent.values)
-            yield Generation(count, best, most, float(np.median(ascent.values)))
-        if count >= evaluations:
-            return
     low = [None] * space.lags + [0.0] * (space.size - space.lags)
     high = [None] * space.lags + [1.0] * (space.size - space.lags)
     for run, start in enumerate(_all_starts(starts, space, seed)):
