@@ -58,7 +58,7 @@ ENGINES = {engine.name: engine for engine in (
            _MUJOCO, (1, 16, MANY)),
     Engine("undulator", "undulator_engine", "alone", "undulator", "pip install .", _MUJOCO),
     Engine("undulator batch", "undulator_engine", "batch", "undulator", "pip install .",
-           {STRIP.name: ((6, 12, 24), (0.02, 0.01, 0.005))}, (16,)),
+           {STRIP.name: ((6, 12, 24), (0.02, 0.01))}, (16, 64)),
     Engine("Drake", "drake_engine", "walk", "drake", "pip install drake",
            {STRIP.name: ((6, 12, 24), (0.01, 0.005, 0.002, 0.001)),
             QUADRUPED.name: ((2, 4, 6), (0.02, 0.01, 0.005, 0.002))}),
