@@ -7,7 +7,7 @@ MUJOCO_OLD := 3.13.0
 
 .PHONY: zoo run test check check-mujoco4 check-mujoco-old numbers scenes gradients reach auto promises fast quadruped trees loop many engines price startup \
 	bench regression \
-	identify models gallery figures charts chart maps reference architecture clean
+	identify models gallery figures charts chart maps reference site notebooks architecture live check-live clean
 
 run: .venv/ready
 	$(PY) -m mjsim.run --surface all
@@ -124,6 +124,32 @@ gallery: .venv/ready
 reference: .venv/ready
 	$(PY) scripts/reference.py build/reference
 
+# the site, without a server; the live page is in it where npm is at hand, or where it was made before
+SITE_LIVE := $(if $(and $(wildcard site/live),$(shell command -v npm 2>/dev/null)),live)
+site: .venv/ready $(SITE_LIVE)
+	$(PY) site/build.py build/site
+
+# run the tutorials and the example notebook, and keep what they print and draw
+notebooks: .venv/ready
+	$(PY) scripts/notebooks.py
+
+# the live page, by npm: build/live/ for a server, build/live/undulator.html opens from a folder; with
+# MODELS_AT=github:ORG/REPO/BRANCH it links to MuJoCo's own live viewer
+live: build/live-data.json site/live/node_modules/ready
+	node site/live/build.mjs build/live-data.json build/live $(MODELS_AT)
+
+# the live page in Debian's Chromium
+check-live: live
+	node site/live/test/check.mjs build/live build/live-data.json
+
+build/live-data.json: .venv/ready site/live/data.py $(shell find analytic mjsim -name '*.py' -o -name '*.xml')
+	$(PY) site/live/data.py $@
+
+site/live/node_modules/ready: site/live/package.json
+	@command -v npm > /dev/null || { echo 'the live page needs Node.js with npm'; exit 1; }
+	npm install --prefix $(<D) --no-package-lock --no-audit --no-fund --ignore-scripts
+	touch $@
+
 architecture: .venv/ready
 	$(PY) scripts/architecture.py
 
@@ -144,4 +170,4 @@ architecture: .venv/ready
 	touch $@
 
 clean:
-	rm -rf .venv build dist
+	rm -rf .venv build dist site/live/node_modules

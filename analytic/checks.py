@@ -95,9 +95,9 @@ def times_of(times: Any, rows: int) -> None:
 
 def meant(word: Any, words: Iterable[str]) -> str:
     """Question after the word that is meant by a mistyped one, or nothing."""
-    known = {name.lower(): name for name in words}
-    near = get_close_matches(str(word).lower(), known, 1, _ALIKE)
-    return f"; did you mean {known[near[0]]}?" if near else ""
+    by_lower_case = {name.lower(): name for name in words}
+    near = get_close_matches(str(word).lower(), by_lower_case, 1, _ALIKE)
+    return f"; did you mean {by_lower_case[near[0]]}?" if near else ""
 
 
 def missing(path: Path, error: OSError) -> str:

@@ -60,14 +60,14 @@ def in_si(record: Any) -> None:
     }  # fmt: skip
     if not any(isinstance(v, str) or any(isinstance(x, str) for x in v) for v in texts.values()):
         return
-    hints, known = get_type_hints(type(record)), units(type(record))
+    hints, unit_of = get_type_hints(type(record)), units(type(record))
     for name, value in texts.items():
         kinds = {hints[name], *get_args(hints[name])}
         if isinstance(value, str) and float in kinds:
-            object.__setattr__(record, name, in_unit(name, value, known.get(name)))
+            object.__setattr__(record, name, in_unit(name, value, unit_of.get(name)))
         elif not isinstance(value, str) and any(float in get_args(kind) for kind in kinds):
             parts = tuple(
-                in_unit(name, part, known.get(name)) if isinstance(part, str) else part
+                in_unit(name, part, unit_of.get(name)) if isinstance(part, str) else part
                 for part in value
             )
             object.__setattr__(record, name, parts)
@@ -96,10 +96,10 @@ def _record(kind: type[Kind], noun: str, given: Kind | Mapping[str, Any]) -> Kin
     if not isinstance(given, Mapping):
         raise ValueError(f"{_plural(noun)} must be {kind.__name__}, or tables of its fields, got "
                          f"{given!r}")  # fmt: skip
-    known = fields(kind)  # type: ignore[arg-type]
+    every = fields(kind)  # type: ignore[arg-type]
     for key in given:
-        one_of(f"key of a {noun}", key, [field.name for field in known])
-    for field in known:
+        one_of(f"key of a {noun}", key, [field.name for field in every])
+    for field in every:
         if field.default is MISSING and field.name not in given:
             raise ValueError(f"{field.name} of a {noun} is missing, got {dict(given)!r}")
     return kind(**given)

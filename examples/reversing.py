@@ -9,7 +9,6 @@ other does. So a third gait, the pulse, carries the robot over before the revers
 import subprocess
 import sys
 import tempfile
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +23,6 @@ from studies.control.reversing import REPERTOIRE, Reversing
 FELT, GELATIN = SURFACES["felt"], SURFACES["gelatin"]
 SEAM, CYCLES, NOISE = 1.05, 120, 0.01  # L, and of the sensor a cycle over L
 NUMERICS = Numerics(links=12, timestep=0.01)
-FASTER = 100.0  # that the video is than the robot
 COLOURS = ("#264653", "#2a9d8f", "#d1495b", "#2a9d8f")
 
 
@@ -55,7 +53,7 @@ def main(folder: Path | None = None, cycles: int = CYCLES) -> dict[str, Any]:
         _draw_tracks(left, tracks, {"wave alone": alone, "controller": walk}, robot, policy)
         _draw_stripes(right, theory)
         figure.savefig(folder / "reversing.png")
-        _film([alone, walk], folder / "reversing.mp4")
+        _film([alone, walk], policy, folder / "reversing.mp4")
     return went
 
 
@@ -65,19 +63,27 @@ def _draw_tracks(axes: Any, tracks: Any, walks: Any, robot: Robot, policy: Any) 
     axes.axhspan(-1, SEAM, color="#8ab17d", alpha=0.3, lw=0)
     for (name, track), style in zip(tracks.items(), (":", "--", "-.", "-"), strict=True):
         axes.plot(track.left / length + 1, style, color="0.35", lw=1, label=f"theory: {name}")
-    for name, walk in walks.items():
-        time, x = walk.time / walk.scene.gait.period, walk.line[:, -1, 0] / length
-        if name == "controller":
-            for cycle, choice in enumerate(policy.chosen[:cycles]):
-                part = (time >= cycle) & (time <= cycle + 1)
-                axes.plot(time[part], x[part], color=COLOURS[choice], lw=1.5)
-        else:
-            axes.plot(time, x, color="0.7", lw=1, label="MuJoCo: wave alone")
-    for choice in range(3):
-        axes.plot([], [], color=COLOURS[choice], label=f"MuJoCo: {REPERTOIRE[choice].name}")
-    axes.set(xlabel="cycles", ylabel="right end [L]", ylim=(0.65, 2.0), xlim=(0, cycles))
-    axes.set_title("the right end goes over the seam: felt below, gelatin above", fontsize=9)
-    axes.legend(fontsize=7, loc="upper left", ncols=2)
+    time = walks["controller"].time / walks["controller"].scene.gait.period
+    alone, x = (walks[name].line[:, -1, 0] / length for name in ("wave alone", "controller"))
+    axes.plot(time, alone, color="0.7", lw=1, label="MuJoCo: wave alone")
+    axes.plot([], [], color=COLOURS[2], label="MuJoCo: controller, by gait")
+    chosen = np.array(policy.chosen[:cycles])
+    for cycle, choice in enumerate(chosen.tolist()):
+        part = (time >= cycle) & (time <= cycle + 1)
+        axes.plot(time[part], x[part], color=COLOURS[choice], lw=1.5)
+    names = np.array([REPERTOIRE[choice].name for choice in chosen])
+    for name in dict.fromkeys(names.tolist()):
+        middle = float(np.median(np.flatnonzero(names == name)))
+        place = middle, float(x[np.searchsorted(time, middle)])
+        colour = COLOURS[chosen[names == name][0]]
+        axes.annotate(name, place, xytext=(8, -14), textcoords="offset points", color=colour,
+                      fontsize=8)  # fmt: skip
+    axes.set(xlabel="cycles", ylabel="place of the right end [L]", ylim=(0.65, 2.0),
+             xlim=(0, cycles))  # fmt: skip
+    for name, place in (("gelatin", SEAM + 0.09), ("felt", SEAM - 0.35)):
+        axes.text(0.99 * cycles, place, name, ha="right", fontsize=9)
+    axes.set_title("The controller crosses from felt to gelatin; the wave alone stalls", fontsize=9)
+    axes.legend(fontsize=7, loc="upper left")
 
 
 def _draw_stripes(axes: Any, theory: Cycles) -> None:
@@ -96,24 +102,26 @@ def _draw_stripes(axes: Any, theory: Cycles) -> None:
         axes.plot(widths, speeds[name], f"o{style}", label=name)
         print(f"{name:<14}", ", ".join(f"{w:g} L {s:+.4f}" for w, s in
                                        zip(widths, speeds[name], strict=True)))  # fmt: skip
-    axes.set(xlabel="width of the stripes [L]", ylabel=f"mean of {cycles} cycles [L a cycle]",
-             ylim=(-0.002, 0.035))  # fmt: skip
+    axes.set(xlabel="width of the stripes [L]", ylabel=f"mean of {cycles} cycles [L per cycle]",
+             ylim=(-0.002, 0.036))  # fmt: skip
     axes.axhline(0.0336, color="0.7", lw=0.8)
-    axes.set_title("felt and gelatin in stripes, theory; grey: uniform ground", fontsize=9)
+    axes.text(0.5, 0.0336, "one ground, without stripes", va="bottom", fontsize=8, color="0.4")
+    axes.set_title("Stripes of felt and gelatin: wide ones cost less (theory)", fontsize=9)
     axes.legend(fontsize=8)
 
 
-def _film(walks: Any, path: Path) -> None:
-    """The wave alone above, the controller below."""
+def _film(walks: Any, policy: Reversing, path: Path) -> None:
+    """The wave alone above, the controller below, with the gait that it plays."""
     from mjsim.pictures import gl
     from mjsim.pictures.recording import film
 
     if not gl.use_backend():
         raise SystemExit(gl.HELP)
-    fast = [replace(walk, time=walk.time / FASTER) for walk in walks]
+    names, period = [REPERTOIRE[i].name for i in policy.chosen], walks[1].scene.gait.period
+    cycle = np.clip(walks[1].time // period, 0, len(names) - 1).astype(int)
     with tempfile.TemporaryDirectory() as there:
-        large = Path(there) / "large.mp4"
-        film(fast, [Path(there) / "0.mp4", Path(there) / "1.mp4"], large)
+        large, *single = (Path(there) / f"{name}.mp4" for name in ("large", 0, 1))
+        film(walks, single, large, [None, [names[i] for i in cycle]])
         small = ["-y", "-i", str(large), "-vf", "scale=640:-2", "-crf", "31", "-preset", "slow"]
         subprocess.run([get_ffmpeg_exe(), "-loglevel", "error", *small, str(path)], check=True)
 

@@ -10,6 +10,19 @@ TOP = Path(__file__).resolve().parent.parent
 PACKAGES = ("analytic", "mjsim", "studies")
 _BELOW = tuple(f"analytic.{name}" for name in  # plain data, and what serves it
                ("checks", "fields", "lazy", "progress", "registry", "shapes", "units"))  # fmt: skip
+_PACKAGES = {
+    "analytic": "theory",
+    "mjsim": "MuJoCo, files, commands",
+    "studies": "not in the wheel",
+}
+_SHADES = {"analytic": "#cfe3f3", "mjsim": "#f6e0c8", "studies": "#e3e3e3"}
+_ROWS = {  # from the top, so that no arrow crosses a box; 3 if it is not here
+    **dict.fromkeys(("analytic.scene", "analytic.friction", "analytic.solvers",
+                     "analytic.gradient", "analytic"), 1.0),
+    "analytic.fitting": 2.0, "mjsim.sweeps": 1.5, "mjsim.optimising": 2.5, "mjsim.pictures": 3.5,
+    "mjsim.fitting": 4.5, "mjsim.commands": 2.0, "mjsim.env": 3.5, "studies": 5.5,
+    "mjsim.uncertainty": 4.5,
+}  # fmt: skip
 _LABEL = {"analytic": "prediction", "mjsim": "commands"}
 
 
@@ -84,25 +97,29 @@ def draw() -> Figure:
     """What each package builds on, left of it; what follows from other arrows is left out."""
     pairs = arrows()
     depth = layers(pairs)
-    rows: dict[int, list[str]] = {}
-    for name in sorted(depth):
-        rows.setdefault(depth[name], []).append(name)
-    place = {
-        name: (1.5 * column, len(names) * (0.5 - (i + 0.5) / len(names)) + 0.15 * (column % 2))
-        for column, names in rows.items() for i, name in enumerate(names)
-    }  # fmt: skip
-    figure = Figure(figsize=(11, 3.6), dpi=110)
+    place = {name: (1.5 * column, -_ROWS.get(name, 3.0)) for name, column in depth.items()}
+    figure = Figure(figsize=(12.5, 4.4), dpi=110)
     axes = figure.add_axes((0, 0, 1, 1))
-    axes.set(xlim=(-0.7, 1.5 * max(rows) + 0.7), ylim=(-2.2, 2.2))
+    axes.set(xlim=(-0.8, 1.5 * max(depth.values()) + 0.8), ylim=(-6.0, 1.0))
     axes.axis("off")
-    for one, two in sorted(direct(pairs)):
-        line = {"arrowstyle": "-|>", "color": "0.45", "shrinkA": 28, "shrinkB": 32, "lw": 1.0}
-        axes.annotate("", place[two], place[one], arrowprops=line)
+    axes.set_title("A package imports what its arrows lead to, and what that imports: "
+                   "nothing leads back", y=0.92, fontsize=11)  # fmt: skip
+    boxes = {}
     for name, where in place.items():
         text = _LABEL.get(name, name.removeprefix("mjsim.").removeprefix("analytic."))
-        shade = "#dbe9f4" if name.startswith("analytic") else "#f6e7d8"
-        axes.text(*where, text, ha="center", va="center", fontsize=10, zorder=2,
-                  bbox={"boxstyle": "round,pad=0.5", "fc": shade, "ec": "0.4"})  # fmt: skip
+        boxes[name] = axes.text(
+            *where, text, ha="center", va="center", fontsize=10, zorder=2,
+            bbox={"boxstyle": "round,pad=0.4", "fc": _SHADES[name.split(".")[0]], "ec": "0.4"},
+        )  # fmt: skip
+    for one, two in sorted(direct(pairs)):
+        begin, end = (boxes[name].get_bbox_patch() for name in (one, two))
+        line = {"arrowstyle": "-|>", "color": "0.35", "lw": 1.1, "zorder": 1, "shrinkA": 1,
+                "shrinkB": 1, "patchA": begin, "patchB": end}  # fmt: skip
+        axes.annotate("", place[two], place[one], arrowprops=line)
+    for number, (package, told) in enumerate(_PACKAGES.items()):
+        shade = {"boxstyle": "round,pad=0.3", "fc": _SHADES[package], "ec": "none"}
+        axes.text(-0.6, -4.6 - 0.5 * number, f"{package}: {told}", va="center", fontsize=9.5,
+                  bbox=shade)  # fmt: skip
     return figure
 
 

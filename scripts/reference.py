@@ -10,6 +10,7 @@ from pathlib import Path
 os.environ.setdefault("PDOC_ALLOW_EXEC", "1")  # glfw asks its library's version in a process
 
 import pdoc
+import pdoc.render
 
 import analytic
 import mjsim
@@ -41,6 +42,8 @@ def main(folder: Path) -> None:
         warnings.simplefilter("error")
         # a package without __all__ brings its modules by itself
         warnings.filterwarnings("ignore", "The module specification")
+        folders = Path(__file__).with_name("reference")
+        pdoc.render.configure(template_directory=folders, show_source=False)
         pdoc.pdoc(*modules(), output_directory=folder)
 
 

@@ -15,6 +15,7 @@ from mjsim.pictures import gl
 from mjsim.scene import Numerics, Scene
 
 PROGRAM = "python -m studies.gallery"
+_TURN = "wave, left legs at 70 %"
 _LEFT, _RAMP, _STEP = 0.7, 8.0, 0.02  # of the quadruped: left pressure, s, s
 _GAP = 0.019  # m; 3/4 inch
 _SPINS = 2  # cycles of turning on the spot
@@ -76,7 +77,7 @@ def _quadrupeds() -> dict[str, Scene]:
             for name, surface in SURFACES.items()
         },
         "gap": Scene(quadruped(), gait=straight, ground=SURFACES["felt"], ceiling=_GAP),
-        "turn": Scene(quadruped(), gait=turn, ground=gelatin),
+        "turn": Scene(quadruped(), gait=replace(turn, name=_TURN), ground=gelatin),
         "spin": Scene(quadruped(), gait=spin, ground=gelatin, cycles=_SPINS),
     }
 

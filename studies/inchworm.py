@@ -78,6 +78,11 @@ VARIED: dict[str, Sequence[float]] = {
     "damping": (5e-4, 5e-3),
 }
 FINER = ((24, 5e-4), (12, 2.5e-4), (24, 2.5e-4))  # links and time steps [s] of the base besides
+SHOWN = {  # of these, in the figure
+    "rigidity 2e-05": "rigidity 2e-5 N m²", "bend 2.8": "bent by 2.8 rad at rest",
+    "flat 0.4": "voltage leaves 0.4 of that", "rear 0.5": "rear foot's friction 0.5",
+    "front_back 1.5": "front foot's, back, 1.5", "damping 0.005": "damping time 5 ms",
+}  # fmt: skip
 _SURE = 2.0  # standard errors
 LIGHTER = 10.0  # times less inertia, at the same weight; of 100 times the strip comes not to rest
 
@@ -248,7 +253,7 @@ def said(frequency: float) -> str:
 def draw(known: dict[Case, Outcome], theory: float, path: Path) -> None:
     """Distance over frequency: the base, less inertia, finer numerics, and other values."""
     plt.rcParams.update(FONT)
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4), sharey=True,
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.8), sharey=True,
                                          layout="constrained")  # fmt: skip
     sets = _sets(known)
     base = sorted(sets["base"].items())
@@ -265,15 +270,14 @@ def draw(known: dict[Case, Outcome], theory: float, path: Path) -> None:
         _line(left, sets[words], words, f"C{number + 1}", "x")
     for words in (key for key in sets if key.startswith("inertia")):
         _line(left, sets[words], words, "C4" if words.endswith(" 10") else "C5", "s")
-    shown = (
-        "rigidity 2e-05", "bend 2.8", "flat 0.4", "rear 0.5", "front_back 1.5", "damping 0.005",
-    )  # fmt: skip
-    for number, words in enumerate(shown):
-        _line(right, sets[words], words.replace("_", " "), f"C{number}", ".")
+    for number, (words, told) in enumerate(SHOWN.items()):
+        _line(right, sets[words], told, f"C{number}", ".")
     left.set_ylabel("distance per cycle over length")
+    figure.suptitle("Ahead at few hertz, back at many: inertia turns it round (grey: as measured)",
+                    fontsize=9.5)  # fmt: skip
     for axes in (left, right):
         axes.legend(frameon=False, fontsize=7)
-    left.set_title("numerics and inertia; grey: published turn", fontsize=9)
+    left.set_title("finer numerics; less inertia", fontsize=9)
     right.set_title("other values of what is not published", fontsize=9)
     save(figure, path, dpi=110, format="png")
 

@@ -16,6 +16,7 @@ RULER_LENGTH = 0.26  # m, as the ruler of mjsim/model/stage.xml
 RULER_START = -0.06  # m, x of its left edge there
 _FIBRES, _DROPS = 3600, 70
 _INK = (30, 30, 30)
+_UNIT_AT = 5  # mm of the ruler where its unit stands
 
 
 def write_textures(folder: Path) -> None:
@@ -83,10 +84,10 @@ def ruler() -> Image.Image:
         x = (mm / 1000 - RULER_START) * per_metre
         reach = 52 if mm % 10 == 0 else 38 if mm % 5 == 0 else 24
         draw.line((x, 0, x, reach), fill=_INK, width=4 if mm % 10 == 0 else 2)
-        if mm == first:
-            draw.text((x + 50, 110), "cm", font=font, fill=_INK, anchor="mm")
-        elif mm % 10 == 0:
+        if mm % 10 == 0 and mm > first:
             draw.text((x, 110), f"{mm // 10}", font=font, fill=_INK, anchor="mm")
+        if mm == _UNIT_AT:
+            draw.text((x, 118), "cm", font=ImageFont.load_default(30), fill=_INK, anchor="mm")
     return picture
 
 

@@ -2,12 +2,10 @@
 
 import graphlib
 import os
-import re
 import subprocess
 import sys
 from pathlib import Path
 
-import pytest
 from architecture import PACKAGES, arrows, imports
 
 TOP = Path(__file__).resolve().parent.parent
@@ -90,20 +88,3 @@ def test_every_module_is_imported_where_the_system_is_not_posix():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-
-
-def test_links_of_the_pages_lead_somewhere():
-    for page in (*TOP.glob("*.md"), *(TOP / "docs").glob("*.md")):
-        for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
-            assert (page.parent / target).exists(), (page.name, target)
-
-
-@pytest.mark.slow
-def test_the_api_reference_is_built_without_a_warning(tmp_path):
-    pytest.importorskip("mjsim.env.dm_binding", exc_type=ImportError)
-    done = subprocess.run(
-        [sys.executable, "scripts/reference.py", str(tmp_path)],
-        cwd=TOP, capture_output=True, text=True,
-    )  # fmt: skip
-    assert done.returncode == 0, done.stderr
-    assert (tmp_path / "mjsim" / "simulation" / "simulation.html").is_file()

@@ -54,7 +54,7 @@ class Gait:
             raise ValueError(f"stages must be at least two, got {len(self.stages)}")
         for stage in self.stages:
             if not stage or not all(is_number(f) and -1 <= f <= 1 for f in stage):
-                raise ValueError(f"stages must hold a fraction in [-1, 1] a segment, got {stage!r}")
+                raise ValueError(f"stages must be fractions in [-1, 1], got {stage!r}")
             if len(stage) != self.segments:
                 raise ValueError(f"stages must have {self.segments} fractions each, got {stage!r}")
         if self.repeats and self.stages[0] != self.stages[-1]:

@@ -40,8 +40,8 @@ def undulation(gait: Gait | str = "wave", left: float = 1.0, right: float = 1.0)
         for name in ORDER[1:]
     ]
     stages = tuple(map(tuple, np.stack(columns, axis=1).tolist()))
-    name = strip_gait.name if left == right == 1 else f"{strip_gait.name}-{left:g}-{right:g}"
-    return replace(strip_gait, name=name, stages=stages)
+    weaker = [f"{name}-{100 * part:g}%" for name, part in side.items() if part != 1]
+    return replace(strip_gait, name="-".join([strip_gait.name, *weaker]), stages=stages)
 
 
 def for_robot(gait: Gait | str, robot: AnyRobot) -> Gait:

@@ -39,7 +39,7 @@ class Options(SceneOptions):
     Data are CSV files, which docs/fitting.md describes. Prints each parameter, and what the data do
     not determine; writes the fitted scene, fit.toml, and fit.png. Exit code 0: done; 2: bad input;
     3: a parameter is not determined or ended at a bound, or the model misses the data so much that
-    no interval holds.
+    no interval is sure.
     """
 
     data: Annotated[tuple[Path, ...], tyro.conf.Positional] = ()

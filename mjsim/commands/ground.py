@@ -28,10 +28,10 @@ EXAMPLES = (
 class Options:
     """Make a [ground] of tilt and pull tests: bounds and coefficients with 95 % intervals.
 
-    Data are CSV files, a reading a row, which docs/own_ground.md describes; or readings are
+    Data are CSV files, one reading per row, which docs/own_ground.md describes; or readings are
     options. Prints a table, which law of friction the loads support, and the command that fits a
     film; writes a file that undulator run --scene takes. Exit code 0: done; 2: bad input; 3: two
-    tests contradict each other, or neither law holds.
+    tests contradict each other, or neither law fits.
     """
 
     data: Annotated[tuple[Path, ...], tyro.conf.Positional] = ()

@@ -209,7 +209,8 @@ def _write(options: Options, objective: "Objective", history: "list[Generation]"
     with whole_file(times) as part:
         write(gait, objective.scene.robot, part)
     yield str(times)
-    draw(gait, objective.scene.gait, history, options.out / "best.png")
+    draw(gait, objective.scene.gait, history, options.out / "best.png", objective.aim,
+         objective.scene.robot.chambers)  # fmt: skip
     yield str(options.out / "best.png")
 
 

@@ -98,11 +98,11 @@ def find_columns(table: CsvTable, chambers: Sequence[str], chosen: Sequence[str]
             f"tabs, bars or blanks between, got one column, {table.heads[0]!r}"
         )
     keys = _keys(heads, others)
-    known = [_normal(name) for name in chambers]
-    named = [i for i in others if _number(keys[i]) is not None or keys[i] in known]
+    normal = [_normal(name) for name in chambers]
+    named = [i for i in others if _number(keys[i]) is not None or keys[i] in normal]
     pressures = [i for i in others if _is_pressure(heads[i])]
     candidates = sorted({*pressures, *(named if pressures else others)})
-    picked, notes = _picked(table, heads, keys, candidates, known)
+    picked, notes = _picked(table, heads, keys, candidates, normal)
     ignored = [table.heads[i] for i in others if i not in picked and table.heads[i]]
     if ignored:
         notes.append(f"columns that do not count: {', '.join(map(repr, ignored))}")
@@ -186,37 +186,37 @@ def _number(key: str) -> int | None:
 
 def _picked(
     table: CsvTable, heads: Sequence[Head], keys: dict[int, str], candidates: list[int],
-    known: Sequence[str],
+    chambers: Sequence[str],
 ) -> tuple[list[int], list[str]]:  # fmt: skip
     """Columns of the chambers in their order, and notes."""
     names = [keys[i] for i in candidates]
-    found = [key for key in known if key in names]
-    for key in found or [n for n in names if n.isdigit()]:
+    named = [key for key in chambers if key in names]
+    for key in named or [n for n in names if n.isdigit()]:
         if names.count(key) > 1:
             twice = [table.heads[i] for i in candidates if keys[i] == key]
             raise ValueError(f"{table.where}: {' and '.join(twice)} name the same chamber; choose "
                              "with columns = [...], or --columns")  # fmt: skip
-    if found and len(found) < len(known):
+    if named and len(named) < len(chambers):
         raise ValueError(
-            f"{table.where}: columns must be {', '.join(known)}; got "
+            f"{table.where}: columns must be {', '.join(chambers)}; got "
             f"{', '.join(heads[i].name for i in candidates)}"
         )
-    if found:
-        return [candidates[names.index(key)] for key in known], []
+    if named:
+        return [candidates[names.index(key)] for key in chambers], []
     for order in (_by_number(names), _by_letter(names)):
-        if order and (len(order) == len(candidates) or len(order) in (len(known), 3)):
+        if order and (len(order) == len(candidates) or len(order) in (len(chambers), 3)):
             return [candidates[at] for at in order], []
-    if not known or len(candidates) == len(known):
+    if not chambers or len(candidates) == len(chambers):
         notes = []
-        if known and any(name != names[0] for name in names):
-            pairs = zip(known, candidates, strict=True)
+        if chambers and any(name != names[0] for name in names):
+            pairs = zip(chambers, candidates, strict=True)
             said = ", ".join(f"{table.heads[i]!r} is {chamber}" for chamber, i in pairs)
             notes.append(f"columns in the order of the file: {said}")
         return candidates, notes
-    if len(candidates) < len(known):
+    if len(candidates) < len(chambers):
         return candidates, []  # as many as the gait is for, which the scene compares
     raise ValueError(
-        f"{table.where}: {len(candidates)} columns may be the {len(known)} chambers: "
+        f"{table.where}: {len(candidates)} columns may be the {len(chambers)} chambers: "
         f"{', '.join(table.heads[i] for i in candidates)}; choose with columns = [...], or "
         "--columns"
     )
@@ -225,9 +225,9 @@ def _picked(
 def _by_number(names: Sequence[str]) -> list[int]:
     """Places of names that are numbers, if they follow each other, by number."""
     numbers = {int(name): at for at, name in enumerate(names) if name.isdigit()}
-    found = sorted(numbers)
-    follow = found == list(range(found[0], found[0] + len(found))) if found else False
-    return [numbers[number] for number in found] if follow else []
+    ordered = sorted(numbers)
+    follow = ordered == list(range(ordered[0], ordered[0] + len(ordered))) if ordered else False
+    return [numbers[number] for number in ordered] if follow else []
 
 
 def _by_letter(names: Sequence[str]) -> list[int]:

@@ -63,27 +63,27 @@ def read_series(path: Path, chambers: Sequence[str] = (), columns: Sequence[str]
             and others do not; the message names line and column.
     """
     table = read_csv(path, "pressures")
-    found = find_columns(table, chambers, columns)
+    picked = find_columns(table, chambers, columns)
     where, _, rows = table
     if len(rows) < 2:
         raise ValueError(f"{where}: needs two samples at least, got {len(rows)}")
-    heads = [f"{h.name} [{h.unit}]" if h.unit else o for h, o in zip(found.heads, table.heads,
+    heads = [f"{h.name} [{h.unit}]" if h.unit else o for h, o in zip(picked.heads, table.heads,
                                                                      strict=True)]  # fmt: skip
     table = table._replace(heads=heads)
-    time = _times(table, found.time)
+    time = _times(table, picked.time)
     late = np.flatnonzero(np.diff(time) < 0)
     if len(late):
         line, row = rows[late[0] + 1]
-        raise ValueError(f"{where}: line {line}: time must not go back, got {row[found.time]!r}")
+        raise ValueError(f"{where}: line {line}: time must not go back, got {row[picked.time]!r}")
     if time[-1] == time[0]:
         line, row = rows[-1]
-        raise ValueError(f"{where}: line {line}: time must increase, got {row[found.time]!r}")
+        raise ValueError(f"{where}: line {line}: time must increase, got {row[picked.time]!r}")
     pressure = np.stack(
-        [table.numbers(i, "Pa", "Pa, kPa, psi, bar") for i in found.chambers], axis=1
+        [table.numbers(i, "Pa", "Pa, kPa, psi, bar") for i in picked.chambers], axis=1
     )
-    for note in found.notes:
+    for note in picked.notes:
         LOG.warning("%s: %s", where, note)
-    return Series(time - time[0], _gauge(where, pressure, found.absolute))
+    return Series(time - time[0], _gauge(where, pressure, picked.absolute))
 
 
 def _times(table: CsvTable, column: int) -> Array:
@@ -162,17 +162,17 @@ def as_gait(
     """
     if cycle is not None:
         series = _last_cycle(name, series, cycle)
-    found = ramps(*series, shortest)
-    time, pressure = found.time - found.time[0], found.pressure
+    merged = ramps(*series, shortest)
+    time, pressure = merged.time - merged.time[0], merged.pressure
     highest = float(np.abs(pressure).max())
     if not highest > 0:
         raise ValueError("no pressure is above the noise")
-    if found.moved or len(time) < found.found:
+    if merged.moved or len(time) < merged.corners:
         LOG.warning(
             "gait %s: %d of %d corners merged, as some were closer than %g s: the others "
             "move by up to %.3g s, and pressures on the way by up to %.2g kPa",
-            name, found.found - len(time),
-            found.found, shortest, found.moved, 1e-3 * found.changed,
+            name, merged.corners - len(time),
+            merged.corners, shortest, merged.moved, 1e-3 * merged.changed,
         )  # fmt: skip
     if cycle is not None:
         time, pressure = _closed(time, pressure, cycle, highest)

@@ -23,14 +23,14 @@ class Ramps(NamedTuple):
     Attributes:
         time: of the corners, increasing, (C,) [s].
         pressure: at the corners, (C, S) [Pa].
-        found: number of corners before mergers.
+        corners: their number before mergers.
         moved: by which corners moved in time at most [s].
         changed: by which mergers change the path of the pressures at most [Pa].
     """
 
     time: Array
     pressure: Array
-    found: int
+    corners: int
     moved: float
     changed: float
 
@@ -47,18 +47,18 @@ def merged(time: Array, pressure: Array, shortest: float, floor: float) -> Ramps
     Raises:
         ValueError: the pressures change too fast for ramps that long.
     """
-    found, highest = len(time), float(np.abs(pressure).max())
+    corners, highest = len(time), float(np.abs(pressure).max())
     if len(time) < 2 or np.diff(time).min() >= shortest:
-        return Ramps(time, pressure, found, 0.0, 0.0)
+        return Ramps(time, pressure, corners, 0.0, 0.0)
     for part in _CLOSE:
         kept = _kept(time, pressure, shortest, max(part * highest, floor))
         apart = _apart(time[kept], shortest)
         moved = float(np.abs(apart - time[kept]).max())
         if moved <= _FAR * shortest:
             changed = _change(pressure, kept)
-            return Ramps(apart, pressure[kept], found, moved, changed)
+            return Ramps(apart, pressure[kept], corners, moved, changed)
     raise ValueError(
-        f"{found} changes in {time[-1] - time[0]:.3g} s, some much faster than ramps of "
+        f"{corners} changes in {time[-1] - time[0]:.3g} s, some much faster than ramps of "
         f"{shortest:g} s can follow: take a smaller timestep, or smoother pressures"
     )
 

@@ -58,13 +58,13 @@ _STRIP = Robot()
 _TOGETHER = {"stribeck_speed": "static_ratio", "adhesion_reach": "adhesion"}  # do nothing without
 
 
-def read_tables(path: Path) -> Tables:
+def read_tables(path: Path | str) -> Tables:
     """The tables of a scene file.
 
     Raises:
         ValueError: the file cannot be read, is no TOML, or has a table or a key that is not known.
     """
-    tables = read_toml(path, "scene")
+    tables = read_toml(Path(path), "scene")
     for name, table in tables.items():
         one_of(f"scene {str(path)!r}: table", name, NAMES)
         if not isinstance(table, dict):

@@ -12,6 +12,9 @@ from analytic.checks import meant
 _SUBJECT = re.compile(
     r"(?:\[(?P<table>\w+)\] )?(?P<key>[a-z_]+)(?P<rest>(?:'s parts)? (?:must|is for) .*)", re.DOTALL
 )
+_PART = re.compile(
+    r"(?:\[(?P<table>\w+)\] )?(?P<key>[a-z_]+)(?P<rest>(?:, number \d+)?: .*)", re.DOTALL
+)  # of a key that has tables of its own
 _TABLES = {"surface": "ground"}  # of options that are called otherwise
 _OTHERS = {"--ground": "--surface", "--mu": "--surface.friction", "--dt": "--timestep",
            "--speed": "--gait.ramp-time"}  # fmt: skip
@@ -33,7 +36,7 @@ class TypedOptions:
 
     def named(self, message: str) -> str:
         """A message that begins with a key, or a table and a key, with the option for the key."""
-        match = _SUBJECT.fullmatch(message)
+        match = _SUBJECT.fullmatch(message) or _PART.fullmatch(message)
         if match is None or not self._typed:
             return message
         for typed in self._typed:

@@ -121,7 +121,7 @@ def read_observations(paths: Sequence[Path], zero: str = "") -> list[Series]:
             empty.
 
     Raises:
-        ValueError: a file cannot be read, is of none of the three kinds, or holds no number; or
+        ValueError: a file cannot be read, is of none of the three kinds, or has no number; or
             there is no file of bending that has a zero.
     """
     if zero:
@@ -177,7 +177,7 @@ def _of_file(path: Path, offsets: Iterator[int], zero: str) -> list[Series]:
                 )
             )
     if not series:
-        raise ValueError(f"{table.where}: holds no number to fit")
+        raise ValueError(f"{table.where}: has no number to fit")
     return series
 
 

@@ -128,14 +128,16 @@ def _sample(readings: tuple[Reading, ...], chance: float) -> Sample:
     first = readings[0]
     terms = np.array([reading.terms for reading in readings])
     whole = np.isfinite(terms).all(axis=1)
-    several = _tell_apart([r for r, known in zip(readings, whole, strict=True) if known])
+    several = _tell_apart([r for r, complete in zip(readings, whole, strict=True) if complete])
     sizes = scatters(terms[whole, 1:], terms[whole, 0]) if several else []
     estimates = {}
     for column, law in enumerate(LAWS, start=1):
         rows = terms[np.isfinite(terms[:, column])][:, [0, column]]
         if len(rows):
-            own = sizes if sizes and len(rows) == whole.sum() else scatters(rows[:, 1:], rows[:, 0])
-            (estimates[law],) = best(rows[:, 1:], rows[:, 0], own)
+            scatter = (
+                sizes if sizes and len(rows) == whole.sum() else scatters(rows[:, 1:], rows[:, 0])
+            )
+            (estimates[law],) = best(rows[:, 1:], rows[:, 0], scatter)
     verdict = _verdict(terms[whole], sizes, chance) if several else None
     return Sample(first.contact, first.way, first.state, first.test, readings, estimates, verdict)
 

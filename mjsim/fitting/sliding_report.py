@@ -39,13 +39,13 @@ class Ground(NamedTuple):
 
 
 def ground_of(
-    tested: Sequence[Sample], found: Sequence[Quantity], name: str, nap: str, state: str = ""
+    tested: Sequence[Sample], quantities: Sequence[Quantity], name: str, nap: str, state: str = ""
 ) -> Ground:
     """The surface of quantities.
 
     Args:
         tested: samples.
-        found: their quantities.
+        quantities: theirs.
         name: of the surface.
         nap: whose ahead it is, robot or ground.
         state: begins or slides; of each contact begins if empty, or slides if that alone was
@@ -55,17 +55,17 @@ def ground_of(
         ValueError: there is no quantity, a contact was tested back or across and not ahead, the
             state was not tested, or the name is a known surface's.
     """
-    if not found:
+    if not quantities:
         raise ValueError(
             "mass, area or tips must be given: without them a force tells neither a coefficient "
             "nor a bound"
         )
     if name in SURFACES:
         raise ValueError(f"name must be none of {', '.join(SURFACES)}, which are known surfaces")
-    contacts = dict.fromkeys(quantity.contact for quantity in found)
+    contacts = dict.fromkeys(quantity.contact for quantity in quantities)
     used = []
     for contact in contacts:
-        ours = [quantity for quantity in found if quantity.contact == contact]
+        ours = [quantity for quantity in quantities if quantity.contact == contact]
         states = [s for s in ([state] if state else STATES) if s in {q.state for q in ours}]
         if not states:
             raise ValueError(f"state must be that of a reading of {contact}s, got {state!r}")
@@ -99,7 +99,7 @@ def _law(tested: Iterable[Sample], used: Sequence[Quantity]) -> str:
     return measured.pop() if not laws and len(measured) == 1 else ""
 
 
-def table(found: Sequence[Quantity]) -> str:
+def table(quantities: Sequence[Quantity]) -> str:
     """A row per quantity, and below it one per test where there are several."""
     columns = (
         Column("quantity", "name"), Column("sliding", "state"), Column("test", "test"),
@@ -108,7 +108,7 @@ def table(found: Sequence[Quantity]) -> str:
         Column("readings", "count", "d"), Column("load", "load"),
     )  # fmt: skip
     rows = []
-    for quantity in found:
+    for quantity in quantities:
         unit = _UNITS[quantity.law][quantity.contact]
         several = len(quantity.tests) > 1
         first = {"name": quantity.name, "state": quantity.state, "unit": unit,
@@ -141,7 +141,7 @@ def _load(quantity: Quantity) -> str:
     return f"{' .. '.join(ends)} {unit}"
 
 
-def notes(tested: Sequence[Sample], found: Sequence[Quantity], ground: Ground) -> list[str]:
+def notes(tested: Sequence[Sample], quantities: Sequence[Quantity], ground: Ground) -> list[str]:
     """What the numbers do not say by themselves, a sentence each."""
     lines = [line for sample in tested for line in _verdict(sample)]
     if not any(sample.verdict for sample in tested):
@@ -149,9 +149,9 @@ def notes(tested: Sequence[Sample], found: Sequence[Quantity], ground: Ground) -
             "loads do not differ, or readings are too few: whether friction is a constant bound or "
             "mu N is not told"
         )
-    if any(quantity.missed for quantity in found):
+    if any(quantity.missed for quantity in quantities):
         lines.append("withheld: a mean over loads on which it depends says nothing about others")
-    for quantity in found:
+    for quantity in quantities:
         name = f"{quantity.name} ({quantity.state})"
         if quantity.apart:
             lines.append(
@@ -163,18 +163,18 @@ def notes(tested: Sequence[Sample], found: Sequence[Quantity], ground: Ground) -
         elif quantity.estimate.half_width <= _ALIKE * quantity.estimate.value:
             lines.append(f"{name}: repeats are all alike: the interval is of no width, the "
                          "resolution is not in it")  # fmt: skip
-    return [*lines, *_missing(found, ground), *_at_rest(found)]
+    return [*lines, *_missing(quantities, ground), *_at_rest(quantities)]
 
 
 def loads(robot: Robot, ground: Ground) -> list[str]:
     """Lines on bounds that were measured at other loads than a strip's, where that may matter."""
     if ground.law:
         return []
-    own = {"side": robot.weight_per_length / robot.width, "tip": 0.5 * robot.weight}
+    presses = {"side": robot.weight_per_length / robot.width, "tip": 0.5 * robot.weight}
     lines = []
     for quantity in ground.used:
         low, high = quantity.pressed
-        load = own[quantity.contact]
+        load = presses[quantity.contact]
         if quantity.law == "constant" and not low / _OTHER_LOAD < load < high * _OTHER_LOAD:
             told = "" if math.isnan(low) else f", readings are at {_load(quantity)}"
             factor, unit = _PRESSED[quantity.contact]
@@ -190,7 +190,7 @@ def _verdict(sample: Sample) -> list[str]:
     where = f"{sample.contact}, {sample.way}, {sample.state}, {sample.test}"
     misses = ", ".join(f"{_LAWS[law]} by {f'{100 * miss:.2g}' if miss > _ALIKE else '0'} %"
                        for law, miss in verdict.misses.items())  # fmt: skip
-    words = {"": "either law may hold", BOTH: f"neither law alone, but {_sum(sample, verdict)}"}
+    words = {"": "either law may be right", BOTH: f"neither law alone, but {_sum(sample, verdict)}"}
     said = words.get(verdict.law) or f"the data support {_LAWS[verdict.law]}"
     return [f"{where}: {said} (misses: {misses} of the resistance)"]
 
@@ -207,14 +207,14 @@ def _plus_minus(estimate: Estimate) -> str:
     return f"{estimate.value:.3g} +- {estimate.half_width:.2g}"
 
 
-def _missing(found: Sequence[Quantity], ground: Ground) -> list[str]:
-    known = {(quantity.contact, quantity.law) for quantity in ground.used}
-    contacts = {quantity.contact for quantity in found}
+def _missing(quantities: Sequence[Quantity], ground: Ground) -> list[str]:
+    pairs = {(quantity.contact, quantity.law) for quantity in ground.used}
+    contacts = {quantity.contact for quantity in quantities}
     needed = {"constant": "mass and area are", "coulomb": "their mass is"}
     lines = [f"{each}s give no {_SHORT[law]}, for which {needed[law]} needed: the file does not "
-             f"say what holds them under --friction {law}"
+             f"say how they resist under --friction {law}"
              for each in ("side", "tip") for law in ([ground.law] if ground.law else LAWS)
-             if each in contacts and (each, law) not in known]  # fmt: skip
+             if each in contacts and (each, law) not in pairs]  # fmt: skip
     if "tip" not in contacts and ground.law != "coulomb":
         lines.append("tips were not tested: they resist by nothing in the file, as on felt")
     if "tip" not in contacts and ground.law == "coulomb":
@@ -223,18 +223,18 @@ def _missing(found: Sequence[Quantity], ground: Ground) -> list[str]:
         lines.append("sides were not tested: they resist by nothing in the file, as on gelatin")
     ways = {
         contact: {q.way for q in ground.used if q.contact == contact}
-        for contact, _ in sorted(known)
+        for contact, _ in sorted(pairs)
     }
     for each, tried in ways.items():
         if others := [way for way in WAYS if way in set().union(*ways.values()) - tried]:
             lines.append(f"{each}s were not tested {' and '.join(others)}: what the file says of "
-                         "them ahead holds there")  # fmt: skip
+                         "them ahead is taken there")  # fmt: skip
     return lines
 
 
-def _at_rest(found: Sequence[Quantity]) -> list[str]:
+def _at_rest(quantities: Sequence[Quantity]) -> list[str]:
     """Friction at rest over that of sliding, where both were tested."""
-    by = {(quantity.name, quantity.state): quantity.estimate.value for quantity in found}
+    by = {(quantity.name, quantity.state): quantity.estimate.value for quantity in quantities}
     return [
         f"{name}: {value / by[name, 'slides']:.3g} times as much at rest as in sliding; "
         "static_ratio takes that, with a stribeck_speed that these tests do not give"
@@ -252,15 +252,15 @@ def film_command(ground: Ground, path: Path, law: str) -> str:
         law: of friction in the file.
     """
     along = [quantity for quantity in ground.used if quantity.way != "across"]  # as a film shows
-    known = [q for q in along if q.law == law and q.estimate.value > 0]
-    free = ["robot.modulus", *(f"surface.{quantity.name}" for quantity in known)]
-    priors = [f"surface.{q.name}={q.estimate.value:.4g}+-{q.estimate.error:.2g}" for q in known
+    certain = [q for q in along if q.law == law and q.estimate.value > 0]
+    free = ["robot.modulus", *(f"surface.{quantity.name}" for quantity in certain)]
+    priors = [f"surface.{q.name}={q.estimate.value:.4g}+-{q.estimate.error:.2g}" for q in certain
               if q.estimate.error > 0 and not (q.apart or q.missed)]  # fmt: skip
     prior = f" --prior {','.join(priors)}" if priors else ""
     return f"undulator fit track.csv --scene {path} --cycles 2 --free {','.join(free)}{prior}"
 
 
-def record_of(tested: Sequence[Sample], found: Sequence[Quantity]) -> dict[str, Any]:
+def record_of(tested: Sequence[Sample], quantities: Sequence[Quantity]) -> dict[str, Any]:
     """Fields of the JSON object, in SI units."""
     return {
         "quantities": [
@@ -269,7 +269,7 @@ def record_of(tested: Sequence[Sample], found: Sequence[Quantity]) -> dict[str, 
              "standard_error": q.estimate.error, "degrees_of_freedom": q.estimate.freedom,
              "readings": q.counts, "by_test": {t: e.value for t, e in q.tests.items()},
              "load_over_size": q.pressed, "tests_differ": q.apart, "law_refused": q.missed}
-            for q in found
+            for q in quantities
         ],
         "laws": [
             {"contact": s.contact, "way": s.way, "sliding": s.state, "test": s.test,

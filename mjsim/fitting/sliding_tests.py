@@ -115,10 +115,10 @@ def _rows(table: CsvTable) -> tuple[list[dict[str, Any]], list[str]]:
     """What each row says, without empty cells, and heads that are not read."""
     rows: list[dict[str, Any]] = [{} for _ in table.rows]
     ignored: list[str] = []
-    known: list[str] = []
+    columns: list[str] = []
     for column, head in enumerate(table.heads):
         name = name_of(head).lower()
-        if name in known:
+        if name in columns:
             raise ValueError(f"{table.where}: column {name!r} stands twice")
         if name in UNITS:
             values = table.numbers(column, *UNITS[name], gaps=True).tolist()
@@ -127,11 +127,11 @@ def _rows(table: CsvTable) -> tuple[list[dict[str, Any]], list[str]]:
         else:
             ignored.append(head)
             continue
-        known.append(name)
+        columns.append(name)
         for row, value in zip(rows, values, strict=True):
             if value != "" and value == value:  # no empty cell, which is NaN among numbers
                 row[name] = value
-    if not {"angle", "force"} & {*known}:
+    if not {"angle", "force"} & {*columns}:
         raise ValueError(
             f"{table.where}: needs a column of angles or forces, such as angle [deg] or force "
             f"[mN]; known are {', '.join([*UNITS, *_WORDS])}, got {', '.join(table.heads)}"

@@ -13,17 +13,11 @@ import mujoco
 from analytic.friction.contacts import ContactFinder, StripContact
 from analytic.friction.dissipation import minimisers
 from analytic.scene.chain import node_positions
+from mjsim.friction.node_tendons import NodeTendons, node_tendons
 from mjsim.friction.traction import BoundedEnds, BoundedFriction, ContactFriction
 from mjsim.model.pads import pads_by_node
-from mjsim.model.parts import NO_BOUND, PREFIX, TETHER, tendon_names
+from mjsim.model.parts import NO_BOUND, PREFIX, TETHER
 from mjsim.scene import Resolved, Scene
-
-APART = 1e12  # divisor of a pulley that takes a node out of the mean
-
-
-def node_tendons(model: mujoco.MjModel, nodes: int) -> list[int]:
-    """Tendons that carry the friction of the nodes, left first."""
-    return [model.tendon(PREFIX + name).id for name in tendon_names(nodes)]
 
 
 def tether_tendons(scene: Scene, model: mujoco.MjModel) -> list[int]:
@@ -39,6 +33,7 @@ class AnchoredContacts:
         anchored: tendons of the nodes that are anchored in the coming step.
         contacts, bounds: tendons and bounds of all contacts in the coming step.
         back: bounds against motion back, if `bounds` are of motion ahead only.
+        anchored_before: tendons of those that were anchored in the step before.
     """
 
     def __init__(self, data: mujoco.MjData) -> None:
@@ -46,7 +41,7 @@ class AnchoredContacts:
         self.contacts: list[int] = []
         self.bounds: list[float] = []
         self.back: list[float] | None = None
-        self._anchored_before: list[int] = []
+        self.anchored_before: list[int] = []
         self._rate, self._places = data.ten_velocity, data.ten_length
         self._before: list[float] = self._places.tolist()
 
@@ -54,7 +49,7 @@ class AnchoredContacts:
         """See StripFriction.after_step; the mean over the anchored nodes."""
         excess, before = 0.0, self._before
         places: list[float] = self._places.tolist()
-        tendons, self._anchored_before = self._anchored_before, self.anchored
+        tendons, self.anchored_before = self.anchored_before, self.anchored
         if tendons:
             moved = [dt * self._rate.item(i) - places[i] + before[i] for i in tendons]
             excess = sum(moved) / len(moved)
@@ -171,13 +166,11 @@ class BoundedContacts(BoundedFriction):
         press = scene.ground.at(0.0).press(scene.strip.width)
         self._finder = ContactFinder(scene.strip, nodes, scene.roughness, press)
         self._half = 0.5 * scene.strip.length
-        self._tendons = node_tendons(model, len(nodes))
+        self._rows = NodeTendons(model, data, len(nodes))
+        self._tendons = self._rows.of
         self._nodes = dict(zip(self._tendons, nodes.tolist(), strict=True))
         self._bounds[self._tendons] = 0.0
         self._resisting: list[int] = [self._both]
-        self._averaged: list[int] = []  # nodes in the mean position
-        begin = model.tendon_adr[self._both]
-        self._divisors = model.wrap_prm[begin : begin + model.tendon_num[self._both] : 3]
         self._anchors = AnchoredContacts(data)
         self._tether = tether_tendons(scene, model)
         self._drags: list[float] = self._bounds[self._tether].tolist()
@@ -198,6 +191,7 @@ class BoundedContacts(BoundedFriction):
         if not contacts:
             self.contact_left = self.contact_right = 0.0
             self._resisting = self._anchors.contacts = []
+            self._rows.use(self._anchors.anchored_before, [])
             return
         self.contact_left, self.contact_right = contacts[0].length, contacts[-1].length
         nodes = [_middle(contact) for contact in contacts]
@@ -214,14 +208,16 @@ class BoundedContacts(BoundedFriction):
             tendons, bounds = [*tendons, *self._tether], [*bounds, *self._drags]
             ahead, back = [*ahead, *self._drags], back and [*back, *self._drags]
         self._anchors.contacts, self._anchors.bounds, self._anchors.back = tendons, ahead, back
-        rates = [self._rate.item(tendon) for tendon in tendons]
+        rates = [self._rate_of(tendon) for tendon in tendons]
         low, high = minimisers(ahead, rates, back)
         viscous = self._by_speed and any(self._drag[tendon] for tendon in tendons)
+        averaged: list[int] = []
         if high > low and self._level and not (viscous or self._tether):
-            self._anchor_undecided(nodes, rates, low, high)
+            averaged = self._anchor_undecided(nodes, rates, low, high)
         else:
             speeds = [abs(v) if bound else math.inf for v, bound in zip(rates, bounds, strict=True)]
             self._anchors.anchored = [tendons[speeds.index(min(speeds))]]
+        self._rows.use([*tendons, *self._anchors.anchored_before], averaged)
 
     def after_step(self, dt: float) -> float:
         """See StripFriction.after_step."""
@@ -229,26 +225,33 @@ class BoundedContacts(BoundedFriction):
             self.drift = self._anchors.drift()
         return self._anchors.after_step(dt)
 
+    def _x_of(self, tendon: int) -> float:
+        return self._rows.x(tendon)
+
+    def _rate_of(self, tendon: int) -> float:
+        return self._rows.rate(tendon)
+
     def _inward(self, tendon: int) -> float:
         return {self._left: 1.0, self._right: 0.0}.get(tendon, 0.5)
 
     def _anchor_undecided(
         self, nodes: list[int], rates: list[float], low: float, high: float
-    ) -> None:
-        """Anchor what equal bounds leave open: velocities of the whole between two [m/s]."""
+    ) -> list[int]:
+        """Anchor what equal bounds leave open: velocities of the whole between two [m/s].
+
+        Returns:
+            Nodes whose mean position is anchored; none where a contact is.
+        """
         tendons = [self._tendons[node] for node in nodes]
         mean = -sum(rates) / len(rates)
         if low < mean < high:
-            if nodes != self._averaged:
-                self._divisors[:] = APART
-                self._divisors[nodes] = 1.0
-                self._averaged = nodes
             self._bounds[self._both], self._anchors.anchored = self._tie, tendons
-        else:
-            border = low if mean <= low else high
-            off = [abs(rate + border) for rate in rates]
-            self._anchors.anchored = [tendons[off.index(min(off))]]
-            self._bounds[self._anchors.anchored[0]] += self._tie
+            return nodes
+        border = low if mean <= low else high
+        off = [abs(rate + border) for rate in rates]
+        self._anchors.anchored = [tendons[off.index(min(off))]]
+        self._bounds[self._anchors.anchored[0]] += self._tie
+        return []
 
 
 def _middle(contact: StripContact) -> int:

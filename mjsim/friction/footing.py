@@ -84,7 +84,7 @@ class StripFooting:
         self._slopes, self._shift, self._dt = joints.slopes, joints.shift, numerics.timestep
         self._before, self._after = self._law.before_step, self._law.after_step
         self._flat = end_flat_pressures(scene.strip, scene.ground.at(0.0))
-        self._lengths = data.ten_length
+        self._x = data.site_xpos[:, 0]
         pads = pads_by_node(model)
         self._feet = int(pads[0, 0]), int(pads[-1, 0])
         self._data, self._nodes, self._height = data, pads[:, 0], data.geom_xpos[:, 2]
@@ -121,8 +121,8 @@ class StripFooting:
         return self._data.ncon > 0 or bool(height[self._nodes].min() < self._thrown)
 
     def places(self) -> Array:
-        """Lengths of the tendons to the ends [m]."""
-        return np.array(self._lengths)
+        """Places of the ends, or of all nodes that may resist, along x [m]."""
+        return np.array(self._x)
 
 
 def feet_may_be(scene: Scene, numerics: Resolved) -> tuple[float, float]:

@@ -10,6 +10,7 @@ from analytic.friction.grip import Grip
 from analytic.friction.laws import LAWS
 from analytic.scene.ground import depends_on_speed
 from mjsim.friction.lean import Lean
+from mjsim.friction.node_tendons import WRAPS, mean_sites
 from mjsim.model.pads import node_of_geom, pads_by_node
 from mjsim.model.parts import PREFIX, TENDONS, tendon_names
 from mjsim.results.forces import GroundForces
@@ -38,9 +39,12 @@ class ContactRecorder:
         for node, name in enumerate(tendon_names(len(pads))):
             if PREFIX + name in {model.tendon(i).name for i in range(model.ntendon)}:
                 self._node_of_tendon[model.tendon(PREFIX + name).id] = node
-        self._both = both = model.tendon(PREFIX + TENDONS[2]).id
-        begin = model.tendon_adr[both]
-        self._divisors = model.wrap_prm[begin : begin + model.tendon_num[both] : 3]
+        self._both = model.tendon(PREFIX + TENDONS[2]).id
+        self._mean_sites, self._wraps = mean_sites(model), model.tendon_num
+        self._node_of_site = np.full(model.nsite, -1)
+        ends = np.flatnonzero(self._node_of_tendon >= 0)
+        sites = model.wrap_objid[model.tendon_adr[ends] + WRAPS - 1]
+        self._node_of_site[sites] = self._node_of_tendon[ends]
         self._coulomb = scene.friction == "coulomb"
         self._viscous = depends_on_speed(scene.ground)
         grip = Grip(scene.strip, LAWS[scene.friction])
@@ -54,7 +58,7 @@ class ContactRecorder:
         if self._coulomb:
             self._pushes.append(self._by_contact())
             return
-        data = self._data
+        data, averaged = self._data, self._wraps.item(self._both) // WRAPS
         drag = np.empty(0)
         if self._viscous or self._lean:
             drag = -self._model.tendon_damping * data.ten_velocity
@@ -62,7 +66,7 @@ class ContactRecorder:
             drag += self._lean.forces()
         self._rows.append((
             data.efc_type.copy(), data.efc_id.copy(), data.efc_force.copy(),
-            data.contact.geom2.copy(), self._divisors.copy(), drag,
+            data.contact.geom2.copy(), self._mean_sites[:averaged].copy(), drag,
         ))  # fmt: skip
 
     def forces(self, count: int) -> GroundForces:
@@ -74,7 +78,7 @@ class ContactRecorder:
 
     def _sorted(self, rows: list[tuple[NDArray[Any], ...]]) -> GroundForces:
         """Forces of some steps, all at once."""
-        kinds, numbers, strengths, geoms, divisors, drags = zip(*rows, strict=True)
+        kinds, numbers, strengths, geoms, means, drags = zip(*rows, strict=True)
         step = np.repeat(np.arange(len(rows)), [len(part) for part in kinds])
         kind, ids, force = map(np.concatenate, (kinds, numbers, strengths))
         normal, friction = np.zeros((2, len(rows), self._nodes))
@@ -92,9 +96,8 @@ class ContactRecorder:
         of_node = nodes >= 0
         friction[step[of_node], nodes[of_node]] += force[of_node]
         both = ids == self._both
-        share = np.zeros_like(friction)  # of each node in the mean position
-        share[:, [0, -1] if len(divisors[0]) == 2 else slice(None)] = 1.0 / np.array(divisors)
-        friction += np.bincount(step[both], force[both], len(rows))[:, None] * share
+        for one, push in zip(step[both].tolist(), force[both].tolist(), strict=True):
+            friction[one, self._node_of_site[means[one]]] += push
         if self._viscous or self._lean:
             tendons = np.flatnonzero(self._node_of_tendon >= 0)
             friction[:, self._node_of_tendon[tendons]] += np.array(drags)[:, tendons]

@@ -133,7 +133,7 @@ class BoundedFriction(StripFriction):
         """
         surface, outward = self._surface, (1.0 - inward) * contact
         if surface is None:
-            begin = self._place.item(tendon) + self._far - outward
+            begin = self._x_of(tendon) - outward
             surface = over(self._ground, begin, begin + contact)
         width, lean = self._strip.width, 0.0
         if self.grip.feet or self._lean:
@@ -144,12 +144,20 @@ class BoundedFriction(StripFriction):
         else:
             bound = self._law.bound(surface, width, contact, load)
         if self._by_speed:
-            factor = surface.at_speed(self._rate.item(tendon))
+            factor = surface.at_speed(self._rate_of(tendon))
             bound, lean = bound * factor, lean * factor
             self._drag[tendon] = surface.drag(width, contact)
         if self._lean:
             self._lean.set(tendon, lean)
         return float(bound)
+
+    def _x_of(self, tendon: int) -> float:
+        """Place where a tendon ends, in the step just done [m]."""
+        return self._place.item(tendon) + self._far
+
+    def _rate_of(self, tendon: int) -> float:
+        """Speed of that place [m/s]."""
+        return self._rate.item(tendon)
 
 
 class BoundedEnds(BoundedFriction):

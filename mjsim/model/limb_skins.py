@@ -9,13 +9,14 @@ from mjsim.model.skin import PER_CELL, add_strip_skins
 from mjsim.scene import Resolved, Scene
 
 CAMERA = "above"
-_PLACE, _FOV = (0.17, -2.4, 1.75), 18.5  # of the camera, from the trunk's beginning [L, degrees]
+_PLACE, _FOV = (0.17, -2.4, 1.75), 18.5  # of the camera, from what it looks at [L, degrees]
+_BESIDE = 0.1  # L, how far to the right of the trunk it looks, where the ruler lies; chosen
 
 
 def add_camera(spec: mujoco.MjSpec, scene: Scene) -> None:
     """A camera that sees the robot from its right and above."""
     camera = spec.worldbody.add_camera(name=CAMERA, fovy=_FOV)
-    camera.pos = np.multiply(_PLACE, scene.robot.length)
+    camera.pos = np.subtract(_PLACE, (0.0, _BESIDE, 0.0)) * scene.robot.length
     half = 0.5 * np.arctan2(-_PLACE[1], _PLACE[2])  # from straight down to the robot
     camera.quat = (np.cos(half), np.sin(half), 0.0, 0.0)
 

@@ -8,7 +8,7 @@ Frame = NDArray[np.uint8]
 
 WIDTH, HEIGHT, FPS = 1280, 720, 30
 LEAD, TAIL = 0.5, 1.0  # s of stillness before and after the walk
-_LONGEST = 10.0  # s of a video of a robot of limbs; slower walks are shown faster
+_LONGEST = 10.0  # s of a walk in a video; slower walks are shown faster
 
 
 def frame_times(end: float, faster: float = 1.0) -> Times:

@@ -14,7 +14,7 @@ from mjsim.results.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 
-_INSET, _FRAME = (352, 198), 3  # columns and lines of the view from above; lines around it
+_INSET, _FRAME = (320, 180), 3  # columns and lines of the view from above; lines around it
 _DOTS = 160  # of a track at most
 _RED, _BLUE = (0.78, 0.12, 0.10, 1.0), (0.10, 0.30, 0.75, 1.0)
 

@@ -6,13 +6,13 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.scene.limbs import plan
+from analytic.scene.limbs import LimbedRobot, plan
 from analytic.scene.robot import Robot
 from mjsim.model.ceiling import stretch
 from mjsim.model.limb_skins import add_camera, add_skins
 from mjsim.model.limbs import limbed, tree_spec
 from mjsim.model.stage import stage
-from mjsim.pictures.look import Look
+from mjsim.pictures.look import RULED, Look
 from mjsim.scene import Resolved, Scene
 
 Array = NDArray[np.float64]
@@ -31,8 +31,8 @@ class LimbLook(Look):
     ) -> None:  # fmt: skip
         spec = tree_spec(scene, numerics, stage(scene.ground))
         robot = limbed(scene)
-        for name in ("ruler", "start"):
-            spec.delete(spec.geom(name))
+        spec.delete(spec.geom("start"))
+        _lay_ruler(spec, robot)
         add_skins(spec, scene, numerics)
         add_camera(spec, scene)
         _add_overhead(spec, scene)
@@ -50,6 +50,19 @@ class LimbLook(Look):
         """Pose as Look.pose does; chambers look thicker as they fill."""
         self.model.skin_inflate[:] = _THICKER * fractions * self._thickness
         super().pose(position, coordinates, fractions)
+
+
+def _lay_ruler(spec: mujoco.MjSpec, robot: LimbedRobot) -> None:
+    """Lay the ruler beside a robot that it suits, its zero where that begins, or take it away."""
+    ruler = spec.geom("ruler")
+    if not RULED[0] <= robot.length <= RULED[1]:
+        spec.delete(ruler)
+        return
+    flat = plan(robot)
+    ends = np.array([flat[limb.name] for limb in robot.limbs])
+    half = max(limb.strip.width for limb in robot.limbs) / 2
+    aside = ends[..., 1].min() - half - ruler.size[1]
+    ruler.pos = (ruler.pos[0] + ends[..., 0].min(), aside, ruler.pos[2])
 
 
 def _add_overhead(spec: mujoco.MjSpec, scene: Scene) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 from analytic.scene.limbs import chambers_by_limb, plan, rotation
 from mjsim.model.limbs import limbed
 from mjsim.pictures.frames import Frame
-from mjsim.pictures.overlay import BLUE, INK, Colour, Overlay, Pen, without_minus_zero
+from mjsim.pictures.overlay import BLUE, INK, Colour, Overlay, Pen
 from mjsim.results.shades import shade_of_pixels
 
 _BAND, _WHITE = 118, 0.75  # lines behind the words, and how white they are
@@ -25,12 +25,13 @@ class LimbOverlay(Overlay):
 
     def _displacement(self, step: int) -> Sequence[tuple[str, Colour]]:
         walk = self.walk
-        gone = walk.moved(walk.start, step) / walk.scene.robot.length
-        ahead, aside = (without_minus_zero(part, 5e-4) for part in gone.tolist())
+        ahead, aside = walk.moved(walk.start, step).tolist()
         turn = float(np.degrees(walk.heading[step] - walk.heading[walk.start]))
+        part = abs(ahead) / walk.scene.robot.length
         return (
-            (f"{ahead:+.3f} L ahead", INK), (f"{aside:+.3f} L to the left", BLUE),
-            (f"turned {without_minus_zero(turn, 5e-2):+.1f}° to the left", BLUE),
+            (_told(1e3 * ahead, " mm", "ahead", "back"), INK),
+            (f"{part:.3f} L, {_told(1e3 * aside, ' mm', 'to the left', 'to the right')}", BLUE),
+            (f"turned {_told(turn, '°', 'to the left', 'to the right')}", BLUE),
         )  # fmt: skip
 
     def _draw_state(self, pen: Pen, width: int, step: int) -> None:
@@ -50,3 +51,10 @@ class LimbOverlay(Overlay):
                  for x, y in (start + side, end + side, end - side, start - side)],
                 fill=shade_of_pixels(pressure / robot.peak_pressure), outline=INK,
             )  # fmt: skip
+
+
+def _told(value: float, unit: str, positive: str, negative: str) -> str:
+    """A size with its unit and its sign in words; without them where it is written as 0."""
+    size = f"{abs(value):.1f}"
+    way = "" if float(size) == 0 else f" {positive if value > 0 else negative}"
+    return f"{size}{unit}{way}"

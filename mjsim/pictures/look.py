@@ -10,6 +10,7 @@ from mjsim.scene import Scene
 
 Array = NDArray[np.float64]
 
+RULED = (0.08, 0.20)  # lengths of robots that the ruler suits [m]
 _MARGIN = 0.25  # of the length that the robot may go before the cameras follow; chosen
 
 

@@ -37,27 +37,34 @@ class Overlay(ABC):
         walk: the walk.
         scale: size of letters, 1 for 720 lines.
         faster: how many times as fast as the walk the video is, which it says.
+        gaits: names of the gaits played after each step, (T,); the scene's if None.
     """
 
-    def __init__(self, walk: Trajectory, scale: float = 1.0, faster: float = 1.0) -> None:
-        self.walk, self.scale, self._faster = walk, scale, faster
+    def __init__(
+        self, walk: Trajectory, scale: float = 1.0, faster: float = 1.0,
+        gaits: Sequence[str] | None = None,
+    ) -> None:  # fmt: skip
+        self.walk, self.scale, self._faster, self._gaits = walk, scale, faster, gaits
         self.big, self.small = font(round(25 * scale)), font(round(17 * scale))
 
     def draw(self, frame: Frame, step: int) -> Frame:
         """A copy of the frame with the state after a step written on it."""
         picture = Image.fromarray(frame)
         pen, walk, edge = ImageDraw.Draw(picture), self.walk, _EDGE * self.scale
-        time = f"t = {max(0.0, float(walk.time[step])):4.1f} s"
-        if self._faster > 1:
-            time += f", {self._faster:g} times as fast"
-        gait, ceiling = f"gait {walk.scene.gait.name}", walk.scene.ceiling
-        if ceiling is not None:
-            gait += f", below {1e3 * ceiling:g} mm"
-        words = (walk.scene.ground.name, gait, time)
+        words = (walk.scene.ground.name, self._gait(step), self._time(step))
         self._write(pen, edge, [(text, INK) for text in words], "la")
         self._write(pen, picture.width - edge, self._displacement(step), "ra")
         self._draw_state(pen, picture.width, step)
         return np.array(picture)
+
+    def _gait(self, step: int) -> str:
+        name = self._gaits[step] if self._gaits else self.walk.scene.gait.name
+        ceiling = self.walk.scene.ceiling
+        return f"gait {name}" + ("" if ceiling is None else f", below {1e3 * ceiling:g} mm")
+
+    def _time(self, step: int) -> str:
+        faster = f", {self._faster:g} times as fast" if self._faster > 1 else ""
+        return f"t = {max(0.0, float(self.walk.time[step])):4.1f} s{faster}"
 
     def _write(
         self, pen: Pen, at: float, texts: Sequence[tuple[str, Colour]], anchor: str
@@ -84,8 +91,11 @@ def without_minus_zero(value: float, least: float) -> float:
 class StripOverlay(Overlay):
     """Overlay of a strip: pressures of its segments, track and the anchored end."""
 
-    def __init__(self, walk: Trajectory, scale: float = 1.0, faster: float = 1.0) -> None:
-        super().__init__(walk, scale, faster)
+    def __init__(
+        self, walk: Trajectory, scale: float = 1.0, faster: float = 1.0,
+        gaits: Sequence[str] | None = None,
+    ) -> None:  # fmt: skip
+        super().__init__(walk, scale, faster, gaits)
         self._gone = walk.line[:, 0, 0] - walk.line[walk.start, 0, 0]  # of the left end [m]
 
     def _displacement(self, step: int) -> Sequence[tuple[str, Colour]]:
@@ -97,20 +107,21 @@ class StripOverlay(Overlay):
     def _draw_state(self, pen: Pen, width: int, step: int) -> None:
         u = self.scale
         edge, top = _EDGE * u, _TOP * u
-        self._anchor(pen, edge + 110 * u, top + 60 * u, step)
+        after = edge + max(110 * u, self.small.getlength(self._time(step)) + 20 * u)
+        self._anchor(pen, after, top + 60 * u, step)
         self._pressures(pen, edge + 320 * u, top, step)
-        self._track(pen, width - edge - 500 * u, top, step)
+        self._track(pen, width - edge - 460 * u, top, step)
 
     def _anchor(self, pen: Pen, left: float, top: float, step: int) -> None:
         end = anchored_end(self.walk, step)
         if end is not None:
-            words = f"{'left' if end == 0 else 'right'} end holds"
+            words = f"{'left' if end == 0 else 'right'} end sticks"
             pen.text((left, top), words, font=self.small, fill=_GREEN)
 
     def _track(self, pen: Pen, left: float, top: float, step: int) -> None:
         """Displacement of the left end over time, up to this step."""
         u, walk, gone = self.scale, self.walk, self._gone
-        width, height = 330 * u, 72 * u
+        width, height = 290 * u, 72 * u
         duration = max(float(walk.time[-1]), 1e-9)
         low, high = min(0.0, float(gone.min())), max(0.0, float(gone.max()))
         span = max(high - low, 0.02 * walk.scene.robot.length)

@@ -11,9 +11,10 @@ from mjsim.pictures.overlay import BLUE, INK, font
 from mjsim.pictures.recording import pictures, written
 from mjsim.results.trajectory import Trajectory
 
-_ROWS = slice(400, 600)  # lines of a frame with a strip that lies flat, and the ruler
+_ROWS = slice(382, 602)  # lines of a frame with a strip that lies flat, and the ruler
 _HEAD = 46  # lines above each walk for its words
 _WORDS = {"none": "stands still", "forward": "walks forward", "backward": "walks back"}
+_LARGER = 1.4  # letters of a picture that is shown at half its size
 _START = 0.45  # part of the start in the mixture with the end
 
 
@@ -31,7 +32,7 @@ def poster(walks: Sequence[Trajectory]) -> Image.Image:
         part = gone / walk.scene.robot.length
         way = _WORDS[direction(part, 1.0)]
         pen.text((24, 8), f"{walk.scene.ground.name}: {way}", font=font(26), fill=INK)
-        pen.text((picture.width - 24, 8), f"{1e3 * gone:+.1f} mm = {part:+.3f} L a cycle",
+        pen.text((picture.width - 24, 8), f"{1e3 * gone:+.1f} mm = {part:+.3f} L per cycle",
                  font=font(26), fill=BLUE, anchor="ra")  # fmt: skip
         bands.append(np.asarray(picture))
     return Image.fromarray(np.concatenate(bands))
@@ -39,6 +40,6 @@ def poster(walks: Sequence[Trajectory]) -> Image.Image:
 
 def stages(walk: Trajectory) -> Image.Image:
     """Four stages of the gait of a robot of limbs, in the order of reading."""
-    frames = written(walk, np.cumsum(walk.scene.gait.ramp_times)[:4])
+    frames = written(walk, np.cumsum(walk.scene.gait.ramp_times)[:4], _LARGER)
     rows = [np.hstack(frames[i : i + 2]) for i in (0, 2)]
     return Image.fromarray(np.vstack(rows)).resize((WIDTH, HEIGHT))

@@ -31,7 +31,13 @@ _BAND_SCALE = 1.1  # of letters in a band
 _JOINT_WIDTH, _JOINT_QUALITY = 852, 29
 
 
-def film(walks: Sequence[Trajectory], paths: Sequence[Path], joint: Path | None = None) -> None:
+Gaits = Sequence[str] | None
+
+
+def film(
+    walks: Sequence[Trajectory], paths: Sequence[Path], joint: Path | None = None,
+    gaits: Sequence[Gaits] | None = None,
+) -> None:  # fmt: skip
     """Write an H.264 video of each walk; each appears under its name only when it is whole.
 
     Needs MUJOCO_GL to name a backend that renders, see mjsim.pictures.gl.
@@ -40,6 +46,8 @@ def film(walks: Sequence[Trajectory], paths: Sequence[Path], joint: Path | None 
         walks: the walks.
         paths: of their videos.
         joint: of a video of all of them, strips, above each other in step; none if None.
+        gaits: for each walk, the names of the gaits that a policy played after each step, (T,);
+            the scenes' if None.
 
     Raises:
         OSError: a video cannot be written.
@@ -52,7 +60,8 @@ def film(walks: Sequence[Trajectory], paths: Sequence[Path], joint: Path | None 
         # their files are this process's, which removes them if it ends the others
         each = [unfinished.enter_context(ExitStack()) for _ in paths]
         parts = [own.enter_context(whole(path)) for own, path in zip(each, paths, strict=True)]
-        jobs = list(zip(walks, parts, bands, [until] * len(walks), strict=True))
+        played = gaits or [None] * len(walks)
+        jobs = list(zip(walks, parts, bands, [until] * len(walks), played, strict=True))
         # never in this process, which may have imported mujoco without OpenGL
         context = multiprocessing.get_context("spawn")
         workers = min(len(walks), os.cpu_count() or 1)
@@ -88,24 +97,29 @@ def pictures(walk: Trajectory, times: Times) -> Iterator[tuple[Frame, int]]:
             yield frame, step
 
 
-def written(walk: Trajectory, times: Times) -> list[Frame]:
-    """Pictures of a walk with the state written on them."""
-    overlay = overlay_of(walk)
+def written(walk: Trajectory, times: Times, scale: float = 1.0) -> list[Frame]:
+    """Pictures of a walk with the state written on them, in letters so many times as large."""
+    overlay = overlay_of(walk, scale)
     return [overlay.draw(frame, step) for frame, step in pictures(walk, times)]
 
 
-def overlay_of(walk: Trajectory, scale: float = 1.0, faster: float = 1.0) -> Overlay:
+def overlay_of(
+    walk: Trajectory, scale: float = 1.0, faster: float = 1.0, gaits: Gaits = None
+) -> Overlay:
     """The overlay of a walk, by the kind of its robot; see mjsim.pictures.overlay.Overlay."""
     kind = LimbOverlay if walk.scene.in_space else StripOverlay
-    return kind(walk, scale, faster)
+    return kind(walk, scale, faster, gaits)
 
 
-def _draw(walk: Trajectory, path: Path, band: Path | None, until: float) -> int:
+def _draw(
+    walk: Trajectory, path: Path, band: Path | None, until: float, gaits: Gaits = None
+) -> int:
     """Write the video of a walk, shown until a time [s], and its band; the number of frames."""
-    in_space, duration = walk.scene.in_space, float(walk.time[-1])
-    faster = how_much_faster(duration) if in_space else 1.0
-    times = frame_times(duration if in_space else until, faster)
-    overlay, small = overlay_of(walk, faster=faster), overlay_of(walk, _BAND_SCALE)
+    in_space = walk.scene.in_space
+    end = float(walk.time[-1]) if in_space else until
+    faster = how_much_faster(end)
+    times = frame_times(end, faster)
+    overlay, small = (overlay_of(walk, scale, faster, gaits) for scale in (1.0, _BAND_SCALE))
     with ExitStack() as videos:
         video = videos.enter_context(
             Encoder(path, WIDTH, HEIGHT, _IN_SPACE if in_space else _QUALITY)

@@ -13,12 +13,10 @@ from analytic.scene.surface import Ground
 from mjsim.model.builder import scene_spec
 from mjsim.model.ceiling import stretch
 from mjsim.model.skin import add_skins
-from mjsim.pictures.look import Look
+from mjsim.pictures.look import RULED, Look
 from mjsim.scene import Numerics, Resolved, Scene, resolved
 
 Array = NDArray[np.float64]
-
-_RULED = (0.08, 0.20)  # lengths of robots that the ruler suits [m]
 
 
 class StripLook(Look):
@@ -61,7 +59,7 @@ class StripLook(Look):
         if not patched:
             along = model.geom_size[self.grounds, 0]
             model.geom_size[self.grounds, 0] = np.maximum(along, reach)
-        if not _RULED[0] <= scene.strip.length <= _RULED[1]:
+        if not RULED[0] <= scene.strip.length <= RULED[1]:
             model.geom_rgba[ruler, 3] = 0.0
         else:  # its ticks are centimetres, whatever the robot's length
             model.geom_pos[ruler, 0] /= scale

@@ -105,7 +105,7 @@ def _strip(walk: "Trajectory") -> Iterator[Variable]:
         yield Variable(f"contact_{side}", time, values, "m", lying.format(side))
     yield Variable("left_slip_fraction", time, walk.left_slip_fraction, "1",
                    "left end's part of a change of separation, by the anchor rule")  # fmt: skip
-    yield Variable("drift", time, walk.drift, "m s-1", "of what friction should have held")
+    yield Variable("drift", time, walk.drift, "m s-1", "of contacts that should be at rest")
 
 
 def _mechanics(walk: "Trajectory") -> Iterator[Variable]:

@@ -172,7 +172,7 @@ def _remarks(row: dict[str, Any]) -> str:
     if row["status"] == "slid":
         slid = row["slid_over_L"]
         where = "away before its first cycle" if slid is None else f"{slid:.3f} L downhill"
-        text += f" {where}: no bound holds its weight there"
+        text += f" {where}: its weight exceeds every friction bound there"
     return text
 
 

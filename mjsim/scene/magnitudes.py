@@ -10,6 +10,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import replace
 
 from analytic.scene import pneunet
+from analytic.scene.feet import drops
 from analytic.scene.limbs import AnyRobot, LimbedRobot, limbs_of
 from analytic.scene.robot import GRAVITY, PSI, Robot
 
@@ -19,6 +20,7 @@ _STIFF = (1e2, 1e12)  # Pa; gels to diamond
 _BENT = 5e-3  # rad, by which the whole strip bends at its peak pressure at least
 _STIFFENED = 100.0  # times its rigidity without pressure, at the peak
 _LADEN = 100.0  # times its own mass, that a robot carries
+_PROUD = 0.25  # of its length, that a foot drops below its underside: as high as it arches
 _ROUNDING = 1e-6  # of a pressure in a file
 _DECADE = math.log(10.0)
 _BENDS = ("peak_pressure", "chamber_height")  # fields of which a meant one must bend the strip
@@ -50,21 +52,33 @@ def check_robot(robot: AnyRobot, given: Collection[str] = (), gravity: float = G
             raise ValueError(f"{where}{message}")
         _check_measured(limb.strip, robot.peak_pressure, where)
     _check_payload(robot)
+    _check_feet(robot)
     if isinstance(robot, Robot) and pneunet.turn_number(robot) < _BENT:
         raise ValueError(_unbent(robot, given))
 
 
 def _check_payload(robot: AnyRobot) -> None:
     """Refuse a payload that no robot of this mass could carry."""
-    own = robot.weight / GRAVITY - robot.payload_mass
+    bare = robot.weight / GRAVITY - robot.payload_mass
     heaviest = max(
         (payload.mass for limb in limbs_of(robot) for payload in limb.strip.payload), default=0.0
     )
-    if heaviest <= _LADEN * own:
+    if heaviest <= _LADEN * bare:
         return
-    near = [words for words, scale in readings(heaviest, _MASSES) if heaviest * scale <= own]
-    raise ValueError(f"mass of a payload must be one that a robot of {own:.3g} kg carries, got "
+    near = [words for words, scale in readings(heaviest, _MASSES) if heaviest * scale <= bare]
+    raise ValueError(f"payload: mass must be one that a robot of {bare:.3g} kg carries, got "
                      f"{heaviest:g} kg{asked(near[:1])}")  # fmt: skip
+
+
+def _check_feet(robot: AnyRobot) -> None:
+    """Refuse a foot that a strip would stand on as on a stilt."""
+    for limb in limbs_of(robot):
+        drop, most = max(drops(limb.strip.feet)), _PROUD * limb.strip.length
+        if drop <= most:
+            continue
+        near = [words for words, scale in readings(drop, LENGTHS) if drop * scale <= most]
+        raise ValueError(f"feet: drop must be at most a quarter of the length, {most:.2g} m, got "
+                         f"{drop:g} m{asked(near[:1])}")  # fmt: skip
 
 
 def _check_measured(strip: Robot, peak_pressure: float, where: str) -> None:

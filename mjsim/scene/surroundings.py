@@ -62,13 +62,13 @@ def _check_surface(surface: Surface, robot: AnyRobot) -> None:
     area = sum(strip.width * strip.length for strip in limbs)
     weight = sum(strip.weight for strip in limbs)
     force = max(weight, *(pneunet.base_rigidity(strip) / strip.length**2 for strip in limbs))
-    own = f"that of a ground for a robot of {weight:.2g} N"
-    known = {**_OF_SURFACES, "tip_force": (force * _BESIDE[0], force * _BESIDE[1]),
+    of_ground = f"that of a ground for a robot of {weight:.2g} N"
+    limits = {**_OF_SURFACES, "tip_force": (force * _BESIDE[0], force * _BESIDE[1]),
              "shear_strength": (force / area * _BESIDE[0], force / area * _BESIDE[1])}  # fmt: skip
     for name in (*RESISTANCES, "static_ratio", "stribeck_speed", "adhesion"):
         base = name.removesuffix("_back").removesuffix("_across")
-        what = own if base in ("tip_force", "shear_strength") else "that of a ground"
-        _check(name, (getattr(surface, name) or 0.0,), known[base], what, units(Surface)[name])
+        what = of_ground if base in ("tip_force", "shear_strength") else "that of a ground"
+        _check(name, (getattr(surface, name) or 0.0,), limits[base], what, units(Surface)[name])
     if surface.adhesion:
         bounds = _REACH[0], _REACH[1] * robot.length
         _check("adhesion_reach", (surface.adhesion_reach,), bounds, "that of a ground", "m")
@@ -107,13 +107,13 @@ def check_times(gait: Gait, valves: Valves, settle_time: float, peak_pressure: f
     Raises:
         ValueError: there is one; the message says what may be meant.
     """
-    own = "that of a robot of this kind"
-    _check("ramp_time", (max(gait.ramp_times),), _RAMP, own, "s")
+    of_robot = "that of a robot of this kind"
+    _check("ramp_time", (max(gait.ramp_times),), _RAMP, of_robot, "s")
     for name in ("fill_time", "vent_time", "dead_time"):
-        _check(name, _each(getattr(valves, name)), _LAG, own, "s")
+        _check(name, _each(getattr(valves, name)), _LAG, of_robot, "s")
     fast, slow = peak_pressure / _LAG[0], peak_pressure / _RAMP[1]
-    _check("flow_limit", _each(valves.flow_limit), (slow, fast), own, "Pa/s")
-    _check("settle_time", (settle_time,), _SETTLED, own, "s")
+    _check("flow_limit", _each(valves.flow_limit), (slow, fast), of_robot, "Pa/s")
+    _check("settle_time", (settle_time,), _SETTLED, of_robot, "s")
 
 
 def _each(value: float | tuple[float, ...] | None) -> tuple[float, ...]:
@@ -122,7 +122,7 @@ def _each(value: float | tuple[float, ...] | None) -> tuple[float, ...]:
 
 
 def _check(
-    name: str, values: Iterable[float | None], bounds: Iterable[float], own: str, unit: str
+    name: str, values: Iterable[float | None], bounds: Iterable[float], whose: str, unit: str
 ) -> None:
     """Refuse values out of their bounds, but 0."""
     least, most = bounds
@@ -138,7 +138,7 @@ def _check(
         ]
         shown = f"{value:g}" if unit == "1" else f"{value:g} {unit}"
         raise ValueError(
-            f"{name} must be {own}, {_rounded(least)} to {_rounded(most)}, got {shown}"
+            f"{name} must be {whose}, {_rounded(least)} to {_rounded(most)}, got {shown}"
             f"{asked([words for _, words in sorted(near)[:1]])}"
         )
 

@@ -65,7 +65,7 @@ def _written(whole: Copied, kept: list[Any] | None = None) -> bytes:
         _Writer(file, whole, kept).dump(vars(whole))
     except (TypeError, AttributeError, ValueError, pickle.PicklingError) as error:
         name = type(whole).__name__
-        raise TypeError(f"{name} cannot be copied with what it holds: {error}") from error
+        raise TypeError(f"{name} cannot be copied with what is in it: {error}") from error
     return file.getvalue()
 
 

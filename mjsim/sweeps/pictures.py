@@ -13,6 +13,7 @@ from mjsim.sweeps.effects import Field, Map, Results, levels
 from mjsim.sweeps.export import with_unit
 
 _ACROSS = 3  # panels
+_WAYS = dict.fromkeys(("displacement_over_L", "displacement_m"), ": − backward, + forward")
 
 
 def main_effects(results: Results, path: Path) -> None:
@@ -57,11 +58,12 @@ def pair_maps(results: Results, maps: Sequence[Map], path: Path) -> list[dict[st
                 "fields": [pair.one.name, pair.two.name],
                 "lines": [line.tolist() for line in zero.allsegs[0] if len(line)],
             })  # fmt: skip
-        panel.set_title(f"{100 * pair.part:.0f} % by both together", fontsize=9)
+        panel.set_title(f"explains {100 * pair.part:.0f} % beyond each alone", fontsize=9)
         _label(panel, pair.one, "x")
         _label(panel, pair.two, "y")
     bar = figure.colorbar(shown, ax=axes.tolist(), shrink=0.8)
-    bar.set_label(f"mean {with_unit(results.quantity, results.unit)}; black: 0")
+    told = _WAYS.get(results.quantity, "")
+    bar.set_label(f"mean {with_unit(results.quantity, results.unit)}{told}; black: 0")
     _save(figure, path)
     return lines
 

@@ -67,7 +67,7 @@ class Store:
                 raise ValueError("is no file of a sweep")
             if notes["digest"] != plan.digest:
                 raise ValueError(
-                    f"holds another plan, {notes['digest']}: give another file for {plan.digest}"
+                    f"has another plan, {notes['digest']}: give another file for {plan.digest}"
                 )
             stored = json.loads(notes["versions"])
             for name, version in _versions(origin()).items():

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import fields
+from textwrap import wrap
 from typing import Any
 
 import pandas as pd  # type: ignore[import-untyped]
@@ -15,16 +16,21 @@ from mjsim.scene import Numerics, Scene
 from studies.accuracy import benchmark_cases, heavy_cantilever, walking
 from studies.accuracy.setting import Setting, setting_of
 from studies.drawing import COLOURS
+from studies.labels import name_lines
 
 GOALS = (0.10, 0.02, 0.005)  # relative errors that a table names the cheapest way to
 _LEAST = 1e-5  # errors below are drawn there: the reference is no better
 _MARKERS = {"diverged": "x", "toppled": "1", "drifting": "2", "turned": "3"}
+_NAMES = {"stock cable": "MuJoCo's own cable", "elastica": "elastica (theory)"}
 _DISPLACEMENT = "relative error of displacement per cycle"
 _TITLES = {
-    heavy_cantilever.CASE: ("heavy cantilever", "distance of the tip from its exact place / L"),
+    heavy_cantilever.CASE: (
+        "heavy strip clamped at one end",
+        "distance of the tip from its exact place / L",
+    ),
     benchmark_cases.WALK: ("one cycle", _DISPLACEMENT),
     benchmark_cases.COULOMB: ("one cycle under Coulomb friction", _DISPLACEMENT),
-}
+}  # fmt: skip
 
 
 def draw(rows: pd.DataFrame, case: str) -> Figure:
@@ -33,54 +39,101 @@ def draw(rows: pd.DataFrame, case: str) -> Figure:
     One line per method, its own Pareto front, with its other rows pale behind; failures in a row of
     their own above. Rings: what commands take unless told otherwise.
     """
-    scenes = rows[rows["case"] == case].groupby("scene", sort=False)
+    rows = rows[rows["case"] == case]
+    scenes = rows.groupby("scene", sort=False)
     columns = max(1, scenes.ngroups)
-    figure = Figure(figsize=(1 + 5.6 * columns, 5.4), layout="constrained", dpi=110)
+    figure = Figure(figsize=(1.6 + 4.4 * columns, 5.0), layout="constrained", dpi=130)
     title, label = _TITLES[case]
     panels = figure.subplots(1, columns, sharey=True, squeeze=False)[0]
+    figure.suptitle(_titled(message(rows), 76 * columns), fontsize=9.5)
     for axes, (scene, measured) in zip(panels, scenes, strict=False):
         finished = measured["status"] == "ok"
+        level = 3 * measured["error"].fillna(0).max() or 3.0
         _draw_methods(axes, measured[finished])
-        _draw_failures(axes, measured[~finished], 3 * measured["error"].fillna(0).max() or 3.0)
+        _draw_failures(axes, measured[~finished], level)
         axes.set(xscale="log", yscale="log", xlabel="CPU seconds per simulated second")
+        axes.margins(x=0.12)
+        axes.set_ylim(top=2.5 * level)
         axes.set_title(title if scene == heavy_cantilever.TIP else f"{title}, {scene}", fontsize=9)
         axes.grid(which="major", color="0.92", lw=0.6)
     panels[0].set_ylabel(label)
-    methods = {line.get_label(): line for axes in panels for line in axes.lines
-               if not str(line.get_label()).startswith("_")}  # fmt: skip
-    figure.legend(methods.values(), [str(name) for name in methods], fontsize=8, frameon=False,
-                  loc="outside lower center", ncols=min(len(methods), 5))  # fmt: skip
+    handles = _key(rows)
+    figure.legend(handles=handles, fontsize=8, frameon=False, loc="outside lower center",
+                  ncols=2 * columns)  # fmt: skip
+    for axes, (_, measured) in zip(panels, scenes, strict=False):
+        _name_methods(axes, measured)
     return figure
+
+
+def _titled(lines: tuple[str, ...], width: int) -> str:
+    """Lines of a title, broken at so many letters."""
+    return "\n".join(part for line in lines for part in wrap(line, width))
+
+
+def message(rows: pd.DataFrame) -> tuple[str, ...]:
+    """What a case shows: the cheapest method to the least goal, and what the others cost."""
+    goal = GOALS[-1]
+    best = list(cheapest(rows, goal).itertuples())
+    if not best:
+        return (f"No method comes within {goal:.1%}",)
+    first, *others = best
+    costs = (f"{_name(row.method)} {_rounded(row.cost / first.cost)}" for row in others)
+    return (f"Within {goal:.1%} of the exact answer {_name(first.method)} costs least.",
+            f"Times its cost: {', '.join(costs)}")  # fmt: skip
+
+
+def _rounded(ratio: float) -> str:
+    """A ratio to two digits, in full."""
+    return f"{float(f'{ratio:.2g}'):,.10g}"
+
+
+def _name(method: str) -> str:
+    return _NAMES.get(method, method)
+
+
+def _front(points: pd.DataFrame) -> tuple[Any, Any]:
+    front = pareto(points)
+    return front["cost"].to_numpy(), front["error"].clip(_LEAST).to_numpy()
 
 
 def _draw_methods(axes: Axes, rows: pd.DataFrame) -> None:
     for method, points in rows.groupby("method", sort=False):
-        colour, front = COLOURS.get(method, "0.5"), pareto(points)
+        colour = COLOURS.get(method, "0.5")
         axes.plot(points["cost"], points["error"].clip(_LEAST), "o", color=colour, ms=3,
                   alpha=0.25, mec="none")  # fmt: skip
-        x, y = front["cost"].to_numpy(), front["error"].clip(_LEAST).to_numpy()
-        axes.plot(x, y, "o-", color=colour, ms=4, lw=1.4, label=method)
+        axes.plot(*_front(points), "o-", color=colour, ms=4, lw=1.4)
     for row in rows.itertuples():
-        if not (is_default(row) or is_usual_reference(row)):
-            continue
-        place = row.cost, max(row.error, _LEAST)
-        axes.plot(*place, "o", ms=13, mfc="none", mec="0.1")
-        if is_default(row):
-            axes.annotate("default", place, xytext=(-9, -3), textcoords="offset points",
-                          fontsize=8, ha="right")  # fmt: skip
+        if is_default(row) or is_usual_reference(row):
+            axes.plot(row.cost, max(row.error, _LEAST), "o", ms=13, mfc="none", mec="0.1")
+
+
+def _name_methods(axes: Axes, rows: pd.DataFrame) -> None:
+    fronts = {method: _front(points) for method, points in rows.groupby("method", sort=False)}
+    name_lines(axes, {_name(method): (*front, COLOURS.get(method, "0.5"))
+                      for method, front in fronts.items() if len(front[0])})  # fmt: skip
 
 
 def _draw_failures(axes: Axes, rows: pd.DataFrame, level: float) -> None:
     """Markers at a level above the rest, by the kind of failure, in the colour of the method."""
-    if rows.empty:
-        return
     for row in rows.itertuples():
         axes.plot(row.cost, level, _MARKERS.get(row.status, "+"), color=COLOURS.get(row.method),
                   ms=5, mew=0.8)  # fmt: skip
-    handles = [Line2D([], [], ls="none", marker=_MARKERS.get(kind, "+"), color="0.4", label=kind)
-               for kind in rows["status"].unique()]  # fmt: skip
-    axes.legend(handles=handles, title="failed", fontsize=7, title_fontsize=7, frameon=False,
-                loc="lower left")  # fmt: skip
+
+
+def _key(rows: pd.DataFrame) -> list[Line2D]:
+    """What marks of any colour mean."""
+
+    def mark(label: str, **looks: Any) -> Line2D:
+        return Line2D([], [], **{"ls": "none", "marker": "o", "color": "0.4", **looks}, label=label)
+
+    marks = [mark("best settings of a method (Pareto front)", ls="-", ms=4),
+             mark("its other settings", ms=3, alpha=0.4)]  # fmt: skip
+    if any(is_default(row) or is_usual_reference(row) for row in rows.itertuples()):
+        marks.append(
+            mark("default; of what is cheaper and nearer, errors cancel", ms=10, mfc="none")
+        )
+    failed = rows.loc[rows["status"] != "ok", "status"].unique()
+    return marks + [mark(f"fails: {kind}", marker=_MARKERS.get(kind, "+")) for kind in failed]
 
 
 def pareto(rows: pd.DataFrame) -> pd.DataFrame:

@@ -97,7 +97,7 @@ def draw(data: xr.Dataset) -> Figure:
     shades = np.linspace(0.8, 0.0, len(data["increments"]))
     for count, shade in zip(data["increments"].values, shades, strict=True):
         y, x = data["coarse"].sel(increments=count).dropna("pressure").values
-        right.plot(x, y, color=str(shade), label=f"{count} a ramp")
+        right.plot(x, y, color=str(shade), label=f"{count} per ramp")
     right.axvline(0.25, color=SIMULATED, linewidth=0.8, dashes=(4, 2))
     right.text(0.255, 0.11, "paper's peak", color=SIMULATED)
     right.set_title("(b) modes, Γ = 8.1, increments of pressure", loc="left", fontsize=9)

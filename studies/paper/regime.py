@@ -16,6 +16,7 @@ _LOADS = (1 / 3, 1.0, 3.0)
 _PRESSURES = np.linspace(4e3, 77e3, 50)
 _RATIOS = (0.0, *np.geomspace(0.01, 3.0, 79).tolist())
 _PER_RAMP = 120
+_TIMES = {0.333: "a third of", 1.0: "", 3.0: "3 times"}
 _HIGHEST = 0.5  # amplitude over L that is shown
 
 
@@ -48,7 +49,9 @@ def make() -> xr.Dataset:
 
 def draw(data: xr.Dataset) -> Figure:
     """The figure of that data."""
-    figure = Figure(figsize=(11, 4), layout="constrained")
+    figure = Figure(figsize=(11, 4.3), layout="constrained")
+    figure.suptitle("One gait: forward or backward by the friction of tips over that of sides; "
+                    "black: stands still", fontsize=10)  # fmt: skip
     axes = figure.subplots(1, 3, sharey=True)
     ratio = data["ratio"].values.copy()
     ratio[0] = 0.5 * ratio[1]  # 0 has no place on a logarithmic axis: felt sits at the left edge
@@ -68,12 +71,17 @@ def draw(data: xr.Dataset) -> Figure:
             star = np.interp(Robot().peak_pressure, data["pressure"].values[finite], height)
             ax.plot(polyethylene, star, "*", ms=13, color="#f2c14e", mec="black", mew=0.8)
         ax.set_xscale("log")
-        ax.set_xlabel(r"$V_t / (\tau q L)$")
-        ax.set_title(f"{load:.3g} × the default weight", fontsize=9, pad=16)
+        ax.text(0.5, 0.97, "no stable shape, or not reached", transform=ax.transAxes, ha="center",
+                va="top", fontsize=FONT["font.size"] - 2)  # fmt: skip
+        for place, way in ((0.03, "forward"), (0.97, "backward")):
+            ax.text(place, 0.53, way, transform=ax.transAxes, ha="right" if place > 0.5 else "left",
+                    color="white" if load == 3 else "black")  # fmt: skip
+        ax.set_xlabel(r"friction of a tip over that of a side, $V_t / (\tau q L)$")
+        ax.set_title(f"{_TIMES[round(load, 3)]} the default weight".strip(), fontsize=9, pad=16)
         for x, name in ((ratio[0], "felt"), (polyethylene, "polyethylene"), (ratio[-1], "gelatin")):
             ax.annotate(name, (x, _HIGHEST), xytext=(0, 3), textcoords="offset points",
                         ha="center", fontsize=FONT["font.size"] - 2)  # fmt: skip
     axes[0].set(ylabel="greatest height / L", ylim=(0, _HIGHEST))
-    figure.colorbar(ScalarMappable(norm, colours), ax=axes, label="displacement per cycle / L",
-                    extend="both", shrink=0.9)  # fmt: skip
+    figure.colorbar(ScalarMappable(norm, colours), ax=axes, extend="both", shrink=0.9,
+                    label="displacement per cycle / L:  − backward,  + forward")  # fmt: skip
     return figure

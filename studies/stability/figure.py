@@ -8,6 +8,8 @@ import pandas as pd  # type: ignore[import-untyped]
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from mjsim.scene import INTEGRATORS
@@ -24,9 +26,9 @@ _COLOURS = dict(zip(
 _BRANCH = {"ok": "accurate", "branch_end": "toppled", "rolled_up": "rolled up"}
 _SHADED = {
     "sunk": "the paper's modes: depth below the ground / L",
-    "newton": "elastica: Newton steps a state",
-    "exchanges": "obstacle: exchanges a state",
-    "penetrating": "the paper's modes: part of states below it",
+    "newton": "elastica: Newton steps per state",
+    "exchanges": "obstacle: exchanges per state",
+    "penetrating": "the paper's modes: part of states below the ground",
 }
 
 
@@ -35,29 +37,42 @@ def draw_integrators(table: pd.DataFrame) -> Figure:
 
     A cross: a longer walk came out otherwise.
     """
-    figure = Figure(figsize=(13, 6.2), layout="constrained", dpi=100)
-    axes = figure.subplots(2, len(INTEGRATORS), sharey=True)
     body = table["body"].iloc[0]
     few, default = table["links"] == maps.USUAL_LINKS, table["stiffness"] == 1.0
     short = table["cycles"] == table["cycles"].min()
+    figure = Figure(figsize=(12, 6.6), layout=ConstrainedLayoutEngine(hspace=0.09), dpi=110)
+    figure.suptitle(
+        f"Walks of the {body} on {maps.GROUND}: how they come out, and how many are accurate, by "
+        "MuJoCo's integrator", fontsize=10,
+    )  # fmt: skip
+    axes, crossed = figure.subplots(2, len(INTEGRATORS), sharey=True), False
     for (top, bottom), integrator in zip(axes.T, INTEGRATORS, strict=True):
         chosen = table["integrator"] == integrator
-        over_links = _tiles(top, table[chosen & short & default], "links", "timestep", "outcome")
-        over_stiffness = _tiles(bottom, table[chosen & short & few], "stiffness", "timestep",
-                                "outcome")  # fmt: skip
-        _limit(top, body, integrator, over_links, [(n, 1.0) for n in over_links])
-        _limit(bottom, body, integrator, over_stiffness,
-               [(maps.USUAL_LINKS, f) for f in over_stiffness])  # fmt: skip
+        for panel, part, x in ((top, default, "links"), (bottom, few, "stiffness")):
+            shown = table[chosen & short & part]
+            over = _tiles(panel, shown, x, "timestep", "outcome")
+            accurate = (shown["outcome"] == maps.OUTCOMES[0]).mean()
+            panel.set_title(f"{integrator}: {accurate:.0%} accurate", fontsize=9)
+            strips = ([(n, 1.0) for n in over] if panel is top
+                      else [(maps.USUAL_LINKS, f) for f in over])  # fmt: skip
+            _limit(panel, body, integrator, over, strips)
         outcomes = table[chosen & short & few & default].set_index("timestep")["outcome"]
         long = table[chosen & ~short]
         crosses = long[long["timestep"].map(outcomes).fillna(long["outcome"]) != long["outcome"]]
+        crossed |= len(crosses) > 0
         top.plot(crosses["links"], crosses["timestep"], "x", color="black", ms=5)
-        top.set(title=integrator, xlabel="links", xscale="linear", xticks=[12, 24, 48, 72])
-        top.title.set_size(10)
-        bottom.set_xlabel("stiffness / default")
+        top.set(xlabel="number of links", xscale="linear", xticks=[12, 24, 48, 72])
+        bottom.set_xlabel(f"stiffness over the default, {maps.USUAL_LINKS} links", fontsize=9)
     for left in axes[:, 0]:
         left.set_ylabel("time step [s]")
-    _legend(figure, maps.OUTCOMES[:-1])
+    lines = [
+        Line2D([], [], color="black", lw=1.4, label="highest mode grows above, predicted"),
+        Line2D([], [], color="black", lw=1, ls=":", label="the same without damping"),
+    ]
+    if crossed:
+        lines.append(Line2D([], [], color="black", ls="none", marker="x", ms=5,
+                            label=f"otherwise in {maps.LONG} cycles"))  # fmt: skip
+    _legend(figure, maps.OUTCOMES[:-1], lines, columns=4)
     return figure
 
 
@@ -152,6 +167,10 @@ def _grid(table: pd.DataFrame, x: str, y: str, column: str) -> tuple[Any, Any, A
     return values.columns.to_numpy(), values.index.to_numpy(), values.to_numpy()
 
 
-def _legend(figure: Figure, names: Sequence[str]) -> None:
-    figure.legend(handles=[Patch(color=_COLOURS[name], label=name) for name in names],
-                  loc="outside lower center", ncols=len(names), frameon=False)  # fmt: skip
+def _legend(
+    figure: Figure, names: Sequence[str], lines: Sequence[Line2D] = (), columns: int | None = None
+) -> None:
+    """Outcomes of tiles, and lines, below a figure."""
+    handles = [*(Patch(color=_COLOURS[name], label=name) for name in names), *lines]
+    figure.legend(handles=handles, loc="outside lower center", ncols=columns or len(handles),
+                  frameon=False, fontsize=9)  # fmt: skip

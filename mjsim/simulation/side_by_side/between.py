@@ -11,7 +11,7 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import NDArray
 
-from mjsim.friction.between_ends import APART, node_tendons
+from mjsim.friction.node_tendons import WRAPS, mean_sites, node_tendons
 from mjsim.model.parts import FAR
 from mjsim.scene import Resolved, Scene
 from mjsim.simulation.side_by_side.contacts import (
@@ -42,9 +42,10 @@ class BoundedContactsBatch(BoundedEndsBatch):
         super().__init__(scenes, numerics, batch, model)
         nodes = numerics.links + 2
         self._of_nodes = np.array(node_tendons(model, nodes))
-        begin = model.tendon_adr[self._tendons[2]]
-        self._of_mean = begin + 3 * np.arange(nodes)  # places of the divisors of the mean position
-        self._divisors = batch.expand("wrap_prm")
+        self._sites = mean_sites(model).copy()  # of all nodes
+        # places of the sites whose mean position is anchored, of which the first ones are used
+        self._of_mean = model.tendon_adr[self._tendons[2]] + WRAPS - 1 + WRAPS * np.arange(nodes)
+        self._sites_of, self._wraps = batch.expand("wrap_objid"), batch.expand("tendon_num")
         self._anchors = AnchorRows(self._of_nodes, len(scenes))
         self._strips = strip_rows(scenes, numerics)
 
@@ -58,7 +59,7 @@ class BoundedContactsBatch(BoundedEndsBatch):
         """See EndsBatch.start."""
         super().start(rows)
         self._anchors.start(rows, self._at[rows])
-        self._divisors[rows[:, None], self._of_mean] = 1.0
+        self._wraps[rows, self._tendons[2]] = 0
         self._bounds[rows[:, None], self._of_nodes] = 0.0
         self._bounds[rows, self._tendons[2]] = 0.0
         self._drags[rows[:, None], self._of_nodes] = 0.0
@@ -124,11 +125,10 @@ class BoundedContactsBatch(BoundedEndsBatch):
 
     def _average(self, rows: Indices, contacts: ContactRows, averaged: Flags) -> None:
         """Let the nodes of the contacts alone be in the mean position."""
-        row, slot = np.nonzero(contacts.there & averaged[:, None])
-        divisors = np.full((len(rows), len(self._of_nodes)), APART)
-        divisors[row, contacts.node[row, slot]] = 1.0
-        among = np.flatnonzero(averaged)
-        self._divisors[rows[among][:, None], self._of_mean] = divisors[among]
+        there = contacts.there & averaged[:, None]
+        self._wraps[rows, self._tendons[2]] = WRAPS * there.sum(axis=1)
+        row, slot = np.nonzero(there)  # contacts are there from the first slot on
+        self._sites_of[rows[row], self._of_mean[slot]] = self._sites[contacts.node[row, slot]]
 
 
 class ContactFrictionEverywhereBatch(ContactFrictionBatch):

@@ -112,6 +112,11 @@ def test_what_may_be_meant_is_asked(capsys, words, meant):
         (["--gait.ramp-time", "0"], "--gait.ramp-time must be"),
         (["--surface.friction", "-1"], "--surface.friction must be"),
         (["--gait.cycle", "3"], "--gait.cycle is for"),
+        (["--robot.payload", "0.5 mass=-5g"], "--robot.payload, number 1: mass of a payload must"),
+        (["--robot.payload", "0.5 mass=5kg"], "--robot.payload: mass must be one that"),
+        (["--robot.tether", "0 drag=-1mN"], "--robot.tether: drag of a tether must"),
+        (["--robot.feet", "0..1.2 grip=2"], "--robot.feet, number 1: end of a foot must"),
+        (["--robot.feet", "0..0 drop=1m"], "--robot.feet: drop must be at most"),
     ],
 )
 def test_an_error_begins_with_the_option_that_was_typed(capsys, words, begins):

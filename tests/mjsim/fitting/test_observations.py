@@ -68,7 +68,7 @@ def test_angles_are_of_a_segment_of_given_length(tmp_path):
         ("time [s],left [mm],left [mm]\n0,1,2\n", "column 'left' stands twice"),
         ("time [s],x@1.5 [mm]\n0,1\n", "a part of the length, 0 to 1"),
         ("time [s],left [mm]\n0,a\n", "line 2: left [mm] must be a number, got 'a'"),
-        ("time [s],left [mm]\n0,\n", "holds no number to fit"),
+        ("time [s],left [mm]\n0,\n", "has no number to fit"),
         ("robot.colour [m],speed [mm/s]\n1,2\n", "key 'colour' of [robot] is unknown"),
         ("ground.colour [m],speed [mm/s]\n1,2\n", "key 'colour' of [ground] is unknown"),
         ("pressure [kPa],angle [deg],length [mm]\n1,2,3\n2,3,4\n", "length must be one above 0"),

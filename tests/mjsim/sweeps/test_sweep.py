@@ -267,7 +267,7 @@ def test_a_file_of_another_plan_or_kind_or_in_use_is_refused(tmp_path):
     path = tmp_path / "r.sqlite"
     with Store(path, one), pytest.raises(ValueError, match="being written by another sweep"):
         Store(path, one)
-    with pytest.raises(ValueError, match="holds another plan"):
+    with pytest.raises(ValueError, match="has another plan"):
         Store(path, two)
     text = tmp_path / "notes.txt"
     text.write_text("my notes\n" * 100)
