@@ -68,7 +68,8 @@ ENGINES = {engine.name: engine for engine in (
     Engine("undulator batch", "undulator_engine", "batch", "undulator", "pip install .",
            {STRIP.name: (_STRIP, _STEPS, (16,))}),
     Engine("Drake", "drake_engine", "walk", "drake", "pip install drake",
-           _grids() | {STRIP.name: (_STRIP, (0.01, 0.005, 0.002, 0.001), (1,))}),
+           {STRIP.name: (_STRIP, (0.01, 0.005, 0.002, 0.001), (1,)),
+            QUADRUPED.name: (_QUADRUPED, (0.01, 0.005, 0.002, 0.001, 5e-4), (1,))}),
     Engine("PyElastica", "elastica_engine", "walk", "pyelastica", "pip install pyelastica",
            {STRIP.name: ((12, 18, 24), (7e-5, 5e-5), (1,))}),
 )}  # fmt: skip
