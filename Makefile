@@ -7,7 +7,7 @@ MUJOCO_OLD := 3.13.0
 
 .PHONY: zoo run test check check-mujoco4 check-mujoco-old numbers scenes gradients reach auto promises fast quadruped trees loop many engines price startup \
 	bench regression \
-	identify models gallery figures charts chart maps reference site notebooks architecture live check-live clean
+	identify models gallery figures charts chart maps reference site notebooks architecture live check-live film clean
 
 run: .venv/ready
 	$(PY) -m mjsim.run --surface all
@@ -141,6 +141,12 @@ live: build/live-data.json site/live/node_modules/ready
 # the live page in Debian's Chromium
 check-live: live
 	node site/live/test/check.mjs build/live build/live-data.json
+
+# the moving picture of the README: four cycles on three grounds
+film: live
+	rm -rf build/film
+	node site/live/test/film.mjs build/live build/film
+	$(PY) scripts/film.py build/film docs/live.gif
 
 build/live-data.json: .venv/ready site/live/data.py $(shell find analytic mjsim -name '*.py' -o -name '*.xml')
 	$(PY) site/live/data.py $@

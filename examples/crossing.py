@@ -36,7 +36,11 @@ def main(folder: Path | None = None) -> tuple[float, float]:
         axes.plot([], [], "-", color="#264653", label="left end, MuJoCo")
         axes.plot([], [], "--", color="#264653", label="right end, MuJoCo")
         axes.plot([], [], "o", color="#d1495b", ms=4, label="theory, at rest")
-        axes.set(xlabel="cycles", ylabel="x [mm]", xlim=(0, scene.cycles), ylim=(-10, 170))
+        axes.set(xlabel="cycles", ylabel="place of the ends [mm]", xlim=(0, scene.cycles),
+                 ylim=(-10, 170))  # fmt: skip
+        axes.set_title(
+            "It walks on felt till its right end lies on gelatin, and stalls", fontsize=9
+        )
         axes.legend(loc="center right", framealpha=0.9, fontsize=8)
         figure.savefig(folder / "crossing.png")
     return float(walk.line[-1, 0, 0]), float(theory.locomotion.left[-1])

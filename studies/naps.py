@@ -111,7 +111,8 @@ def main() -> None:
     for axes in (lines, plane):
         axes.set_xticks([0.25, 0.5, 1, 2, 4], ["1/4", "1/2", "1", "2", "4"])
         axes.minorticks_off()
-    figure.colorbar(shown, ax=plane, label="distance; black: 0, dashed in MuJoCo")
+    plane.set_title("black: it stands still (dashed in MuJoCo)", fontsize=9)
+    figure.colorbar(shown, ax=plane, label="distance:  − back,  + ahead")
     save(figure, Path(sys.argv[1]), dpi=110, format="png")
 
 

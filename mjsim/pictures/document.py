@@ -17,7 +17,7 @@ from mjsim.results.trajectory import Trajectory
 
 _HERE = Path(__file__).parent
 COLUMNS = (
-    Column("run", "run"), Column("Δ/L a cycle", "displacement_over_L", "+.4f"),
+    Column("run", "run"), Column("Δ/L per cycle", "displacement_over_L", "+.4f"),
     Column("mm/s", "mm_per_s", "+.2f"), Column("theory", "predicted_displacement_over_L", "+.4f"),
     Column("±", "prediction_uncertainty_over_L", ".4f", error=True),
     Column("error", "error_over_L", "+.4f"),
@@ -103,9 +103,11 @@ def _sentence(row: dict[str, Any]) -> str:
     if shift is None:
         return f"{gait}: {row['status']}, so there is no distance."
     aside = row["aside_over_L"] if row.get("slope_deg") and row["robot"] != "strip" else None
-    beside = "" if aside is None else f", and {aside:+.4f} L to the left"
+    side = "" if aside is None else "left" if aside >= 0 else "right"
+    beside = "" if aside is None else f", and {abs(aside):.4f} L to the {side}"
     way = "no direction" if row["direction"] == "none" else f"walks {row['direction']}"
-    return f"{gait}: {way}, {1e3 * row['displacement_m']:+.2f} mm = {shift:+.4f} L a cycle{beside}."
+    far = f"{1e3 * row['displacement_m']:+.2f} mm = {shift:+.4f} L per cycle"
+    return f"{gait}: {way}, {far}{beside}."
 
 
 def _chart(figure: Any) -> str:

@@ -23,6 +23,7 @@ _COLOURS = dict(zip(
     (*maps.OUTCOMES, "rolled up"),
     ("#66a182", "#edae49", "#e76f51", "#8d6a9f", "#30343f", "#d9d2c5", "#3a7ca5"), strict=True,
 ))  # fmt: skip
+_TOLD = {"finished": "walks, with no reference"}
 _BRANCH = {"ok": "accurate", "branch_end": "toppled", "rolled_up": "rolled up"}
 _SHADED = {
     "sunk": "the paper's modes: depth below the ground / L",
@@ -104,7 +105,10 @@ def draw_robots(rows: pd.DataFrame) -> Figure:
         axes.set_ylabel("peak pressure [kPa]")
     for axes in panels[1]:
         axes.set_xlabel(r"$\Gamma = w L^3 / D_0$")
-    _legend(figure, [name for name in _COLOURS if name != "diverged"])
+    figure.suptitle(f"Default gait on {maps.GROUND}: which robots walk, and what they cost theory",
+                    fontsize=10)  # fmt: skip
+    end = Line2D([], [], color="black", lw=1.2, label="the elastica's stable branch ends")
+    _legend(figure, [name for name in _COLOURS if name != "diverged"], [end], columns=4)
     return figure
 
 
@@ -126,7 +130,12 @@ def draw_parameters(rows: pd.DataFrame) -> Figure:
         axes.set(xscale="log", xlabel=label, ylim=(-_CLIP, _CLIP))
     for left in panels[::3]:
         left.set_ylabel("error of displacement [%]")
-    panels[0].legend(frameon=False)
+    panels[0].axhspan(0, 0, color="0.92", label="within 2 %")
+    panels[0].axvline(parameters.default(next(iter(parameters.PARAMETERS))), color="0.2", lw=1,
+                      ls=":", label="default")  # fmt: skip
+    panels[0].legend(frameon=False, fontsize=9)
+    figure.suptitle("Default walk, one parameter varied: how far its distance is off the reference",
+                    fontsize=10)  # fmt: skip
     return figure
 
 
@@ -171,6 +180,7 @@ def _legend(
     figure: Figure, names: Sequence[str], lines: Sequence[Line2D] = (), columns: int | None = None
 ) -> None:
     """Outcomes of tiles, and lines, below a figure."""
-    handles = [*(Patch(color=_COLOURS[name], label=name) for name in names), *lines]
+    handles = [*(Patch(color=_COLOURS[name], label=_TOLD.get(name, name))
+                 for name in names), *lines]  # fmt: skip
     figure.legend(handles=handles, loc="outside lower center", ncols=columns or len(handles),
                   frameon=False, fontsize=9)  # fmt: skip

@@ -24,7 +24,7 @@ PARAMETERS = {  # name: least value, greatest, what it is called
     "contact_time": (0.3, 30.0, "contact time constant [time steps]"),
     "side_angle": (1e-4, 0.1, "side angle [rad]"),
     "damping_time": (3e-4, 0.3, "joint damping time [s]"),
-    "impratio": (1.0, 3000.0, "impratio (Coulomb's law, 16 s a ramp)"),
+    "impratio": (1.0, 3000.0, "impratio (Coulomb's law, 16 s per ramp)"),
 }
 _PLACES = 13
 _CASE = {"constant": benchmark_cases.WALK, "coulomb": benchmark_cases.COULOMB}

@@ -2,12 +2,14 @@
 
 import contextlib
 import io
+import json
 import sqlite3
 import tomllib
 
 import pytest
 from written import PAGES, TOP, blocks, prose
 
+from mjsim.commands import run
 from mjsim.files.tables import build, read_tables
 from mjsim.sweeps.plan import read_plan
 
@@ -65,3 +67,10 @@ def test_every_page_begins_with_its_heading_and_shows_a_picture():
 
 def test_the_readme_fits_on_a_hundred_lines():
     assert len((TOP / "README.md").read_text("utf-8").splitlines()) <= 100
+
+
+def test_the_page_on_columns_explains_every_key_of_a_run(capsys, tmp_path, coarse):
+    words = ["--surface", "gelatin", "--links", "6", "--timestep", "0.05", "--no-video", "--json"]
+    run.main([*words, "--out", str(tmp_path)])
+    page = (TOP / "docs" / "output.md").read_text("utf-8")
+    assert not [key for key in json.loads(capsys.readouterr().out) if f"`{key}`" not in page]
