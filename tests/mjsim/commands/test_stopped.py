@@ -102,7 +102,7 @@ def test_a_picture_that_cannot_be_written_leaves_the_gait_and_its_numbers(
     def generations(objective, space, *more):
         yield Generation(16, space.gait(space.middle(), "best"), 0.01, 0.0)
 
-    def full(gait, start, history, path):
+    def full(gait, start, history, path, *words):
         raise OSError(28, "No space left on device", str(path))
 
     monkeypatch.setattr("mjsim.optimising.search.search", generations)
