@@ -9,6 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from analytic import Robot, Surface, predict
+from analytic.friction.laws import Friction
+from analytic.scene.gait import GAITS
 from analytic.scene.quadruped_gaits import undulation
 
 FOLDER = Path(__file__).resolve().parent.parent / "examples"
@@ -260,3 +263,19 @@ def test_gradient_steps_find_a_gait_that_goes_half_as_far_again_in_a_few_walks()
     first, best, walks = example("steepest_gait")()
     assert best > 1.5 * first
     assert walks <= 15
+
+
+@pytest.mark.slow
+def test_markers_of_a_camera_give_back_the_strip_and_its_gaits(tmp_path):
+    """The markers are of a strip of 2 MPa on tips of 34 mN and sides of 20 Pa, to 0.3 mm."""
+    parameters, walks = example("from_a_video")(folder=tmp_path)
+    for found, true in zip(parameters, (2e6, 0.034, 20.0), strict=True):
+        assert found["low_95"] < true < found["high_95"]
+    ground = Surface("bench", tip_force=0.034, shear_strength=20.0)
+    for walk in walks:
+        truth = predict(
+            Robot(modulus=2e6), GAITS[walk["gait"]], ground, friction=Friction(tension=1.0)
+        )
+        told = truth.locomotion.per_cycle / 0.13
+        assert walk["uncertain"]["low_over_L"] < told < walk["uncertain"]["high_over_L"]
+    assert (tmp_path / "page.html").stat().st_size > 10_000

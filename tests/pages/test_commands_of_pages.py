@@ -116,7 +116,7 @@ def reader(tmp_path, monkeypatch):
     for name, text in STAND_INS.items():
         (tmp_path / name).write_text(text)
     (tmp_path / "tripod.toml").write_text(tripod())
-    for name in ("examples", "models", "docs"):
+    for name in ("examples", "models", "docs", "zoo"):
         (tmp_path / name).symlink_to(TOP / name)
     monkeypatch.chdir(tmp_path)
 

@@ -11,11 +11,14 @@ from mjsim import Scene, Surface, build, read_tables
 from studies import inchworm as dielectric
 from zoo.__main__ import HERE, ROBOTS, main, walk
 from zoo.comparison import Predicted, rows
+from zoo.deciding import narrowed
+from zoo.geckobot_actuators import decide as gecko
 from zoo.piezo_inchworm import rigid_links
 from zoo.pneumatic_inchworm import model as pneumatic
 from zoo.ten_wheels import model as wheels
 from zoo.terresoro_iv import best, decide, fit
-from zoo.terresoro_iv import model as terresoro
+from zoo.terresoro_iv import hub as terresoro
+from zoo.terresoro_iv import model as lagged
 
 SLOW = {"piezo_inchworm", "pneumatic_inchworm"}
 
@@ -118,28 +121,33 @@ def test_gaits_alike_by_quarter_turns_are_one():
     two, three, four = (120 + 12 + 2 + 2) // 4, (1120 + 8) // 4, (10920 + 36 + 6 + 6) // 4
     every = list(best.cycles())
     assert len(every) == len(set(every)) == two + three + four
-    law = terresoro.by_friction(terresoro.fitted()[0])
-    reaches = [best.reach(best.shifted(every[7], limbs), law) for limbs in range(4)]
-    assert reaches == pytest.approx(4 * reaches[:1])
+    values, _ = lagged.remembered()
+    reaches = best.reaches([best.shifted(every[7], limbs) for limbs in range(4)], values)
+    assert reaches == pytest.approx([reaches[0]] * 4)
 
 
 def test_a_gait_that_turns_reaches_as_far_as_its_cycles_put_together():
-    pairs, measured = terresoro.transitions()
-    law = terresoro.together(pairs, measured)
-    states = ("0111", "1000", "1111")
-    walked = terresoro.cycle(states * (best.TRANSITIONS // 3), law)
-    assert best.reach(states, law) == pytest.approx(walked[0])
+    steps = np.array([[1.0, 0.2, 3.0], [-0.5, 0.4, 5.0], [0.1, -0.2, -1.0]])
+    walked = lagged.together(np.tile(steps, (best.TRANSITIONS // 3, 1)))
+    assert best.reach(steps) == pytest.approx(walked[0])
 
 
 def test_what_is_measured_exactly_leaves_no_error_of_itself():
-    spread = decide.covariance(terresoro.fitted()[1])
-    slope = np.eye(len(spread))[0]
-    gain = spread @ slope
-    after = spread - np.outer(gain, gain) / (slope @ gain)
+    _, left_out = lagged.remembered()
+    spread = decide.covariance(left_out)
+    after = narrowed(spread, np.eye(len(spread))[0], 0.0)
     assert after[0] == pytest.approx(np.zeros(len(spread)), abs=1e-12)
     assert (np.linalg.eigvalsh(after) > -1e-12).all()
-    jackknifed = terresoro.jackknife(terresoro.fitted()[1])
-    assert np.sqrt(np.diag(spread)) == pytest.approx(jackknifed)
+    assert np.sqrt(np.diag(spread)) == pytest.approx(terresoro.jackknife(left_out))
+
+
+def test_the_law_of_an_actuator_goes_through_its_points_and_one_more_point_never_widens():
+    pressure, numbers = np.array([0.0, 30.0, 55.0, 80.0]), np.array([12.0, np.log(0.4), 1.3])
+    angle = gecko.bend(numbers, pressure)
+    assert gecko.bend(gecko.through(pressure, angle), pressure) == pytest.approx(angle, abs=1e-3)
+    spread = np.diag([100.0, 1.0, 0.1])
+    few, more = (gecko.left(plan, numbers, spread) for plan in ((60, 90), (10, 60, 90)))
+    assert (more <= few).all()
 
 
 def test_fits_of_terresoro_have_not_seen_what_is_held_out():

@@ -1,22 +1,27 @@
 """What one more measurement would tell: `python -m zoo.terresoro_iv.decide`.
 
-For each measurement that could be made, with the accuracy that is written beside it: how many
-standard errors apart it puts the two minima of the fit, and by how much it narrows the error of the
-five gaits' distances within one of them, by the information matrix of the fit. Its covariance is
-that of the jackknife, since errors of transitions that share a cause are no chance.
+For each measurement that could be made, with the accuracy that is written beside it: how sure the
+fit is of it already, and by how much it narrows the errors of the five gaits' distances, by the
+information matrix of the fit. Its covariance is that of the jackknife, since errors of transitions
+that share a cause are no chance. And the gaits that tell forms of memory apart.
 """
 
 from collections.abc import Callable
 from functools import partial
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 
 from studies import Array
-from zoo.terresoro_iv.best import reach
-from zoo.terresoro_iv.model import Numbers, by_friction, cycle, fitted, gaits
+from zoo.deciding import errors, narrowed
+from zoo.terresoro_iv.best import cycles, reach, reaches
+from zoo.terresoro_iv.hub import gaits, jackknife
+from zoo.terresoro_iv.model import Lagged, cycle, motions, remembered, steady
 
 _STEP = 0.02  # of differences; wide, since laws have kinks
+_LENGTHS = (0, 2)  # numbers that are lengths, whose steps go with them
+FORMS = ("no memory", "lag of curling", "lag, load", "lag, order of curling")
 
 
 class Measurement(NamedTuple):
@@ -29,79 +34,96 @@ class Measurement(NamedTuple):
     """
 
     name: str
-    value: Callable[[Numbers], float]
+    value: Callable[[Lagged], float]
     error: float
 
 
-def reached(states: tuple[str, ...], numbers: Numbers) -> float:
+def half_speed(numbers: Lagged) -> Lagged:
+    """The robot with 0.9 s a transition: half the viscous part, and twice the time to curl."""
+    return numbers._replace(viscous=numbers.viscous - np.log(2), lag=numbers.lag**2)
+
+
+def reached(states: tuple[str, ...], numbers: Lagged) -> float:
     """Distance after 60 transitions [cm]."""
-    return reach(states, by_friction(numbers))
+    return reach(motions(numbers, *steady(states)))
 
 
+def reached_slowly(states: tuple[str, ...], numbers: Lagged) -> float:
+    """The same at half the speed [cm]."""
+    return reached(states, half_speed(numbers))
+
+
+C, D = ("0111", "1000", "1111"), ("0011", "1101")
 MEASUREMENTS = (
+    Measurement("friction of a curled over a flat resting limb, 10 %", lambda n: n.resting, 0.1),
+    Measurement("friction of a curling over a flat limb, 10 %", lambda n: n.curling, 0.1),
+    Measurement("friction of an uncurling over a flat limb, 10 %", lambda n: n.uncurling, 0.1),
+    Measurement("viscous over dry friction of a sliding limb, 10 %", lambda n: n.viscous, 0.1),
+    Measurement("part of the curl that lacks after 0.45 s, 0.02", lambda n: n.lag, 0.02),
     Measurement("direction of a flat limb's contact, 5 deg", lambda n: n.flat_angle, np.radians(5)),
-    Measurement("distance of a flat limb's contact, 0.5 cm", lambda n: n.flat, 0.5),
-    Measurement("how far curling moves it outwards, 0.3 cm", lambda n: n.curled - n.flat, 0.3),
-    Measurement("friction of a curling over a resting limb, 10 %", lambda n: n.curling, 0.1),
-    Measurement("friction of an uncurling over a resting limb, 10 %", lambda n: n.uncurling, 0.1),
-    Measurement("friction of a curled over a flat limb, 10 %", lambda n: n.resting, 0.1),
-    Measurement("60 transitions of 0011 1001 0110, 1 cm",
-                partial(reached, ("0011", "1001", "0110")), 1.0),
-    Measurement("60 transitions of 0011 1101 (gait D), 1 cm",
-                partial(reached, ("0011", "1101")), 1.0),
-)  # fmt: skip
+    Measurement("distance of a flat limb's contact, 0.3 cm", lambda n: n.flat, 0.3),
+    Measurement("how far curling moves it inwards, 0.3 cm", lambda n: n.flat - n.curled, 0.3),
+    Measurement("gait C, 60 transitions, 1 cm", partial(reached, C), 1.0),
+    Measurement("gait D, 60 transitions, 1 cm", partial(reached, D), 1.0),
+    Measurement("gait C at half the speed, 1 cm", partial(reached_slowly, C), 1.0),
+    Measurement("gait D at half the speed, 1 cm", partial(reached_slowly, D), 1.0),
+)
 
 
-def slopes(function: Callable[[Numbers], Array | float], at: Numbers) -> Array:
-    """Central differences by the numbers, (..., 7)."""
+def slopes(function: Callable[[Lagged], Array | float], at: Lagged) -> Array:
+    """Central differences by the numbers, (..., 9)."""
     columns = []
     for k in range(len(at)):
-        step = _STEP * max(1.0, abs(at[k]) if k in (0, 2) else 1.0) * np.eye(len(at))[k]
-        ahead, back = (np.asarray(function(Numbers(*(np.array(at) + sign * step))))
+        step = np.zeros(len(at))
+        step[k] = _STEP * (abs(at[k]) if k in _LENGTHS else 1.0)
+        ahead, back = (np.asarray(function(Lagged(*(np.array(at) + sign * step))))
                        for sign in (1, -1))  # fmt: skip
         columns.append((ahead - back) / (2 * step[k]))
     return np.stack(columns, axis=-1)
 
 
 def covariance(left_out: Array) -> Array:
-    """Covariance of the numbers by the jackknife, (7, 7)."""
+    """Covariance of the numbers by the jackknife, (F, F)."""
     folds = len(left_out)
     return np.asarray((folds - 1) ** 2 / folds * np.cov(left_out, rowvar=False))
 
 
-def distances(numbers: Numbers) -> Array:
+def distances(numbers: Lagged) -> Array:
     """Distances of the five gaits, (5,) [cm]."""
-    law = by_friction(numbers)
-    return np.array([cycle(gait.states, law)[0] for gait in gaits()])
+    return np.array([cycle(gait.states, numbers)[0] for gait in gaits()])
 
 
 def main() -> None:
-    """Print a row per measurement."""
-    fits = [fitted(0), fitted(1)]
-    spreads = [covariance(left_out) for _, left_out in fits]
-    gradients = [slopes(distances, numbers) for numbers, _ in fits]
-    print("| measurement | lower minimum | other | apart | gaits' error, lower | other |")
-    print("|---|---|---|---|---|---|")
-    errors = [_error(g, c) for g, c in zip(gradients, spreads, strict=True)]
-    print(f"| none | | | | {errors[0]:.3f} cm | {errors[1]:.3f} cm |")
-    for one in MEASUREMENTS:
-        values, variances, narrowed = [], [], []
-        for (numbers, _), spread, gradient in zip(fits, spreads, gradients, strict=True):
-            slope = slopes(one.value, numbers)
-            gain = spread @ slope
-            variance = float(slope @ gain)
-            values.append(one.value(numbers))
-            variances.append(variance)
-            after = spread - np.outer(gain, gain) / (variance + one.error**2)
-            narrowed.append(_error(gradient, after))
-        apart = abs(values[0] - values[1]) / np.sqrt(sum(variances) + one.error**2)
-        print(f"| {one.name} | {values[0]:.2f} | {values[1]:.2f} | {apart:.1f} | "
-              f"{narrowed[0]:.3f} | {narrowed[1]:.3f} |")  # fmt: skip
+    """Print a row per measurement, and the gaits that tell forms apart."""
+    values, left_out = remembered()
+    numbers, spread = Lagged(*values), covariance(left_out)
+    gradient = slopes(distances, numbers)
+    print("| measurement | the fit says | after it | gaits' error left |")
+    print("|---|---|---|---|")
+    print(f"| none | | | {_error(gradient, spread):.3f} cm |")
+    for measurement in MEASUREMENTS:
+        slope = slopes(measurement.value, numbers)
+        after = narrowed(spread, slope, measurement.error)
+        before, then = (float(np.sqrt(slope @ s @ slope)) for s in (spread, after))
+        shown = f"{measurement.value(numbers):.2f} ± {before:.2f} | ± {then:.2f}"
+        print(f"| {measurement.name} | {shown} | {_error(gradient, after):.3f} cm |")
+    every, far, wide = list(cycles()), {}, {}
+    for form in FORMS:
+        best, others = remembered(form)
+        far[form] = reaches(every, best, form)
+        wide[form] = jackknife(np.array([reaches(every, row, form) for row in others]))
+    for one, two in combinations(FORMS, 2):
+        apart = np.abs(far[one] - far[two]) / np.sqrt(wide[one] ** 2 + wide[two] ** 2 + 1.0)
+        k = int(np.argmax(apart))
+        print(
+            f"{one} or {two}: {' '.join(every[k])}, {far[one][k]:.1f} ± {wide[one][k]:.1f} or "
+            f"{far[two][k]:.1f} ± {wide[two][k]:.1f} cm, {apart[k]:.1f} errors apart"
+        )
 
 
 def _error(gradient: Array, spread: Array) -> float:
     """Root mean square of the standard errors of the gaits' distances [cm]."""
-    return float(np.sqrt(np.mean(np.einsum("ij,jk,ik->i", gradient, spread, gradient))))
+    return float(np.sqrt(np.mean(errors(spread, gradient) ** 2)))
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from studies import Array
-from zoo.terresoro_iv.model import (
+from zoo.terresoro_iv.hub import (
     FREE,
     HERE,
     Law,

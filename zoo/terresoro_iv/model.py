@@ -1,43 +1,35 @@
-"""TerreSoRo-IV as a hub and four contacts that move in its frame.
+"""TerreSoRo-IV with a memory: a limb that curls has not done so when the next transition starts.
 
-Limb k, at a quarter turn to the right of limb k - 1, touches the ground at one place when it is
-flat and at another when it is curled, both fixed in the hub's frame. While limbs curl and uncurl
-their contacts go from one to the other along a line, and the hub moves so that the sum of the
-bounds of the contacts times their slips is least. A resting flat limb has the bound 1. Where
-friction is viscous too, half the resistance times the square of the slip is added. Lengths in cm.
+The hub and four contacts of `hub`, but how much limb k is curled, a_k, goes on: at the end of a
+transition a limb that is to be curled still lacks the part `lag` of what it lacked before, and one
+that uncurls has done so. Contacts lie between their places by a_k. One number more; it is fitted,
+with the other eight, to single runs of transitions whose past is known (`memory`).
 """
 
 import csv
-import math
-from collections.abc import Callable, Iterable, Sequence
-from pathlib import Path
+from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from analytic.friction.dissipation_in_plane import least_dissipation_in_plane
 from studies import Array
 from zoo.comparison import Predicted
+from zoo.terresoro_iv.at_once import least_dissipation
+from zoo.terresoro_iv.hub import (
+    HERE,
+    LIMBS,
+    Gait,
+    gaits,
+    jackknife,
+    turned,
+)
 
-HERE = Path(__file__).parent
-LIMBS = 4
-PARTS = 1  # steps of a transition; 6 change a gait by 0.003 cm and 0.03 degrees at most
-FREE = {"dry": 7, "viscous": 7, "both": 8}  # numbers that are fitted, by kind of friction
-Pair = tuple[str, str]  # states before and after, limb 1 first, as "0110"
-Law = Callable[[Sequence[Pair]], Array]  # displacement (2,) [cm] and turn [deg] of each pair
+_PAST = 8  # states before a transition of a gait that count; 0.23 ** 8 is nothing
 
 
-class Numbers(NamedTuple):
-    """The fitted numbers.
-
-    Attributes:
-        flat, curled: distance of a limb's contact from the hub's centre [cm].
-        flat_angle, curled_angle: its direction from the hub's x, of limb 1 [rad].
-        resting, curling, uncurling: logarithms of the bound of a limb that stays curled, that curls
-            and that uncurls, over that of one that stays flat [1].
-        viscous: logarithm of the viscous resistance over the bound, at a slip of 1 cm in the time
-            of a transition [1]; none by default.
-    """
+class Lagged(NamedTuple):
+    """The fitted numbers: those of `hub.Numbers`, and the lag of curling [1]."""
 
     flat: float
     flat_angle: float
@@ -46,181 +38,132 @@ class Numbers(NamedTuple):
     resting: float
     curling: float
     uncurling: float
-    viscous: float = -math.inf
+    viscous: float
+    lag: float = 0.0
+
+    @property
+    def places(self) -> tuple[Array, Array]:
+        """Contacts of limbs that are flat, and curled, in the hub's frame, (4, 2) each [cm]."""
+        axes = np.asarray(-0.5 * np.pi * np.arange(LIMBS), dtype=np.float64)
+        return (
+            _polar(self.flat, axes + self.flat_angle),
+            _polar(self.curled, axes + self.curled_angle),
+        )
+
+    def bounds(self, before: Array, after: Array) -> Array:
+        """Of friction over that of a flat limb, by states 0 and 1, (N, 4)."""
+        still = np.where(before == 1, np.exp(self.resting), 1.0)
+        moving = np.exp(np.where(after == 1, self.curling, self.uncurling))
+        return np.where(before == after, still, moving)
 
 
-class Gait(NamedTuple):
-    """A measured gait: states, cycles, and displacement [cm] and turn [deg] of a cycle with sd."""
-
-    name: str
-    states: tuple[str, ...]
-    cycles: int
-    mean: Array
-    sd: Array
+def _polar(length: float, angles: Array) -> Array:
+    return length * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
 
-def transitions() -> tuple[list[Pair], Array]:
-    """Pairs of states and what was measured, (240, 3) [cm, cm, deg]."""
-    with (HERE / "transitions.csv").open(encoding="utf-8") as file:
-        lines = list(csv.DictReader(file))
-    pairs = [(line["from_limbs"], line["to_limbs"]) for line in lines]
-    return pairs, np.array([[float(line[key]) for key in _COLUMNS] for line in lines])
+def amounts(past: Array, after: Array, lag: float, lag_back: float = 0.0) -> tuple[Array, Array]:
+    """How much limbs are curled when a transition begins and when it ends, (N, 4) each.
+
+    Args:
+        past: states, oldest first, (N, P, 4), the oldest at rest.
+        after: state to which it goes, (N, 4).
+        lag, lag_back: part of the way that is left, of curling and of uncurling.
+    """
+    begin = past[:, 0].astype(float)
+    for state in np.moveaxis(past[:, 1:], 1, 0):
+        begin = state + np.where(state == 1, lag, lag_back) * (begin - state)
+    return begin, after + np.where(after == 1, lag, lag_back) * (begin - after)
 
 
-_COLUMNS = ("dx [cm]", "dy [cm]", "turn [deg]")
-_SDS = ("dx_sd [cm]", "dy_sd [cm]", "turn_sd [deg]")
+def moved(curled: Sequence[Array], bounds: Array, numbers: Lagged) -> Array:
+    """Displacement in the hub's frame before and turn of many transitions, (N, 3) [cm, cm, deg].
+
+    Args:
+        curled: how much limbs are, at the beginning, perhaps between, and at the end of each
+            transition, (N, 4) each, at equal times.
+        bounds: of friction, (N, 4).
+        numbers: places of contacts, and the viscous part.
+    """
+    flat, bent = numbers.places
+    film = bounds * np.exp(numbers.viscous) * (len(curled) - 1)
+    places = [flat + (bent - flat) * one[..., None] for one in curled]
+    shift, turn = np.zeros((len(bounds), 2)), np.zeros(len(bounds))
+    for at, to in pairwise(places):
+        motion = least_dissipation(bounds, film, 0.5 * (at + to), to - at)
+        angle = turn + 0.5 * motion[:, 2]
+        c, s = np.cos(angle), np.sin(angle)
+        shift[:, 0] += c * motion[:, 0] - s * motion[:, 1]
+        shift[:, 1] += s * motion[:, 0] + c * motion[:, 1]
+        turn += motion[:, 2]
+    return np.column_stack([shift, np.degrees(turn)])
 
 
-def gaits() -> list[Gait]:
-    """The five measured gaits."""
-    with (HERE / "gaits.csv").open(encoding="utf-8") as file:
-        return [
-            Gait(line["gait"], tuple(format(int(n) - 1, "04b") for n in line["states"].split()),
-                 int(line["cycles"]), np.array([float(line[key]) for key in _COLUMNS]),
-                 np.array([float(line[key]) for key in _SDS])) for line in csv.DictReader(file)
-        ]  # fmt: skip
+def motions(numbers: Lagged, past: Array, after: Array, parts: int = 1) -> Array:
+    """Motions of transitions with a past, (N, 3), see `amounts` and `moved`."""
+    begin, end = amounts(past, after, numbers.lag)
+    curled = [begin + part / parts * (end - begin) for part in range(parts + 1)]
+    return moved(curled, numbers.bounds(past[:, -1], after), numbers)
 
 
-def turned(plane: Array, angle: float) -> Array:
-    """Vectors in the plane, (..., 2), turned to the left by an angle [rad]."""
-    c, s = np.cos(angle), np.sin(angle)
-    return plane @ np.array([[c, s], [-s, c]])
+def steady(states: Sequence[str]) -> tuple[Array, Array]:
+    """Pasts (T, 9, 4) and states after (T, 4) of the transitions of a gait that goes on and on."""
+    each = np.array([[int(digit) for digit in state] for state in states])
+    count = len(each)
+    past = [[each[(k - back) % count] for back in range(_PAST, -1, -1)] for k in range(count)]
+    return np.array(past), np.roll(each, -1, axis=0)
 
 
-def smallest(pair: Pair) -> tuple[Pair, int]:
-    """The first of the four alike pairs in order, and by how many limbs it is shifted."""
-    shifted = [(tuple(s[k:] + s[:k] for s in pair), k) for k in range(LIMBS)]
-    (before, after), shift = min(shifted)
-    return (before, after), shift
-
-
-def by_friction(numbers: Numbers, dry: bool = True, parts: int = PARTS) -> Law:
-    """The law of least dissipation: dry and viscous friction by the numbers, or not the dry one."""
-    known: dict[Pair, Array] = {}
-
-    def law(pairs: Sequence[Pair]) -> Array:
-        found = np.empty((len(pairs), 3))
-        for row, pair in enumerate(pairs):
-            alike, shift = smallest(pair)
-            if alike not in known:
-                known[alike] = _transition(alike, numbers, dry, parts)
-            motion = known[alike]
-            found[row] = *turned(motion[:2], -0.5 * np.pi * shift), motion[2]
-        return found
-
-    return law
-
-
-def _transition(pair: Pair, numbers: Numbers, dry: bool, parts: int) -> Array:
-    """Displacement of the hub [cm] in its frame before, and its turn [deg]."""
-    before, after = (np.array([digit == "1" for digit in state]) for state in pair)
-    axes = -0.5 * np.pi * np.arange(LIMBS)
-    flat, curled = (
-        length * np.stack([np.cos(axes + angle), np.sin(axes + angle)], axis=1)
-        for length, angle in ((numbers.flat, numbers.flat_angle),
-                              (numbers.curled, numbers.curled_angle))
-    )  # fmt: skip
-    still = np.where(before, np.exp(numbers.resting), 1.0)
-    moving = np.exp(np.where(after, numbers.curling, numbers.uncurling))
-    bounds = np.where(before == after, still, moving)
-    start, end = (np.where(state[:, None], curled, flat) for state in (before, after))
-    film = bounds * np.exp(numbers.viscous) * parts
-    bounds = bounds if dry else np.zeros(LIMBS)
-    shift, turn = np.zeros(2), 0.0
-    for part in range(parts):
-        places = start + (part + 0.5) / parts * (end - start)
-        motion = least_dissipation_in_plane(bounds, places, (end - start) / parts, film)
-        shift = shift + turned(motion.shift, turn + 0.5 * motion.turn)
-        turn += motion.turn
-    return np.array([*shift, np.degrees(turn)])
-
-
-def additive(pairs: Sequence[Pair], measured: Array) -> Law:
-    """The law in which each limb that curls or uncurls adds a motion of its own: 6 numbers."""
-
-    def columns(some: Sequence[Pair]) -> tuple[Array, Array]:
-        plane, turn = np.zeros((len(some), 2, 4)), np.zeros((len(some), 2))
-        for row, (before, after) in enumerate(some):
-            for limb in range(LIMBS):
-                change = int(after[limb]) - int(before[limb])
-                if change:
-                    way = 0 if change > 0 else 1
-                    plane[row, :, 2 * way : 2 * way + 2] += turned(np.eye(2), -0.5 * np.pi * limb).T
-                    turn[row, way] += 1
-        return plane, turn
-
-    plane, turn = columns(pairs)
-    vectors = np.linalg.lstsq(plane.reshape(-1, 4), measured[:, :2].ravel(), rcond=None)[0]
-    turns = np.linalg.lstsq(turn, measured[:, 2], rcond=None)[0]
-
-    def law(some: Sequence[Pair]) -> Array:
-        along, angle = columns(some)
-        return np.column_stack([along @ vectors, angle @ turns])
-
-    return law
-
-
-def together(pairs: Sequence[Pair], measured: Array) -> Law:
-    """The measured transitions themselves."""
-    known = dict(zip(pairs, measured, strict=True))
-    return lambda some: np.array([known[pair] for pair in some])
-
-
-def cycle(states: Sequence[str], law: Law) -> Array:
-    """Distance [cm] and turn [deg] of a cycle of a gait by a law."""
-    pairs = list(zip(states, (*states[1:], states[0]), strict=True))
+def together(steps: Array) -> Array:
+    """Distance [cm] and turn [deg] of a cycle from the motions of its transitions, (T, 3)."""
     place, heading = np.zeros(2), 0.0
-    for motion in law(pairs):
-        place = place + turned(motion[:2], np.radians(heading))
-        heading += motion[2]
+    for step in steps:
+        place = place + turned(step[:2], np.radians(heading))
+        heading += step[2]
     return np.array([np.hypot(*place), heading])
 
 
-def measured_cycles(some: Iterable[Gait]) -> tuple[Array, Array]:
-    """Distance [cm] and turn [deg] of measured gaits, and their standard errors, (G, 2)."""
-    means, errors = [], []
-    for gait in some:
-        distance = float(np.hypot(*gait.mean[:2]))
-        along = np.hypot(*(gait.mean[:2] * gait.sd[:2])) / distance
-        means.append([distance, gait.mean[2]])
-        errors.append(np.array([along, gait.sd[2]]) / np.sqrt(gait.cycles))
-    return np.array(means), np.array(errors)
+def cycle(states: Sequence[str], numbers: Lagged, parts: int = 1) -> Array:
+    """Distance [cm] and turn [deg] of a cycle of a gait that goes on and on."""
+    return together(motions(numbers, *steady(states), parts))
 
 
-def fitted(minimum: int = 0, law: str = "both") -> tuple[Numbers, Array]:
-    """A fit to all transitions, and those with a part of them left out, (folds, 7 or 8).
-
-    Under "dry" friction or "both" kinds. The misfit has two minima: 0 is the lower one.
-    """
-    with (HERE / "fitted.csv").open(encoding="utf-8") as file:
-        lines = [
-            line
-            for line in csv.DictReader(file)
-            if (line["law"], line["start"]) == (law, str(minimum))
-        ]
-    numbers = [Numbers(*(float(line[key]) for key in Numbers._fields)) for line in lines]
-    return numbers[0], np.array([row[: FREE[law]] for row in numbers[1:]])
+def recut_gaits() -> list[Gait]:
+    """The five measured gaits, cut where they are walked (`tracks`)."""
+    states = {gait.name: gait.states for gait in gaits()}
+    with (HERE / "recut_gaits.csv").open(encoding="utf-8") as file:
+        lines = list(csv.DictReader(file))
+    columns = ("dx [cm]", "dy [cm]", "turn [deg]"), ("dx_sd [cm]", "dy_sd [cm]", "turn_sd [deg]")
+    return [
+        Gait(line["gait"], states[line["gait"]], int(line["cycles"]),
+             *(np.array([float(line[name]) for name in names]) for names in columns))
+        for line in lines
+    ]  # fmt: skip
 
 
-def jackknife(values: Array) -> Array:
-    """Standard errors from values with a part left out each, (folds, ...)."""
-    folds = len(values)
-    return np.asarray(np.sqrt((folds - 1) / folds * ((values - values.mean(axis=0)) ** 2).sum(0)))
+def recut() -> tuple[list[tuple[str, str]], Array]:
+    """Pairs of states and means of their runs, cut where the robot moves, (240, 3)."""
+    with (HERE / "recut.csv").open(encoding="utf-8") as file:
+        lines = list(csv.DictReader(file))
+    names = ("dx [cm]", "dy [cm]", "turn [deg]")
+    pairs = [(line["from_limbs"], line["to_limbs"]) for line in lines]
+    return pairs, np.array([[float(line[name]) for name in names] for line in lines])
+
+
+def remembered(form: str = "lag of curling") -> tuple[Array, Array]:
+    """Numbers of a form of memory fitted to all runs, (F,), and with parts left out, (8, F)."""
+    with (HERE / "remembered.csv").open(encoding="utf-8") as file:
+        lines = [line for line in csv.DictReader(file) if line["form"] == form]
+    values = np.array([[float(x) for x in line["values"].split()] for line in lines])
+    return values[0], values[1:]
 
 
 def predicted() -> dict[str, Predicted]:
-    """Distance and turn of the five gaits, which no fit has seen.
-
-    The error is that of the jackknife and the difference to the other minimum, which transitions
-    do not tell from the lower one: the root of the sum of their squares.
-    """
-    numbers, left_out = fitted()
-    laws = [by_friction(Numbers(*row)) for row in (numbers, *left_out)]
-    other = by_friction(fitted(1)[0])
+    """Distance and turn of the five gaits, which no fit has seen; the error by the jackknife."""
+    values, left_out = remembered()
     found = {}
-    for gait in gaits():
-        value, *others = (cycle(gait.states, law) for law in laws)
-        errors = np.hypot(jackknife(np.array(others)), cycle(gait.states, other) - value)
+    for gait in recut_gaits():
+        value, *others = (cycle(gait.states, Lagged(*row)) for row in (values, *left_out))
+        errors = jackknife(np.array(others))
         found[f"gait {gait.name}, distance"] = Predicted(value[0], errors[0])
         found[f"gait {gait.name}, turn"] = Predicted(value[1], errors[1])
     return found

@@ -1,0 +1,158 @@
+"""What TerreSoRo-IV remembers: `python -m zoo.terresoro_iv.memory [FOLDER]`.
+
+Fits each form of memory to single runs whose past is known, from its tracks in FOLDER (see
+`tracks`), all of them and with an eighth of the transitions left out at a time, those alike by
+quarter turns together; writes remembered.csv and prints the README's table. Gaits are looked at
+last. Without FOLDER the gaits of what was fitted are printed, and what they change by sub-steps.
+"""
+
+import csv
+import sys
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from studies import Array
+from zoo.terresoro_iv.fit import FOLDS, explained, folds, wrong_order
+from zoo.terresoro_iv.forms import FORMS, Form
+from zoo.terresoro_iv.hub import (
+    HERE,
+    by_friction,
+    fitted,
+    gaits,
+    jackknife,
+    measured_cycles,
+    transitions,
+)
+from zoo.terresoro_iv.hub import cycle as cycle_of_pairs
+from zoo.terresoro_iv.hub import together as measured_together
+from zoo.terresoro_iv.model import Lagged, cycle, recut, recut_gaits, remembered, steady, together
+from zoo.terresoro_iv.tracks import Runs, runs
+
+START = (10.8, 4.8, 9.0, 5.1, 0.6, 0.5, -0.35, 0.8, 0.2)
+_SCALE = (1.0, 0.1, 1.0, 0.1, 0.3, 0.3, 0.3, 0.3, 0.1, 0.1, 0.1, 0.1)
+_STEP, _MOST = 3e-3, 15  # of differences, over a number; evaluations with slopes
+
+
+def fit(form: Form, found: Runs, rows: NDArray[np.intp], start: Array) -> Array:
+    """Least squares of x, y and turn of runs, each over its spread."""
+    spread = found.motion.std(axis=0)
+    past, after, motion = found.past[rows], found.after[rows], found.motion[rows]
+
+    def left(values: Array) -> Array:
+        return np.asarray(((form.law(values, past, after) - motion) / spread).ravel())
+
+    scale = np.array([*_SCALE[: len(start)]])
+    return np.asarray(least_squares(left, start, x_scale=scale, diff_step=_STEP, max_nfev=_MOST,
+                                    ftol=1e-5).x)  # fmt: skip
+
+
+def folds_of(found: Runs) -> Array:
+    """Which eighth each run belongs to."""
+    pairs, _ = transitions()
+    known = dict(zip(pairs, folds(pairs), strict=True))
+    text = [["".join(map(str, state)) for state in states]
+            for states in (found.past[:, -1], found.after)]  # fmt: skip
+    return np.array([known[pair] for pair in zip(*text, strict=True)])
+
+
+def noise(found: Runs) -> Array:
+    """Part of the variance of runs in x, y and turn by which those of one transition differ."""
+    keys = [(tuple(a), tuple(b)) for a, b in zip(found.past[:, -1], found.after, strict=True)]
+    groups = [found.motion[[key == one for key in keys]] for one in sorted(set(keys))]
+    return np.asarray(np.mean([g.var(axis=0, ddof=1) for g in groups], axis=0)
+                      / found.motion.var(axis=0))  # fmt: skip
+
+
+def start_of(name: str, lagged: Array) -> Array:
+    """Where a form's fit begins: at the lagged hub, which it contains."""
+    if name == "no memory":
+        return np.array(START[:8])
+    if name == "lag, dry friction":
+        return np.array([*fitted(0, "dry")[0][:7], lagged[8]])
+    return np.array([*lagged, *FORMS[name].neutral])
+
+
+def gaits_of(name: str, values: Array) -> Array:
+    """Distance [cm] and turn [deg] of the five gaits."""
+    return np.array([together(FORMS[name].law(values, *steady(gait.states))) for gait in gaits()])
+
+
+def fit_all(folder: Path) -> None:
+    """Fit every form and print what it explains of transitions."""
+    found, lines, misses = runs(folder), [], {}
+    fold, every = folds_of(found), np.flatnonzero(found.tour >= 0)
+    spread, lagged = found.motion.std(axis=0), np.array(START)
+    print(f"{len(every)} runs; of their variance runs of one transition differ by",
+          noise(found).round(3), noise(found).mean().round(4))  # fmt: skip
+    for name in ("lag of curling", *(name for name in FORMS if name != "lag of curling")):
+        form = FORMS[name]
+        first = np.array(START) if name == "lag of curling" else start_of(name, lagged)
+        values = fit(form, found, every, first)
+        lagged = values if name == "lag of curling" else lagged
+        held_out, fits = np.empty_like(found.motion), [values]
+        for k in range(FOLDS):
+            here = fold == k
+            fits.append(fit(form, found, np.flatnonzero(~here), values))
+            held_out[here] = form.law(fits[-1], found.past[here], found.after[here])
+        lines += [(name, number - 1, " ".join(f"{x:.6g}" for x in row))
+                  for number, row in enumerate(fits)]  # fmt: skip
+        share = (((held_out - found.motion) / spread) ** 2).mean(axis=1)
+        misses[name] = np.array([share[fold == k].mean() for k in range(FOLDS)])
+        less = misses["lag of curling"] - misses[name]
+        r2, seen = (" ".join(f"{x:.2f}" for x in explained(one, found.motion))
+                    for one in (form.law(values, found.past, found.after), held_out))  # fmt: skip
+        print(
+            f"| {name}, {form.numbers} numbers | {r2} | {seen} | {share.mean():.4f} | "
+            f"{-less.mean():+.4f} ± {less.std(ddof=1) / FOLDS**0.5:.4f} |",
+            flush=True,
+        )
+        with (HERE / "remembered.csv").open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerows([("form", "left out", "values"), *lines])
+
+
+def main(folder: str | None = None) -> None:
+    """Print the tables."""
+    if folder:
+        fit_all(Path(folder))
+    pairs, means = recut()
+    cuts = {"as published": gaits(), "recut": recut_gaits()}
+    for cut, measured in cuts.items():
+        mean, error = measured_cycles(measured)
+        print(f"gaits {cut}: rms [cm, deg], pairs in the wrong order, distances, turns")
+        print("   measured", mean.round(2).T.tolist())
+        for name in FORMS:
+            found = gaits_of(name, remembered(name)[0])
+            _line(name, found, mean, error)
+        law = measured_together(pairs, means)
+        found = np.array([cycle_of_pairs(gait.states, law) for gait in gaits()])
+        _line("recut transitions together", found, mean, error)
+        for minimum in (0, 1):
+            law = by_friction(fitted(minimum)[0])
+            found = np.array([cycle_of_pairs(gait.states, law) for gait in gaits()])
+            _line(f"no memory, published cut, minimum {minimum + 1}", found, mean, error)
+    values, left_out = remembered()
+    numbers = Lagged(*values)
+    past = np.array([[[int(x) for x in before]] for before, _ in pairs])
+    after = np.array([[int(x) for x in state] for _, state in pairs])
+    rest = FORMS["lag of curling"].law(values, past, after)
+    print("means of transitions from rest explained:", explained(rest, means).round(2))
+    fine = [np.array([cycle(g.states, numbers, parts) for g in gaits()]) for parts in (1, 6, 24)]
+    print("6 and 24 sub-steps change the gaits by at most",
+          *(np.abs(one - fine[0]).max(axis=0).round(4) for one in fine[1:]))  # fmt: skip
+    for name, value, error in zip(Lagged._fields, values, jackknife(left_out), strict=True):
+        print(f"{name} {value:.3f} ± {error:.3f}")
+
+
+def _line(name: str, found: Array, mean: Array, error: Array) -> None:
+    off = np.sqrt(((found - mean) ** 2).mean(axis=0))
+    wrong = " ".join(wrong_order(found, mean, error)) or "none"
+    print(f"   {name}: {off[0]:.2f}, {off[1]:.1f}, {wrong}; {found[:, 0].round(2).tolist()} "
+          f"{found[:, 1].round(1).tolist()}")  # fmt: skip
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
