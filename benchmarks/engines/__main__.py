@@ -17,7 +17,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         prog="python -m benchmarks.engines",
         description="Walk soft robots on frictional ground by every engine that is installed, at "
         "settings that the table lacks, one process and one thread; print the cheapest within "
-        "10, 2 and 0.5 %% of the distance, and draw error over speed. See docs/benchmark.md.",
+        "10, 5, 2 and 0.5 %% of the distance, and draw error over speed. See docs/benchmark.md.",
     )
     parser.add_argument("--engine", choices=[*ENGINES, "all", "none"], default="all",
                         help="none: only the table and the figure")  # fmt: skip

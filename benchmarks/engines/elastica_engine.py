@@ -59,7 +59,7 @@ def _one(task: Task, n: int, timestep: float) -> tuple[float, float, float]:
     bent = limb.bent * task.pressures[:, np.array(limb.chambers)[chamber]]
     bent = 0.5 * (bent[:, 1:-1:2] + bent[:, 2::2])  # of the element around each inner node
     damping = np.sqrt(STIFFNESS * limb.mass * limb.length / n)
-    place, anchor = rod.position_collection, rod.position_collection[0].copy()
+    anchor = rod.position_collection[0].copy()
     given = task.knots, bent, mu, STIFFNESS, damping
 
     class Ground(ea.NoForces):
@@ -72,6 +72,7 @@ def _one(task: Task, n: int, timestep: float) -> tuple[float, float, float]:
         ea.AnalyticalLinearDamper, uniform_damping_constant=DRAG, time_step=timestep
     )
     system.finalize()
+    place = rod.position_collection  # only now those that are stepped
     _act(place, rod.velocity_collection, np.zeros_like(place), rod.rest_kappa, anchor, 0.0, *given)
     spent = stopwatch()  # after compiling
     now = _advance(system, rod, 0.0, WAIT, timestep)

@@ -52,6 +52,10 @@ def draw(rows: list[Row], path: Path) -> None:
                 axes.plot(*zip(*points, strict=True), ".", color=colour, alpha=0.3)
                 axes.plot(*zip(*front(points), strict=True), "o-", color=colour, markersize=3,
                           linewidth=1, label=engine)  # fmt: skip
+            doubt = 100 * TASKS[task].doubt
+            axes.axhspan(0.0, doubt, color="0.95", zorder=0)
+            axes.annotate("doubt of the answer", (0.02, doubt), xycoords=("axes fraction", "data"),
+                          color="0.5", fontsize=7, va="top")  # fmt: skip
             for bound in BOUNDS:
                 axes.axhline(100 * bound, color="0.85", linewidth=0.8, zorder=0)
             axes.set(xscale="log", yscale="log", title=task, ylim=(0.05, 200),

@@ -205,7 +205,7 @@ QUADRUPED = Task(
         Limb(_THIRD, _TORSO, _BY_AREA * _TORSO, _PLATE * _TORSO, 0.0, ()),
         _leg(True, 1), _leg(True, -1), _leg(False, 1), _leg(False, -1),
     ),
-    LEGS, 0.37, 0.37, False, 0.0208, 0.02, 0.1357,
+    LEGS, 0.37, 0.37, False, 0.0211, 0.03, 0.1357,
 )  # fmt: skip
 
 TASKS = {task.name: task for task in (STRIP, QUADRUPED)}

@@ -15,6 +15,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
 from analytic.friction.grip import Grip
 from analytic.friction.laws import LAWS
 from analytic.locomotion import STANDSTILL
@@ -30,6 +33,7 @@ from mjsim.results.prediction import clears
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.scene import Contacts
 
+Array = NDArray[np.float64]
 Aim = Literal["displacement", "speed", "air", "work"]
 _LONGEST, _STEPS = 0.01, 20  # of MuJoCo: time step [s], and steps of the shortest ramp; chosen
 _AT_ENDS, _BETWEEN = 6, 8  # links per segment, by contact at the ends alone or between them too
@@ -118,6 +122,11 @@ class Objective:
         return not all(grip.is_round(surface) for surface in self.surfaces)
 
     @property
+    def has_gradient(self) -> bool:
+        """True where `gradient` may be known: the distance of the elastica."""
+        return self.model == "elastica" and self.aim == "displacement" and "ends" in self.contacts
+
+    @property
     def sign(self) -> float:
         """Sign of the displacements that count."""
         return -1.0 if self.backward else 1.0
@@ -139,6 +148,33 @@ class Objective:
         air = air_per_cycle(robot, gait)
         used = 1e3 * air.volume if self.aim == "air" else air.work
         return -used / (shift * robot.length)
+
+    def gradient(self, gait: Gait) -> tuple[Array, int]:
+        """Derivative of the distance that counts, and the number of evaluations that it took.
+
+        With friction at the ends, on the ground where the gait goes least, by the pressures at the
+        stages of the cycle over the peak, (ramps, S); 0 where there is none. See analytic.gradient.
+        """
+        cases = [(robot, ground) for robot, on in ((self.scene.robot, self.surfaces), *self.others)
+                 for ground in on]  # fmt: skip
+        cost = 1
+        if len(cases) > 1:
+            cost = 2
+            least = [self.sure_at("ends", robot, gait, [ground])[0] for robot, ground in cases]
+            cases = [cases[int(np.argmin(least))]]
+        ((robot, ground),) = cases
+        assert not isinstance(robot, LimbedRobot)
+        scene = replace(self.scene, robot=robot, gait=gait, contacts="ends")
+        friction = scene.reference_friction
+        if not self.bent:
+            friction = replace(friction, tension=0.0)
+        try:
+            walk = predict(robot, gait, ground, Elastica(_LINKS, scene.chamber), self.states,
+                           friction, gradient=["gait.stages"])  # fmt: skip
+        except ValueError:  # the solver refuses the gait
+            return np.zeros((gait.ramps, gait.segments)), cost
+        slope = walk.gradient["gait.stages"].value
+        return np.nan_to_num(self.sign * slope / robot.length), cost
 
     def sure(self, robot: AnyRobot, gait: Gait, surfaces: Sequence[Surface]) -> list[float]:
         """Displacement the right way over L that rests on no flagged state, on each surface.

@@ -53,16 +53,17 @@ class Space(NamedTuple):
         """Gait of a point; all its times and pressures are multiples of GRID."""
         s = self.chambers
         lags, rest = point[: s - 1] % 1.0, np.clip(point[s - 1 :], 0.0, 1.0)
-        duties = _on_grid(_DUTY[0] + (_DUTY[1] - _DUTY[0]) * rest[:s])
+        duties = on_grid(_DUTY[0] + (_DUTY[1] - _DUTY[0]) * rest[:s])
         room = np.minimum(duties, 1 - duties)
-        ramps = _on_grid((_LEAST + (_GENTLEST - _LEAST) * rest[s]) * room)
+        ramps = on_grid((_LEAST + (_GENTLEST - _LEAST) * rest[s]) * room)
         ramps = np.clip(ramps, GRID, room)
-        starts = _on_grid(np.concatenate([[0.0], np.cumsum(lags)]))
-        fractions = _on_grid(rest[s + 1 : 2 * s + 1])
+        starts = on_grid(np.concatenate([[0.0], np.cumsum(lags)]))
+        fractions = on_grid(rest[s + 1 : 2 * s + 1])
         period = self.period * SHORTEST ** float(rest[-1]) if self.free else self.period
         return staggered(starts.tolist(), duties.tolist(), ramps.tolist(), fractions.tolist(),
                          round(period, 2), name)  # fmt: skip
 
 
-def _on_grid(values: Array) -> Array:
+def on_grid(values: Array) -> Array:
+    """The nearest multiples of GRID."""
     return np.round(np.round(values / GRID) * GRID, 9)

@@ -76,6 +76,16 @@ def test_only_free_ends_of_limbs_are_rougher():
     assert pads[0][2] == pads[-1][2] == STRIP.friction
 
 
+def test_many_worlds_are_measured_at_long_steps_alone():
+    steps = (0.3, 0.2, 0.1)
+    engine = Engine("", "", "", "", "", {"strip": ((6,), steps, (1, 16, 256))})
+    asked = list(engine.ladder(STRIP))
+    assert [t for _, t, worlds in asked if worlds == 1] == list(steps)
+    assert [t for _, t, worlds in asked if worlds == 16] == [0.3, 0.2]
+    assert [t for _, t, worlds in asked if worlds == 256] == [0.3]
+    assert not list(engine.ladder(QUADRUPED))
+
+
 def test_links_that_leave_chambers_half_an_element_are_refused():
     with pytest.raises(ValueError, match=r"multiple of 6 .* got 8"):
         link_lengths(STRIP.limbs[0], 8)
@@ -142,7 +152,7 @@ def test_an_engine_that_is_not_installed_is_left_out_with_how_to_install_it(
 
 
 def test_a_run_goes_on_where_it_was_stopped(tmp_path, monkeypatch, capsys):
-    few = Engine("MuJoCo", "mujoco_engine", "alone", "mujoco", "", {"strip": ((6,), (0.05,))})
+    few = Engine("MuJoCo", "mujoco_engine", "alone", "mujoco", "", {"strip": ((6,), (0.05,), (1,))})
     monkeypatch.setitem(ENGINES, "MuJoCo", few)
     path = tmp_path / "rows.csv"
     asked = ["--engine", "MuJoCo", "--task", "strip", "--rows", str(path)]
