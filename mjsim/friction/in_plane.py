@@ -165,11 +165,12 @@ class LimbFooting:
         ahead, left = self._data.xmat[body, :2].tolist()
         a, b, c, d, _, _ = nap
         scaled = whole = 0.0
-        for along, aside in zip(contact.at, contact.aside, strict=True):
-            u = -(along - contact.middle) * left - aside * ahead
-            v = (along - contact.middle) * ahead - aside * left
-            whole += math.hypot(u, v)
-            scaled += math.hypot(a * u + b * v, c * u + d * v)
+        middle = contact.middle
+        for along, aside, part in zip(contact.at, contact.aside, contact.shares, strict=True):
+            u = -(along - middle) * left - aside * ahead
+            v = (along - middle) * ahead - aside * left
+            whole += part * math.hypot(u, v)
+            scaled += part * math.hypot(a * u + b * v, c * u + d * v)
         return scaled / whole if whole else 1.0
 
     def _resistances(self, way: Way | None = None) -> tuple[list[float], list[float]]:
@@ -178,16 +179,17 @@ class LimbFooting:
         Against motion one way where the ground or a foot has a nap.
         """
         rows, finder, ground, bounds, drags = self._rows, self._finder, self._ground, [], []
-        alike = (ground,) if isinstance(ground, Surface) else None
+        alike = ((ground, 1.0),) if isinstance(ground, Surface) else None
         bound = drag = 0.0
         before = None
         for (contact, share), body, place, speed in zip(
             self._owners, rows.bodies, rows.places, rows.speeds, strict=True
         ):
             if self._varies or contact is not before:
-                under = alike or [ground.at(x) for x in self._x(contact, body, place.real)]
-                part, bound, drag, before = share / len(under), 0.0, 0.0, contact
-                for surface in under:
+                under = alike or self._under(contact, body, place.real)
+                bound, drag, before = 0.0, 0.0, contact
+                for surface, of_contact in under:
+                    part = share * of_contact
                     dry, wet = finder.resistance(
                         contact, surface.against(way) if way else surface, speed, way or "ahead",
                         self._pressures,
@@ -197,14 +199,19 @@ class LimbFooting:
             drags.append(drag)
         return bounds, drags
 
-    def _x(self, contact: Contact, body: int, x: float) -> list[float]:
-        """Places along x of what a point stands for, of a side all that it resists at [m]."""
+    def _under(self, contact: Contact, body: int, x: float) -> list[tuple[Surface, float]]:
+        """Surfaces under what a point at x [m] stands for, and their parts of it.
+
+        Of a side those under all places that it resists at.
+        """
+        ground = self._ground
         if not contact.length:
-            return [x]
+            return [(ground.at(x), 1.0)]
         ahead, left = self._data.xmat[body, :2].tolist()
+        middle = contact.middle
         return [
-            x + (along - contact.middle) * ahead + aside * left
-            for along, aside in zip(contact.at, contact.aside, strict=True)
+            (ground.at(x + (along - middle) * ahead + aside * left), part)
+            for along, aside, part in zip(contact.at, contact.aside, contact.shares, strict=True)
         ]
 
     def _viscosities(self, bound: float, drag: float) -> list[float]:
