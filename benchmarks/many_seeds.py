@@ -23,7 +23,7 @@ from scenes import cases, report
 from analytic import GAITS, SURFACES, Gait, Robot, predict
 from analytic.scene.surface import from_ratios
 from analytic.uncertainty import modes_error
-from mjsim.files.tables import build
+from mjsim.files.scene_tables.tables import build
 from mjsim.fitting.estimate import Estimate, estimate
 from mjsim.fitting.observations import Run, Series
 from mjsim.fitting.parameters import parameters, with_values

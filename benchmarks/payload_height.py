@@ -10,7 +10,7 @@ from typing import Any
 from analytic import SURFACES, Payload, Robot
 from analytic.scene.chain import payload_moments
 from mjsim import Scene, measure, simulate
-from mjsim.model import chain
+from mjsim.model.bodies import chain
 
 HEIGHTS = (0.0, 0.01, 0.02)  # m
 PLACES = (0.1, 0.5, 0.9)

@@ -6,12 +6,12 @@ For commands: undulator run --plugin examples/own_body.py --body laden
 import mujoco
 
 from mjsim import Numerics, Scene, measure, simulate
-from mjsim.model.chain import Chain
+from mjsim.model.bodies.chain import Chain
 from mjsim.scene import registry
 
 
 class Laden(Chain):
-    """One module against one small protocol, mjsim.model.body.Body; here most is inherited."""
+    """One module against a small protocol, mjsim.model.bodies.body.Body; here most is inherited."""
 
     name = "laden"
     payload = 0.002  # kg

@@ -14,7 +14,7 @@ import pdoc.render
 
 import analytic
 import mjsim
-from mjsim.files.cli import fail
+from mjsim.files.command_line.cli import fail
 
 
 def modules() -> list[str]:

@@ -9,7 +9,7 @@ from pathlib import Path
 from analytic.scene.limbs import quadruped
 from analytic.scene.quadruped_gaits import QUADRUPED_GAITS, undulation
 from analytic.scene.surface import SURFACES
-from mjsim.files.cli import FAILED, fail, parse
+from mjsim.files.command_line.cli import FAILED, fail, parse
 from mjsim.files.files import check_folder
 from mjsim.pictures import gl
 from mjsim.scene import Numerics, Scene

@@ -24,7 +24,7 @@ from analytic.scene.limbs import LENGTH, quadruped
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import FRICTION, SURFACES, Surface
 from analytic.solvers.limbs.walk import walk as quasi_static
-from mjsim.files.cli import parse
+from mjsim.files.command_line.cli import parse
 from mjsim.files.files import check_folder
 from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene, resolved

@@ -13,7 +13,7 @@ from typing import Any
 
 import pandas as pd  # type: ignore[import-untyped]
 
-from mjsim.files.cli import bar
+from mjsim.files.command_line.cli import bar
 from mjsim.files.processes import clean_start
 from mjsim.results.provenance import signature
 

@@ -12,7 +12,7 @@ from scipy.ndimage import gaussian_filter
 from studies import Array
 
 SIZE = 320  # pixels, sides of a tile
-RULER_LENGTH = 0.26  # m, as the ruler of mjsim/model/stage.xml
+RULER_LENGTH = 0.26  # m, as the ruler of mjsim/model/appearance/stage.xml
 RULER_START = -0.06  # m, x of its left edge there
 _FIBRES, _DROPS = 3600, 70
 _INK = (30, 30, 30)

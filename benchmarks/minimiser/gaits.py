@@ -25,7 +25,7 @@ import numpy as np
 from chain import NoMinimumError, Walk, walk
 from strip import Strip
 
-from mjsim.files.tables import build
+from mjsim.files.scene_tables.tables import build
 from mjsim.results.prediction import HALF, displacement, error_bars, prediction, reference
 
 ROWS = Path(__file__).with_name("gaits.csv")

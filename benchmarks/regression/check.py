@@ -24,7 +24,7 @@ import strips
 from analytic import SOLVERS, Elastica, Friction, Gait, Robot, Surface, predict
 from analytic.scene.limbs import limbs_of, rotation
 from analytic.solvers.limbs.walk import walk as walk_of_limbs
-from mjsim.files.tables import build
+from mjsim.files.scene_tables.tables import build
 from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene, Valves
 from mjsim.simulation.simulation import simulate

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import tyro
 
-from mjsim.files.cli import fail, parse, say, strict_json
+from mjsim.files.command_line.cli import fail, parse, say, strict_json
 from mjsim.files.files import check_folder
 from mjsim.files.text_table import Column, counts, text_table
 

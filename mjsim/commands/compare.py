@@ -15,16 +15,16 @@ from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
 from analytic.solvers.models import SOLVERS
 from analytic.uncertainty import modes_error
-from mjsim.files.actuator_files import make_robot
-from mjsim.files.cli import ALL, bar, choose, fail, parse, say, strict_json
-from mjsim.files.dataclass_options import given
-from mjsim.files.gait_files import is_file
-from mjsim.files.keys import SIDES, WITH_ANY_SURFACE
-from mjsim.files.limb_tables import build_robot, of_limbs
-from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import Tables, build, merged, read_tables
+from mjsim.files.command_line.cli import ALL, bar, choose, fail, parse, say, strict_json
+from mjsim.files.command_line.dataclass_options import given
+from mjsim.files.command_line.options import SceneOptions, tables_of
+from mjsim.files.gaits.gait_files import is_file
+from mjsim.files.scene_tables.actuator_files import make_robot
+from mjsim.files.scene_tables.keys import SIDES, WITH_ANY_SURFACE
+from mjsim.files.scene_tables.limb_tables import build_robot, of_limbs
+from mjsim.files.scene_tables.tables import Tables, build, merged, read_tables
+from mjsim.files.scene_tables.typed import Table
 from mjsim.files.text_table import Column, text_table
-from mjsim.files.typed import Table
 from mjsim.pictures import gl
 from mjsim.results.coasting import coasting
 from mjsim.results.prediction import (

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from analytic.scene.limbs import quadruped
 from analytic.scene.surface import FRICTION, SURFACES
-from mjsim.files.cli import fail, parse, warn
+from mjsim.files.command_line.cli import fail, parse, warn
+from mjsim.files.command_line.options import SceneOptions, tables_of
 from mjsim.files.files import check_folder
-from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import Tables, build
+from mjsim.files.scene_tables.tables import Tables, build
 from mjsim.pictures import gl
 from mjsim.scene import Numerics, Scene, Valves
 
@@ -42,7 +42,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv, ("--scene my.toml --out folder", "--robot quadruped"))
     gl.prepare()
-    from mjsim.model.standalone import law_of, write
+    from mjsim.model.standalone.strips import law_of, write
     from mjsim.simulation.alone import measured
 
     try:

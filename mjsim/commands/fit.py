@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 import tyro
 
-from mjsim.files.cli import FAILED, fail, parse, say, strict_json
+from mjsim.files.command_line.cli import FAILED, fail, parse, say, strict_json
+from mjsim.files.command_line.options import SceneOptions, tables_of
 from mjsim.files.files import check_folder, whole
-from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import Tables
+from mjsim.files.scene_tables.tables import Tables
 
 if TYPE_CHECKING:
     from mjsim.fitting.estimate import Estimate
@@ -192,8 +192,8 @@ def _scene(fit: "Estimate", base: Tables) -> tuple[Tables, list[str]]:
 
 def _whole(tables: Tables) -> tuple[Tables, list[str]]:
     """Tables with every default, and a note if they are of no scene that walks."""
-    from mjsim.files.tables import build
-    from mjsim.files.written import as_tables
+    from mjsim.files.scene_tables.tables import build
+    from mjsim.files.scene_tables.written import as_tables
 
     try:
         return as_tables(*build(tables)), []
@@ -221,7 +221,7 @@ def _write(
 
 
 def _write_toml(path: Path, tables: Tables, comments: list[str]) -> None:
-    from mjsim.files.written import as_toml
+    from mjsim.files.scene_tables.written import as_toml
 
     with whole(path) as part:
         part.write_text(as_toml(tables, comments), "utf-8")

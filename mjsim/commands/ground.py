@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import tyro
 
-from mjsim.files.cli import FAILED, fail, parse, say, strict_json
+from mjsim.files.command_line.cli import FAILED, fail, parse, say, strict_json
 from mjsim.files.files import check_folder, whole
 
 if TYPE_CHECKING:
     from analytic.scene.robot import Robot
-    from mjsim.files.tables import Tables
+    from mjsim.files.scene_tables.tables import Tables
     from mjsim.fitting.sliding_report import Ground
 
 PROGRAM = "undulator ground"
@@ -74,7 +74,7 @@ class Options:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
     options = parse(Options, PROGRAM, argv, EXAMPLES)
-    from mjsim.files.written import as_toml
+    from mjsim.files.scene_tables.written import as_toml
     from mjsim.fitting import sliding_report as report
     from mjsim.fitting.sliding_bounds import BOTH, quantities, samples
     from mjsim.fitting.sliding_tests import SHARED, read_tests
@@ -134,9 +134,9 @@ def _scene(path: Path | None, ground: "Ground") -> "tuple[Tables, Robot | None]"
     Raises:
         ValueError: what was measured is no surface, or the scene cannot be read or cannot have it.
     """
-    from mjsim.files.keys import WITH_ANY_SURFACE
-    from mjsim.files.tables import build, build_ground, merged, read_tables
-    from mjsim.files.written import as_tables
+    from mjsim.files.scene_tables.keys import WITH_ANY_SURFACE
+    from mjsim.files.scene_tables.tables import build, build_ground, merged, read_tables
+    from mjsim.files.scene_tables.written import as_tables
 
     build_ground(ground.table)  # alone: how heavy a robot it may be of is not known here
     numerics = {"friction": ground.law} if ground.law else {}

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any, Literal
 from analytic.checks import whole
 from analytic.scene.gait import Gait
 from analytic.scene.surface import SURFACES, Surface
-from mjsim.files.cli import FAILED, bar, fail, parse, say, strict_json
+from mjsim.files.command_line.cli import FAILED, bar, fail, parse, say, strict_json
+from mjsim.files.command_line.options import SceneOptions, tables_of
 from mjsim.files.extras import MissingExtraError
 from mjsim.files.files import check_folder
 from mjsim.files.files import whole as whole_file
-from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import Tables, build
+from mjsim.files.scene_tables.tables import Tables, build
 from mjsim.files.text_table import Column, text_table
 from mjsim.scene import Numerics, Scene
 
@@ -191,7 +191,7 @@ def _search(
 
 def _write(options: Options, objective: "Objective", history: "list[Generation]") -> Iterator[str]:
     """Paths of the gait's file and its picture, each once it is written."""
-    from mjsim.files.written import as_toml
+    from mjsim.files.scene_tables.written import as_toml
     from mjsim.optimising.picture import draw
     from mjsim.optimising.valve_times import write
 

@@ -8,7 +8,7 @@ from typing import Annotated
 import tyro
 
 from mjsim.files import plugins
-from mjsim.files.cli import FAILED, Plugins, fail, parse, warn
+from mjsim.files.command_line.cli import FAILED, Plugins, fail, parse, warn
 from mjsim.pictures import gl
 
 PROGRAM = "undulator replay"

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import tyro
 
 from mjsim.files import plugins
-from mjsim.files.cli import FAILED, Plugins, bar, fail, parse, warn
+from mjsim.files.command_line.cli import FAILED, Plugins, bar, fail, parse, warn
 from mjsim.files.extras import optional
 from mjsim.files.files import check_folder, whole
 from mjsim.pictures import gl
@@ -62,7 +62,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except ModuleNotFoundError as error:
         warn(PROGRAM, str(error))
         return FAILED
-    from mjsim.pictures.document import Entry, page
+    from mjsim.pictures.page.document import Entry, page
     from mjsim.results.record import record
     from mjsim.simulation.second_walks import doubts
 
@@ -94,7 +94,7 @@ def _unknown(walk: "Trajectory", text: str) -> "tuple[Spread, ...]":
     """What is not known of a walk's scene."""
     if not text:
         return ()
-    from mjsim.files.written import as_tables
+    from mjsim.files.scene_tables.written import as_tables
     from mjsim.uncertainty.fields import read_spreads
 
     return read_spreads(as_tables(walk.scene, walk.numerics), text)
@@ -102,7 +102,7 @@ def _unknown(walk: "Trajectory", text: str) -> "tuple[Spread, ...]":
 
 def _interval(walk: "Trajectory", spreads: "tuple[Spread, ...]", row: dict[str, Any]) -> str:
     """Within what the distance of a walk's scene lies, in words."""
-    from mjsim.files.written import as_tables
+    from mjsim.files.scene_tables.written import as_tables
     from mjsim.uncertainty.report import described
 
     tables = as_tables(walk.scene, walk.numerics)

@@ -7,11 +7,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Optional
 
-from mjsim.files.cli import FAILED, bar, fail, parse, reference_bar, say, strict_json, warn
+from mjsim.files.command_line.cli import (
+    FAILED,
+    bar,
+    fail,
+    parse,
+    reference_bar,
+    say,
+    strict_json,
+    warn,
+)
+from mjsim.files.command_line.options import SceneOptions, tables_of
 from mjsim.files.files import check_folder
 from mjsim.files.interruption import uninterrupted
-from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import Tables, build
+from mjsim.files.scene_tables.tables import Tables, build
 from mjsim.pictures import gl
 from mjsim.results.file_names import file_name
 from mjsim.results.status import WALKED

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mjsim.files.cli import bar, fail, parse, say, strict_json
+from mjsim.files.command_line.cli import bar, fail, parse, say, strict_json
+from mjsim.files.command_line.options import SceneOptions, tables_of
 from mjsim.files.files import check_folder
-from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import build
+from mjsim.files.scene_tables.tables import build
 from mjsim.files.text_table import Column, text_table
 from mjsim.results.coasting import coasting
 

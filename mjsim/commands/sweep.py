@@ -12,7 +12,17 @@ import tyro
 
 from analytic.checks import whole
 from mjsim.files import plugins
-from mjsim.files.cli import BAD_INPUT, FAILED, Plugins, bar, fail, parse, say, strict_json, warn
+from mjsim.files.command_line.cli import (
+    BAD_INPUT,
+    FAILED,
+    Plugins,
+    bar,
+    fail,
+    parse,
+    say,
+    strict_json,
+    warn,
+)
 from mjsim.files.files import check_folder
 from mjsim.files.text_table import counts
 from mjsim.scene import Numerics

@@ -41,7 +41,7 @@ def call(words: Sequence[str]) -> int:
     """Call the command that is the first of the words; returns its exit code."""
     from importlib import import_module
 
-    from mjsim.files.cli import fail, say
+    from mjsim.files.command_line.cli import fail, say
 
     name = words[0] if words else "--help"
     if name in ("-h", "--help"):

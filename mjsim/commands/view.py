@@ -5,9 +5,9 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mjsim.files.cli import FAILED, fail, parse, warn
-from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import build
+from mjsim.files.command_line.cli import FAILED, fail, parse, warn
+from mjsim.files.command_line.options import SceneOptions, tables_of
+from mjsim.files.scene_tables.tables import build
 
 PROGRAM = "undulator view"
 
@@ -39,7 +39,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             raise ValueError(
                 f"surface must be one, others can be chosen in the window; got {names}"
             )
-        from mjsim.pictures.live_session import Session
+        from mjsim.pictures.live.session import Session
 
         scene, numerics = build(tables[0])
         if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
@@ -50,7 +50,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
 
-    from mjsim.pictures.live_window import show
+    from mjsim.pictures.live.window import show
 
     shown = show(session, options.speed, options.seconds)
     rate, times = shown.frames / shown.wall_time, shown.simulated / shown.wall_time

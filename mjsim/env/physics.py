@@ -12,7 +12,7 @@ from mjsim.env.dm_binding import wrapper
 from mjsim.friction.contact_length import ContactForces
 from mjsim.model.builder import compile_model
 from mjsim.model.pads import pads_by_node
-from mjsim.model.standalone import walking_scene
+from mjsim.model.standalone.strips import walking_scene
 from mjsim.scene import Numerics, Resolved, Scene, resolved
 
 Array = NDArray[np.float64]

@@ -10,9 +10,9 @@ import numpy as np
 
 from analytic.checks import is_number, positive
 from analytic.scene.limbs import LimbedRobot, limbs_of
-from mjsim.files.keys import WITH_ANY_SURFACE
-from mjsim.files.quantities import check_field, field_value, with_fields
-from mjsim.files.tables import Tables, build
+from mjsim.files.scene_tables.keys import WITH_ANY_SURFACE
+from mjsim.files.scene_tables.quantities import check_field, field_value, with_fields
+from mjsim.files.scene_tables.tables import Tables, build
 from mjsim.scene import Numerics, Resolved, Scene, resolved
 from mjsim.scene.scene import Contacts
 from mjsim.scene.valves import MEASURED_TIME

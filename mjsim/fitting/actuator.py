@@ -16,10 +16,10 @@ from analytic.fitting.bench import Bench
 from analytic.fitting.least_squares import Zero
 from analytic.scene.limbs import LimbedRobot
 from analytic.scene.robot import Robot
-from mjsim.files.actuator_files import BenchFile, read_bench
-from mjsim.files.tables import Tables
+from mjsim.files.scene_tables.actuator_files import BenchFile, read_bench
+from mjsim.files.scene_tables.tables import Tables
+from mjsim.files.scene_tables.written import plain
 from mjsim.files.text_table import Column, text_table
-from mjsim.files.written import plain
 from mjsim.fitting.parameters import robot_of
 
 Array = NDArray[np.float64]
@@ -72,7 +72,7 @@ def estimate_actuators(
 
     Args:
         base: tables of the scene.
-        paths: of the bench's files, see mjsim.files.actuator_files.
+        paths: of the bench's files, see mjsim.files.scene_tables.actuator_files.
         zero: what each file may read at rest: angle, pressure, or nothing.
         by_chamber: whether each file is of an actuator of its own, in the order of the segments.
 

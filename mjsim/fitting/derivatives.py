@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from analytic.prediction import predict
 from analytic.scene.surface import SURFACES, Surface
 from analytic.solvers.models import Elastica
-from mjsim.files.tables import Tables, build
+from mjsim.files.scene_tables.tables import Tables, build
 from mjsim.fitting.parameters import OWN_GROUND
 
 _STANDS_FOR = (

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from analytic.friction.laws import friction_number
 from analytic.scene import pneunet
 from analytic.scene.limbs import limbs_of
-from mjsim.files.tables import Tables
+from mjsim.files.scene_tables.tables import Tables
 from mjsim.fitting.estimate import Estimate
 from mjsim.fitting.parameters import ground_of, robot_of, with_values
 

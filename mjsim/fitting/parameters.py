@@ -8,12 +8,12 @@ from typing import Any
 from analytic.scene.limbs import AnyRobot, limbs_of
 from analytic.scene.robot import GRAVITY
 from analytic.scene.surface import SURFACES, Ground
-from mjsim.files.actuator_files import make_robot
-from mjsim.files.keys import NAMES, SURFACE_FIELDS, WITH_ANY_SURFACE, check_keys
-from mjsim.files.limb_tables import build_robot, of_limbs
-from mjsim.files.quantities import field_unit, spelled_out, with_fields
-from mjsim.files.tables import Tables, build_ground
-from mjsim.files.typed import Table, make
+from mjsim.files.scene_tables.actuator_files import make_robot
+from mjsim.files.scene_tables.keys import NAMES, SURFACE_FIELDS, WITH_ANY_SURFACE, check_keys
+from mjsim.files.scene_tables.limb_tables import build_robot, of_limbs
+from mjsim.files.scene_tables.quantities import field_unit, spelled_out, with_fields
+from mjsim.files.scene_tables.tables import Tables, build_ground
+from mjsim.files.scene_tables.typed import Table, make
 from mjsim.files.units import in_unit
 from mjsim.scene.valves import Valves
 

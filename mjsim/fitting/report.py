@@ -5,7 +5,7 @@ import math
 from itertools import combinations as pairs_of
 from typing import Any, NamedTuple
 
-from mjsim.files.tables import Tables
+from mjsim.files.scene_tables.tables import Tables
 from mjsim.files.text_table import Column, text_table
 from mjsim.fitting.determined import Together, at_bounds, together, undetermined, without_limit
 from mjsim.fitting.estimate import Estimate

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
+from mjsim.files.scene_tables.typed import Table
 from mjsim.files.text_table import Column, text_table
-from mjsim.files.typed import Table
 from mjsim.fitting.sliding_bounds import BOTH, LAWS, NAMES, Quantity, Sample, Verdict
 from mjsim.fitting.sliding_slopes import Estimate
 from mjsim.fitting.sliding_tests import STATES, WAYS

@@ -20,7 +20,7 @@ from analytic.solvers.limbs.path import Path
 from analytic.solvers.models import Elastica
 from mjsim.files import plugins
 from mjsim.files.processes import Pool
-from mjsim.files.tables import Tables, build
+from mjsim.files.scene_tables.tables import Tables, build
 from mjsim.fitting.derivatives import distance_slopes
 from mjsim.fitting.observations import RUN, Run, Series
 from mjsim.fitting.parameters import robot_of, with_values

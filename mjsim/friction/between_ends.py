@@ -15,8 +15,8 @@ from analytic.friction.dissipation import minimisers
 from analytic.scene.chain import node_positions
 from mjsim.friction.node_tendons import NodeTendons, node_tendons
 from mjsim.friction.traction import BoundedEnds, BoundedFriction, ContactFriction
+from mjsim.model.bodies.parts import NO_BOUND, PREFIX, TETHER
 from mjsim.model.pads import pads_by_node
-from mjsim.model.parts import NO_BOUND, PREFIX, TETHER
 from mjsim.scene import Resolved, Scene
 
 

@@ -17,7 +17,7 @@ from mjsim.friction.between_ends import (
 from mjsim.friction.ceiling import CeilingPush
 from mjsim.friction.in_plane import LimbFooting
 from mjsim.friction.traction import BoundedEnds, ContactFriction
-from mjsim.model.body import Joints
+from mjsim.model.bodies.body import Joints
 from mjsim.model.pads import pads_by_node
 from mjsim.results.status import END_HOPS
 from mjsim.scene import Resolved, Scene

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mjsim.friction.row_layout import Kind, Layout, Tendons
-from mjsim.model.limbs import ROWS
+from mjsim.model.bodies.limbs import ROWS
 
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int_]

@@ -28,7 +28,7 @@ from analytic.solvers.limbs.kinematics import Tree
 from mjsim.friction.ceiling import CeilingPush
 from mjsim.friction.friction_rows import STANDS, Directions, FrictionRows
 from mjsim.friction.rigid_motion import rigid_motion
-from mjsim.model.limbs import POINTS, TIP_POINTS, joints_to, limbed, link_prefix, point_names
+from mjsim.model.bodies.limbs import POINTS, TIP_POINTS, joints_to, limbed, link_prefix, point_names
 from mjsim.model.pads import edges, node_of_geom, pads_of
 from mjsim.results.status import THROWN
 from mjsim.scene import Resolved, Scene

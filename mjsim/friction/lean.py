@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from mjsim.model.parts import FAR
+from mjsim.model.bodies.parts import FAR
 
 Array = NDArray[np.float64]
 

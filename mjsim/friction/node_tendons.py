@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from mjsim.model.parts import PREFIX, TENDONS, tendon_names
+from mjsim.model.bodies.parts import PREFIX, TENDONS, tendon_names
 
 WRAPS = 3  # of a tendon for each of its sites: a pulley, the far site, the site
 _SITE = mujoco.mjtObj.mjOBJ_SITE

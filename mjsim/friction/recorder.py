@@ -11,8 +11,8 @@ from analytic.friction.laws import LAWS
 from analytic.scene.ground import depends_on_speed
 from mjsim.friction.lean import Lean
 from mjsim.friction.node_tendons import WRAPS, mean_sites
+from mjsim.model.bodies.parts import PREFIX, TENDONS, tendon_names
 from mjsim.model.pads import node_of_geom, pads_by_node
-from mjsim.model.parts import PREFIX, TENDONS, tendon_names
 from mjsim.results.forces import GroundForces
 from mjsim.scene import Scene
 

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from mjsim.model.limbs import ROWS
+from mjsim.model.bodies.limbs import ROWS
 
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int_]

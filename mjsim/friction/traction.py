@@ -21,8 +21,8 @@ from analytic.scene.ground import depends_on_speed, over
 from analytic.scene.surface import Surface
 from mjsim.friction.contact_length import ContactForces
 from mjsim.friction.lean import Lean
+from mjsim.model.bodies.parts import PREFIX, TENDONS, contact_softness, tendon_names, tie_force
 from mjsim.model.pads import pads_by_node
-from mjsim.model.parts import PREFIX, TENDONS, contact_softness, tendon_names, tie_force
 from mjsim.scene import Resolved, Scene
 
 _TIPS = (0.0, 0.0)  # side contact of two tips

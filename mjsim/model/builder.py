@@ -5,10 +5,10 @@ import numpy as np
 
 from analytic.scene.feet import drops
 from mjsim.files.assets import BARE
+from mjsim.model.appearance.stage import stage
+from mjsim.model.bodies.limbs import tree_spec
+from mjsim.model.bodies.parts import PREFIX, set_options, start_height
 from mjsim.model.ceiling import add_ceiling
-from mjsim.model.limbs import tree_spec
-from mjsim.model.parts import PREFIX, set_options, start_height
-from mjsim.model.stage import stage
 from mjsim.scene import Resolved, Scene, registry
 
 _CREEP = 0.1  # of friction that sticks; at 0.03 of it walks of the cable change by 4 %; measured

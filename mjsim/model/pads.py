@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.limbs import LimbedRobot
-from mjsim.model.parts import PREFIX
+from mjsim.model.bodies.parts import PREFIX
 from mjsim.scene import Scene
 
 Pads = NDArray[np.int_]

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mjsim.pictures.frames import Frame
-from mjsim.pictures.limb_look import LimbLook
-from mjsim.pictures.look import Look
-from mjsim.pictures.strip_look import StripLook
+from mjsim.pictures.looks.limb_look import LimbLook
+from mjsim.pictures.looks.look import Look
+from mjsim.pictures.looks.strip_look import StripLook
 from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Scene, resolved
 

@@ -4,11 +4,11 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from mjsim.model.limb_skins import CAMERA
-from mjsim.model.limbs import limbed
+from mjsim.model.appearance.limb_skins import CAMERA
+from mjsim.model.bodies.limbs import limbed
 from mjsim.pictures.camera import View, WalkCamera
 from mjsim.pictures.frames import HEIGHT, WIDTH, Frame
-from mjsim.pictures.limb_look import OVERHEAD
+from mjsim.pictures.looks.limb_look import OVERHEAD
 from mjsim.pictures.overlay import INK
 from mjsim.results.trajectory import Trajectory
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from analytic.scene.limbs import chambers_by_limb, plan, rotation
-from mjsim.model.limbs import limbed
+from mjsim.model.bodies.limbs import limbed
 from mjsim.pictures.frames import Frame
 from mjsim.pictures.overlay import BLUE, INK, Colour, Overlay, Pen
 from mjsim.results.shades import shade_of_pixels

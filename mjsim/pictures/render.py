@@ -6,7 +6,7 @@ from PIL import Image, ImageDraw
 
 from mjsim.pictures.camera import WalkCamera
 from mjsim.pictures.frames import Frame
-from mjsim.pictures.strip_look import scale_of
+from mjsim.pictures.looks.strip_look import scale_of
 from mjsim.results.plots import anchored
 from mjsim.results.trajectory import Trajectory
 
@@ -22,7 +22,7 @@ class Camera(WalkCamera):
     Args:
         walk: what to draw.
         width, height: of a frame, even [pixels]; at most 1280 x 720.
-        view: a camera of mjsim/model/stage.xml.
+        view: a camera of mjsim/model/appearance/stage.xml.
     """
 
     def __init__(self, walk: Trajectory, width: int, height: int, view: str = "side") -> None:

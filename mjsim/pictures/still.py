@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mjsim.model.limb_skins import CAMERA
+from mjsim.model.appearance.limb_skins import CAMERA
 from mjsim.pictures.camera import View, look
 from mjsim.pictures.frames import Frame
 from mjsim.scene import Numerics, Scene
@@ -28,7 +28,7 @@ class Still:
     def draw(
         self, position: NDArray[np.float64], coordinates: NDArray[np.float64], fractions: ArrayLike
     ) -> Frame:
-        """The robot as it is, see mjsim.pictures.look.Look.pose."""
+        """The robot as it is, see mjsim.pictures.looks.look.Look.pose."""
         self._look.pose(position, coordinates, np.asarray(fractions, dtype=float))
         self._view.update()
         return self._view.render()

@@ -17,7 +17,7 @@ from analytic.scene.limbs import acting_pressures, limbs_of
 from analytic.scene.surface import Surface
 from analytic.shapes import ContactShapes, Flag
 from analytic.solvers.models import Elastica
-from mjsim.model.limbs import longest_step
+from mjsim.model.bodies.limbs import longest_step
 from mjsim.results.coasting import coasting
 from mjsim.results.prediction import Reference, displacement, prediction
 from mjsim.results.trajectory import Trajectory

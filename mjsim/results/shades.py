@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from mjsim.model.parts import DARK, PALE
+from mjsim.model.bodies.parts import DARK, PALE
 
 
 def shade(fraction: float) -> NDArray[np.float64]:

@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING
 from analytic.registry import Registry
 
 if TYPE_CHECKING:
-    from mjsim.model.body import Body
+    from mjsim.model.bodies.body import Body
 
 BODIES: "Registry[Body]" = Registry(
     "undulator.bodies",
-    {name: f"mjsim.model.{name}:BODY" for name in ("chain", "cable", "rod")},
+    {name: f"mjsim.model.bodies.{name}:BODY" for name in ("chain", "cable", "rod")},
 )
 
 

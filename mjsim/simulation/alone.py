@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from analytic.scene.chain import segment_overlap
 from analytic.scene.gait import Gait
 from analytic.scene.limbs import usual_twists
-from mjsim.model.shoes import refusal
-from mjsim.model.standalone import standalone_spec
+from mjsim.model.standalone.shoes import refusal
+from mjsim.model.standalone.strips import standalone_spec
 from mjsim.results.prediction import reference
 from mjsim.scene import Numerics, Resolved, Scene, resolved
 from mjsim.simulation.schedule import before_start, walking

@@ -13,10 +13,10 @@ from analytic.scene.limbs import memory
 from mjsim.friction.footing import footing
 from mjsim.friction.in_plane import LimbFooting
 from mjsim.friction.recorder import ContactRecorder
+from mjsim.model.bodies.limbs import Hinges
 from mjsim.model.builder import compile_model
 from mjsim.model.chambers import ChamberPressures
 from mjsim.model.compiled import Compiled
-from mjsim.model.limbs import Hinges
 from mjsim.model.pads import pads_of
 from mjsim.results.judge import judge
 from mjsim.results.status import AT_REST, Status

@@ -2,7 +2,7 @@
 
 import math
 
-from mjsim.files.tables import build
+from mjsim.files.scene_tables.tables import build
 from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics
 from mjsim.simulation.checked import agreement, refinements

@@ -35,10 +35,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.checks import is_number, one_of, whole
-from mjsim.files.keys import NAMES, check_keys
-from mjsim.files.quantities import check_field, field_value, with_fields
-from mjsim.files.tables import Tables, build, read_tables
-from mjsim.files.typed import read_toml
+from mjsim.files.scene_tables.keys import NAMES, check_keys
+from mjsim.files.scene_tables.quantities import check_field, field_value, with_fields
+from mjsim.files.scene_tables.tables import Tables, build, read_tables
+from mjsim.files.scene_tables.typed import read_toml
 from mjsim.results.prediction import QUASI_STATIC
 from mjsim.scene import Numerics, Scene
 from mjsim.scene.auto import check_tolerance

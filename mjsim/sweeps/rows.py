@@ -12,8 +12,8 @@ from analytic.locomotion import direction
 from analytic.shapes import Flag
 from analytic.solvers.models import REFERENCE
 from analytic.uncertainty import UNSOUND, modes_error
-from mjsim.files.quantities import with_fields
-from mjsim.files.tables import Tables, build
+from mjsim.files.scene_tables.quantities import with_fields
+from mjsim.files.scene_tables.tables import Tables, build
 from mjsim.results.prediction import (
     QUASI_STATIC,
     displacement,

@@ -16,7 +16,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import IO, Any
 
-from mjsim.files.quantities import field_text, field_unit
+from mjsim.files.scene_tables.quantities import field_text, field_unit
 from mjsim.results.provenance import machine, origin
 from mjsim.sweeps.plan import Plan
 from mjsim.sweeps.rows import OUTPUTS, Row

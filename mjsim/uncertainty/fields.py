@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.special import ndtri
 
 from analytic.checks import missing
-from mjsim.files.tables import Tables, build
+from mjsim.files.scene_tables.tables import Tables, build
 from mjsim.files.units import in_unit
 from mjsim.fitting.parameters import OWN_GROUND, check_free, unit_of, value_of, with_values
 

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from analytic.locomotion import direction
-from mjsim.files.tables import Tables, build
+from mjsim.files.scene_tables.tables import Tables, build
 from mjsim.fitting.parameters import with_values
 from mjsim.results.prediction import HALF, displacement, prediction, reference
 from mjsim.scene import Numerics

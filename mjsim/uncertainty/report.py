@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from mjsim.files.tables import Tables
+from mjsim.files.scene_tables.tables import Tables
 from mjsim.uncertainty.fields import Spread
 from mjsim.uncertainty.interval import Interval, distance_interval
 

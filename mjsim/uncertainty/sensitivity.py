@@ -17,8 +17,8 @@ from analytic.locomotion import STANDSTILL
 from analytic.prediction import Prediction
 from analytic.scene.limbs import limbs_of
 from analytic.scene.surface import Surface
-from mjsim.files.tables import Tables, build
-from mjsim.files.written import as_tables
+from mjsim.files.scene_tables.tables import Tables, build
+from mjsim.files.scene_tables.written import as_tables
 from mjsim.fitting.parameters import nominal, unit_of, with_values
 from mjsim.results.prediction import displacement, prediction, reference
 from mjsim.scene import Numerics, Scene

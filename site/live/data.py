@@ -32,11 +32,11 @@ from analytic.solvers.limbs.resting_limb import resting_limbs
 from mjsim import SURFACES, Scene, measure, reference, simulate
 from mjsim.files.assets import MODELS
 from mjsim.friction.footing import feet_may_be, thrown
+from mjsim.model.bodies.limbs import ROWS, hinge_prefix, joints_to, link_prefix, point_names
+from mjsim.model.bodies.parts import PREFIX, TENDONS, contact_softness, tie_force
 from mjsim.model.builder import bare_spec, compiled
-from mjsim.model.limbs import ROWS, hinge_prefix, joints_to, link_prefix, point_names
 from mjsim.model.pads import edges, pads_of
-from mjsim.model.parts import PREFIX, TENDONS, contact_softness, tie_force
-from mjsim.model.standalone_limbs import allow_rounding
+from mjsim.model.standalone.limbs import allow_rounding
 from mjsim.results.prediction import HALF, error_bars
 from mjsim.results.status import AT_REST, THROWN
 from mjsim.scene import Resolved, resolved

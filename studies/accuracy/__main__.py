@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mjsim.files.cli import choose, fail, parse
+from mjsim.files.command_line.cli import choose, fail, parse
 from mjsim.files.files import check_folder
 from studies.accuracy import figure
 from studies.accuracy.cases import CASES, grid, measured

@@ -8,8 +8,8 @@ import numpy as np
 
 from analytic.scene import pneunet
 from analytic.solvers.elastica.cantilever import solve_cantilever
-from mjsim.model.parts import set_options
-from mjsim.model.rod import rest_stiffness
+from mjsim.model.bodies.parts import set_options
+from mjsim.model.bodies.rod import rest_stiffness
 from mjsim.scene import INTEGRATORS, Scene, registry, resolved
 from studies import Array
 from studies.accuracy.heavy_cantilever import DAMPING, DURATION, settled, strip

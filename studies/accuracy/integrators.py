@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd  # type: ignore[import-untyped]
 
 from analytic import SURFACES
-from mjsim.files.cli import fail, parse
+from mjsim.files.command_line.cli import fail, parse
 from mjsim.files.files import check_folder
 from mjsim.results.measures import measure
 from mjsim.scene import INTEGRATORS, Numerics, Scene

@@ -10,7 +10,7 @@ from pathlib import Path
 import matplotlib
 import xarray as xr
 
-from mjsim.files.cli import bar, choose, fail, parse
+from mjsim.files.command_line.cli import bar, choose, fail, parse
 from mjsim.files.files import whole
 from mjsim.results.provenance import origin
 from studies.drawing import FONT, save

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from matplotlib.figure import Figure
 
-from mjsim.files.cli import choose, fail, parse
+from mjsim.files.command_line.cli import choose, fail, parse
 from mjsim.scene import registry
 from studies.drawing import save
 from studies.stability import figure, maps, parameters

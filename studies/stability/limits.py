@@ -7,8 +7,8 @@ import mujoco
 import numpy as np
 from scipy.linalg import eigh, null_space
 
+from mjsim.model.bodies.rod import rest_stiffness
 from mjsim.model.builder import compile_model
-from mjsim.model.rod import rest_stiffness
 from mjsim.scene import Numerics, Scene, resolved
 from studies import Array
 

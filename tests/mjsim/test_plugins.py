@@ -13,9 +13,9 @@ from analytic.friction.laws import LAWS, ConstantBounds, register
 from analytic.registry import Registry
 from mjsim.commands import run, sweep
 from mjsim.files import plugins
-from mjsim.files.cli import BAD_INPUT
+from mjsim.files.command_line.cli import BAD_INPUT
 from mjsim.fitting.walks import by_mujoco
-from mjsim.model.chain import Chain
+from mjsim.model.bodies.chain import Chain
 from mjsim.scene import Numerics, Scene, registry
 from mjsim.simulation.batch import Refused, simulate_all
 from mjsim.simulation.simulation import simulate
@@ -25,7 +25,7 @@ COARSE = Numerics(links=6, timestep=0.02)
 LAW = """
 from analytic.friction.laws import ConstantBounds, register
 from mjsim.scene import registry
-from mjsim.model.chain import Chain
+from mjsim.model.bodies.chain import Chain
 
 class Firm(ConstantBounds):
     name = "firm"

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from analytic import GAITS, SURFACES, Elastica, Friction, Gait, Robot, Surface, predict
 from mjsim.commands import run
-from mjsim.files import cli
+from mjsim.files.command_line import cli
 from mjsim.results import prediction
 from mjsim.results.measures import Measures, measure
 from mjsim.results.status import Status

@@ -10,7 +10,7 @@ import pytest
 from written import PAGES, TOP, blocks, prose
 
 from mjsim.commands import run
-from mjsim.files.tables import build, read_tables
+from mjsim.files.scene_tables.tables import build, read_tables
 from mjsim.sweeps.plan import read_plan
 
 LANGUAGES = {"sh", "python", "toml", "text"}

@@ -10,8 +10,8 @@ import pytest
 from written import TOP, commands
 
 from mjsim.commands.undulator import COMMANDS
-from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import build
+from mjsim.files.command_line.options import SceneOptions, tables_of
+from mjsim.files.scene_tables.tables import build
 
 MAKEFILE = (TOP / "Makefile").read_text()
 EXTRAS = tomllib.loads((TOP / "pyproject.toml").read_text())["project"]["optional-dependencies"]

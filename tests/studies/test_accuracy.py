@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from walks import refusal
 
 from mjsim.commands import run
-from mjsim.files import cli
+from mjsim.files.command_line import cli
 from mjsim.scene import Scene
 from mjsim.simulation.checked import refinements
 from studies.accuracy import __main__ as chart

@@ -9,7 +9,7 @@ from walks import HEAVIER
 
 from analytic import GAITS, SURFACES, Mode, Robot, predict
 from analytic.scene import pneunet
-from mjsim.files import cli
+from mjsim.files.command_line import cli
 from studies.paper import amplitude, contact
 from studies.paper.__main__ import FIGURES, main, make, page
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from analytic import SURFACES
-from mjsim.files import cli
+from mjsim.files.command_line import cli
 from mjsim.results.status import Status
 from mjsim.scene import Numerics, Scene, registry
 from mjsim.simulation.simulation import simulate

@@ -14,7 +14,7 @@ import numpy as np
 from analytic.scene.actuator import Actuator
 from analytic.solvers.limbs.walk import walk
 from mjsim import Numerics, Scene, build, simulate
-from mjsim.files.tables import Tables
+from mjsim.files.scene_tables.tables import Tables
 from studies import Array
 from zoo.terresoro_iv.hub import HERE, LIMBS, gaits, measured_cycles, turned
 from zoo.terresoro_iv.limbs import (

@@ -12,7 +12,7 @@ from mujoco.batch import Batch
 from numpy.typing import NDArray
 
 from mjsim.friction.node_tendons import WRAPS, mean_sites, node_tendons
-from mjsim.model.parts import FAR
+from mjsim.model.bodies.parts import FAR
 from mjsim.scene import Resolved, Scene
 from mjsim.simulation.side_by_side.contacts import (
     AnchorRows,

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from analytic.friction.flat_load import flat_length
 from analytic.friction.laws import slip_fraction
 from analytic.scene.chain import node_positions
+from mjsim.model.bodies.parts import FAR, PREFIX, TENDONS, contact_softness, tie_force
 from mjsim.model.pads import pads_by_node
-from mjsim.model.parts import FAR, PREFIX, TENDONS, contact_softness, tie_force
 from mjsim.scene import Resolved, Scene
 from mjsim.simulation.side_by_side.ground import GroundRows
 

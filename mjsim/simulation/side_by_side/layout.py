@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from analytic.scene.ground import Patches, is_round, surfaces_of
 from analytic.scene.surface import Surface
+from mjsim.model.bodies.parts import PREFIX
 from mjsim.model.builder import bare_spec, compiled
-from mjsim.model.parts import PREFIX
 from mjsim.scene import Resolved, Scene
 from mjsim.simulation.schedule import before_start
 from mjsim.simulation.side_by_side.between import BATCH_LAWS

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.scene.chain import link_lengths
-from mjsim.model.parts import TOUCH
+from mjsim.model.bodies.parts import TOUCH
 from mjsim.results.judge import judge
 from mjsim.results.status import Status
 from mjsim.results.trajectory import Trajectory

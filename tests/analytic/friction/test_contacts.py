@@ -17,7 +17,7 @@ from analytic.scene.chain import node_positions
 from analytic.scene.surface import from_ratios
 from analytic.solvers.elastica import solve_elastica
 from analytic.solvers.models import Elastica
-from mjsim.files.tables import build
+from mjsim.files.scene_tables.tables import build
 from mjsim.results.measures import measure
 from mjsim.results.prediction import displacement, prediction
 from mjsim.scene import Scene

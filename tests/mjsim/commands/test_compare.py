@@ -10,7 +10,7 @@ from walks import coarsen
 from analytic import GAITS, SURFACES, Robot
 from analytic.scene.feet import Foot
 from mjsim.commands.compare import COLUMNS, compare, main, models
-from mjsim.files import cli
+from mjsim.files.command_line import cli
 from mjsim.scene import Scene
 
 

@@ -19,10 +19,10 @@ from mjsim import load
 from mjsim.commands import analysis, compare, export, fit, optimise, run, sweep
 from mjsim.env.settings import Settings
 from mjsim.env.task import Walker
-from mjsim.files.tables import build, merged, read_tables
+from mjsim.files.scene_tables.tables import build, merged, read_tables
 from mjsim.optimising.objective import Objective, coarse
 from mjsim.optimising.space import Space
-from mjsim.pictures.live_session import Session
+from mjsim.pictures.live.session import Session
 from mjsim.results import prediction
 from mjsim.results.measures import measure
 from mjsim.results.trajectory import Trajectory

@@ -10,9 +10,9 @@ from mujoco import rollout
 
 from analytic import GAITS, SURFACES, Robot
 from mjsim.commands import export
-from mjsim.files import cli
 from mjsim.files.assets import MODELS
-from mjsim.model.standalone import standalone_spec, walking_scene
+from mjsim.files.command_line import cli
+from mjsim.model.standalone.strips import standalone_spec, walking_scene
 from mjsim.results.measures import measure
 from mjsim.scene import Scene, registry
 from mjsim.simulation import alone

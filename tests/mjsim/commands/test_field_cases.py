@@ -14,7 +14,8 @@ from walks import HEAVIER, refusal
 from analytic import GAITS, SURFACES, Friction, Gait, Robot, Surface, predict
 from analytic.solvers.elastica.cantilever import solve_cantilever
 from mjsim.commands import replay, run
-from mjsim.files import cli, files
+from mjsim.files import files
+from mjsim.files.command_line import cli
 from mjsim.results import trajectory
 from mjsim.results.judge import slid
 from mjsim.results.measures import measure, slid_over_length

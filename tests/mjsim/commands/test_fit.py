@@ -8,7 +8,7 @@ import pytest
 from matplotlib.image import imread
 
 from mjsim.commands import fit
-from mjsim.files.tables import build
+from mjsim.files.scene_tables.tables import build
 
 HEAD = "surface,robot.peak_pressure [kPa],displacement [mm],height [mm]\n"
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from mjsim.commands import fit, ground, run
-from mjsim.files.cli import parse
-from mjsim.files.tables import build, read_tables
+from mjsim.files.command_line.cli import parse
+from mjsim.files.scene_tables.tables import build, read_tables
 from mjsim.fitting.parameters import parameters
 
 TOP = Path(__file__).resolve().parents[3]

@@ -10,7 +10,7 @@ import pytest
 
 from analytic import SURFACES
 from mjsim.commands import replay, run
-from mjsim.files import cli
+from mjsim.files.command_line import cli
 from mjsim.pictures import gl
 
 pytestmark = pytest.mark.usefixtures("coarse")

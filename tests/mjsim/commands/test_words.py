@@ -6,8 +6,8 @@ from analytic.units import in_unit
 from mjsim import Gait, Numerics, Robot, Scene, Surface, Valves, as_tables, simulate
 from mjsim.commands.run import main
 from mjsim.files.csv_table import head_of
-from mjsim.files.quantities import check_field
-from mjsim.files.tables import build
+from mjsim.files.scene_tables.quantities import check_field
+from mjsim.files.scene_tables.tables import build
 from mjsim.files.text_table import Column
 from mjsim.scene import resolved
 from mjsim.sweeps.export import with_unit

@@ -3,7 +3,7 @@ import pytest
 
 from analytic.scene import pneunet
 from mjsim import Robot, Scene, as_tables, as_toml, build, measure, read_tables, simulate
-from mjsim.files.actuator_files import make_robot
+from mjsim.files.scene_tables.actuator_files import make_robot
 from mjsim.results.prediction import reference
 from mjsim.results.provenance import configuration, provenance
 from mjsim.scene.numerics import Numerics

@@ -5,7 +5,7 @@ import pytest
 from many_seeds import BASE, TRUTH, fits, track
 
 from analytic.scene import pneunet
-from mjsim.files.tables import build
+from mjsim.files.scene_tables.tables import build
 from mjsim.fitting.determined import at_bounds, undetermined
 from mjsim.fitting.estimate import estimate
 from mjsim.fitting.observations import Run, Series

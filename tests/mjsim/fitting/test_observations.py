@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mjsim.files.tables import build
+from mjsim.files.scene_tables.tables import build
 from mjsim.fitting.observations import Run, read_observations
 from mjsim.fitting.parameters import with_values
 

@@ -6,7 +6,7 @@ import re
 import pytest
 
 from analytic import SURFACES
-from mjsim.files.tables import build
+from mjsim.files.scene_tables.tables import build
 from mjsim.fitting.parameters import parameters, with_values
 
 BASE = {"ground": {"tip_force": 0.02, "shear_strength": 10.0}}

@@ -7,7 +7,7 @@ import pytest
 from analytic import Robot
 from analytic.scene.surface import SURFACES
 from mjsim.friction.node_tendons import NodeTendons
-from mjsim.model.parts import FAR
+from mjsim.model.bodies.parts import FAR
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.simulation import Simulation, simulate
 

@@ -21,8 +21,8 @@ from analytic import (
     solve_obstacle,
 )
 from analytic.scene import pneunet
-from mjsim.files.tables import build
-from mjsim.files.written import as_tables
+from mjsim.files.scene_tables.tables import build
+from mjsim.files.scene_tables.written import as_tables
 from mjsim.model.builder import compile_model
 from mjsim.optimising.objective import Objective
 from mjsim.results.measures import measure

@@ -8,7 +8,7 @@ from analytic.scene.limbs import quadruped
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import SURFACES
 from mjsim.friction.friction_rows import FrictionRows
-from mjsim.model.limbs import ROWS
+from mjsim.model.bodies.limbs import ROWS
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.simulation import Simulation
 

@@ -9,10 +9,10 @@ import pytest
 from analytic import GAITS, SURFACES, Robot
 from analytic.scene.feet import Foot
 from analytic.scene.surface import Surface
-from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import build, merged, read_tables
-from mjsim.files.written import as_tables
-from mjsim.model.standalone import standalone_spec
+from mjsim.files.command_line.options import SceneOptions, tables_of
+from mjsim.files.scene_tables.tables import build, merged, read_tables
+from mjsim.files.scene_tables.written import as_tables
+from mjsim.model.standalone.strips import standalone_spec
 from mjsim.pictures.camera import look
 from mjsim.results.measures import measure
 from mjsim.results.prediction import reference

@@ -7,9 +7,9 @@ import pytest
 from analytic import GAITS, SURFACES, Foot, Robot, Tether
 from analytic.scene.gait import Gait
 from analytic.scene.surface import Surface
-from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import build
-from mjsim.files.written import as_tables
+from mjsim.files.command_line.options import SceneOptions, tables_of
+from mjsim.files.scene_tables.tables import build
+from mjsim.files.scene_tables.written import as_tables
 from mjsim.results.measures import measure
 from mjsim.results.prediction import reference
 from mjsim.results.trajectory import load

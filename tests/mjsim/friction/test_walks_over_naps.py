@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from analytic import SURFACES, Gait, predict
-from mjsim.model.standalone import standalone_spec
+from mjsim.model.standalone.strips import standalone_spec
 from mjsim.results.measures import measure
 from mjsim.results.status import Status
 from mjsim.scene import Numerics, Scene

@@ -15,9 +15,9 @@ from analytic.scene.pneunet import base_rigidity
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import SURFACES, Surface
 from mjsim.commands import run
-from mjsim.files.limb_tables import build_robot
-from mjsim.files.tables import build, merged, read_tables
-from mjsim.model.standalone import standalone_spec, write
+from mjsim.files.scene_tables.limb_tables import build_robot
+from mjsim.files.scene_tables.tables import build, merged, read_tables
+from mjsim.model.standalone.strips import standalone_spec, write
 from mjsim.results import record
 from mjsim.results.file_names import file_name
 from mjsim.scene import Numerics, Scene, resolved

@@ -14,9 +14,9 @@ from analytic.solvers.limbs.contact_state import Contact
 from analytic.solvers.limbs.contacts import Contacts
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.walk import walk
-from mjsim.files.tables import build
-from mjsim.files.written import as_tables
-from mjsim.model.standalone import standalone_spec
+from mjsim.files.scene_tables.tables import build
+from mjsim.files.scene_tables.written import as_tables
+from mjsim.model.standalone.strips import standalone_spec
 from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.simulation import simulate

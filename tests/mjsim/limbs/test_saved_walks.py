@@ -15,8 +15,8 @@ from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import SURFACES, Surface
 from mjsim import load
 from mjsim.commands import replay, report
-from mjsim.files.tables import build
-from mjsim.files.written import as_tables, as_toml
+from mjsim.files.scene_tables.tables import build
+from mjsim.files.scene_tables.written import as_tables, as_toml
 from mjsim.model.pads import pads_of
 from mjsim.pictures import gl
 from mjsim.scene import Numerics, Scene

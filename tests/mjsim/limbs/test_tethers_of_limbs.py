@@ -10,10 +10,10 @@ from analytic.scene.limbs import as_strip
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import Surface
 from analytic.solvers.limbs.walk import walk
-from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import build
-from mjsim.files.written import as_tables
-from mjsim.model.standalone import standalone_spec
+from mjsim.files.command_line.options import SceneOptions, tables_of
+from mjsim.files.scene_tables.tables import build
+from mjsim.files.scene_tables.written import as_tables
+from mjsim.model.standalone.strips import standalone_spec
 from mjsim.results.measures import measure
 from mjsim.results.prediction import reference
 from mjsim.scene import Numerics, Scene

@@ -16,10 +16,10 @@ from analytic.scene.robot import Robot
 from analytic.scene.surface import SURFACES
 from analytic.solvers.limbs.kinematics import WHOLE, Tree
 from analytic.solvers.limbs.walk import walk as quasi_static
+from mjsim.model.bodies.limbs import ROOT, hinge_prefix, twist_prefix
+from mjsim.model.bodies.parts import PREFIX
 from mjsim.model.builder import compile_model
-from mjsim.model.limbs import ROOT, hinge_prefix, twist_prefix
 from mjsim.model.pads import edges, pads_of
-from mjsim.model.parts import PREFIX
 from mjsim.results.prediction import reference
 from mjsim.results.status import Status
 from mjsim.results.trajectory import load

@@ -15,8 +15,8 @@ from analytic.solvers.limbs.resting_limb import ripple
 from analytic.solvers.limbs.statics import Statics
 from analytic.solvers.limbs.walk import walk as quasi_static
 from mjsim.friction.in_plane import LimbFooting
-from mjsim.model.limbs import longest_step
-from mjsim.model.parts import PREFIX
+from mjsim.model.bodies.limbs import longest_step
+from mjsim.model.bodies.parts import PREFIX
 from mjsim.results.status import Status
 from mjsim.scene import Numerics, Scene, resolved
 from mjsim.simulation.simulation import Simulation, simulate

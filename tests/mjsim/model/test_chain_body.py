@@ -6,9 +6,9 @@ import pytest
 
 from analytic import Robot
 from analytic.scene.surface import from_ratios
+from mjsim.model.appearance.skin import add_skins
+from mjsim.model.bodies.parts import FAR, TOUCH
 from mjsim.model.builder import compile_model, scene_spec
-from mjsim.model.parts import FAR, TOUCH
-from mjsim.model.skin import add_skins
 from mjsim.scene import Numerics, Scene
 
 NUMERICS = Numerics().resolved("chain", "constant")

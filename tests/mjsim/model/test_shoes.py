@@ -8,8 +8,8 @@ import pytest
 from analytic import GAITS, SURFACES, Robot
 from analytic.scene.ground import Patches
 from analytic.scene.surface import Surface
-from mjsim.model.shoes import refusal, signed_lengths
-from mjsim.model.standalone import standalone_spec
+from mjsim.model.standalone.shoes import refusal, signed_lengths
+from mjsim.model.standalone.strips import standalone_spec
 from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.alone import distance

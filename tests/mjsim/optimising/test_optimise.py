@@ -23,7 +23,7 @@ from analytic.scene.trapezoid import staggered, trapezoid
 from analytic.solvers.models import Elastica, Lifted
 from analytic.uncertainty import flagged_change
 from mjsim.commands.optimise import main
-from mjsim.files.tables import build
+from mjsim.files.scene_tables.tables import build
 from mjsim.optimising.confirm import _times
 from mjsim.optimising.objective import Objective
 from mjsim.optimising.search import search

@@ -10,7 +10,7 @@ import pytest
 from analytic import GAITS, SURFACES, Robot, predict
 from analytic.scene.gait import Gait
 from mjsim.commands import optimise
-from mjsim.files.tables import merged
+from mjsim.files.scene_tables.tables import merged
 from mjsim.optimising.objective import Objective
 from mjsim.optimising.valve_times import valve_times, within_supply, write
 from mjsim.scene import Scene

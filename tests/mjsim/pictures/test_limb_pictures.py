@@ -13,7 +13,7 @@ from walks import walk
 from analytic.scene.limbs import LENGTH, quadruped
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import SURFACES
-from mjsim.model.limb_skins import CAMERA
+from mjsim.model.appearance.limb_skins import CAMERA
 from mjsim.pictures.camera import View, look
 from mjsim.pictures.frames import how_much_faster
 from mjsim.pictures.limb_overlay import LimbOverlay

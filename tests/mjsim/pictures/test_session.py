@@ -7,7 +7,7 @@ from walks import walk
 from analytic import SURFACES
 from analytic.scene.surface import Surface
 from mjsim.commands import view
-from mjsim.pictures.live_session import Session
+from mjsim.pictures.live.session import Session
 from mjsim.results.status import Status
 from mjsim.scene import Numerics, Scene
 

@@ -8,7 +8,7 @@ from walks import walk
 
 from analytic import GAITS, SURFACES, Robot
 from analytic.scene.chain import link_lengths
-from mjsim.model.parts import tie_force
+from mjsim.model.bodies.parts import tie_force
 from mjsim.results.mechanics import balance, bending, slip
 from mjsim.scene import Scene
 from mjsim.simulation.simulation import simulate

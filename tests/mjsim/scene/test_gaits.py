@@ -8,8 +8,8 @@ from walks import measured, predicted, refusal
 from analytic import GAITS, SURFACES, Friction, Gait, Robot
 from analytic.scene.surface import from_ratios
 from mjsim.commands import run
-from mjsim.files import cli
-from mjsim.files.tables import build_gait
+from mjsim.files.command_line import cli
+from mjsim.files.scene_tables.tables import build_gait
 from mjsim.results.measures import measure
 from mjsim.results.record import reference
 from mjsim.results.status import Status

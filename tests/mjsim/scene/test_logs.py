@@ -11,9 +11,9 @@ from analytic import GAITS, Gait
 from analytic.scene.robot import PSI
 from mjsim import measure, reference, simulate
 from mjsim.commands.run import main
-from mjsim.files.measured import Series, as_gait, read_series
-from mjsim.files.mergers import merged
-from mjsim.files.tables import build
+from mjsim.files.gaits.measured import Series, as_gait, read_series
+from mjsim.files.gaits.mergers import merged
+from mjsim.files.scene_tables.tables import build
 from mjsim.scene import Numerics
 
 PEAK = 7 * PSI

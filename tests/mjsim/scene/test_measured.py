@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from analytic import GAITS, Gait
 from analytic.scene.robot import PSI
 from mjsim.commands.run import main
-from mjsim.files.measured import Series, as_gait, read_series
-from mjsim.files.tables import build, merged
+from mjsim.files.gaits.measured import Series, as_gait, read_series
+from mjsim.files.scene_tables.tables import build, merged
 from mjsim.results.record import record
 from mjsim.scene import Numerics
 from mjsim.simulation.simulation import simulate

@@ -12,11 +12,11 @@ from analytic.scene.limbs import as_strip
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.robot import GRAVITY
 from analytic.solvers.limbs.walk import walk
-from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import build, read_tables
-from mjsim.files.written import as_tables
+from mjsim.files.command_line.options import SceneOptions, tables_of
+from mjsim.files.scene_tables.tables import build, read_tables
+from mjsim.files.scene_tables.written import as_tables
 from mjsim.model.builder import compile_model
-from mjsim.model.standalone import standalone_spec
+from mjsim.model.standalone.strips import standalone_spec
 from mjsim.pictures.camera import look
 from mjsim.results.measures import measure
 from mjsim.results.mechanics import balance, bending

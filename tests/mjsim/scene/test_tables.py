@@ -10,9 +10,9 @@ from walks import refusal
 from analytic import GAITS, SURFACES, Gait, Robot, Surface
 from analytic.scene.trapezoid import trapezoid
 from mjsim import Scene
-from mjsim.files.dataclass_options import field_docs
-from mjsim.files.options import SceneOptions, tables_of
-from mjsim.files.tables import build, merged, read_tables
+from mjsim.files.command_line.dataclass_options import field_docs
+from mjsim.files.command_line.options import SceneOptions, tables_of
+from mjsim.files.scene_tables.tables import build, merged, read_tables
 from mjsim.scene import Numerics
 
 TOML = """

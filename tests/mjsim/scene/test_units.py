@@ -2,7 +2,7 @@ import pytest
 
 from analytic.fields import units
 from mjsim.commands.run import main
-from mjsim.files.tables import build
+from mjsim.files.scene_tables.tables import build
 from mjsim.files.units import in_unit
 from mjsim.scene import Numerics, Scene
 

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from analytic import GAITS, SURFACES, Gait, Patches, Robot, Surface
-from mjsim.files.tables import build
-from mjsim.files.written import as_tables, as_toml
+from mjsim.files.scene_tables.tables import build
+from mjsim.files.scene_tables.written import as_tables, as_toml
 from mjsim.scene import Numerics, Scene, Valves
 
 FELT = SURFACES["felt"]

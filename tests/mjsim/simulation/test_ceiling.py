@@ -12,10 +12,10 @@ from analytic import Gait, Robot, Surface
 from analytic.scene import pneunet
 from mjsim.commands import run
 from mjsim.commands.compare import compare
-from mjsim.files.tables import build
-from mjsim.files.written import as_tables
+from mjsim.files.scene_tables.tables import build
+from mjsim.files.scene_tables.written import as_tables
 from mjsim.fitting.walks import quasi_static
-from mjsim.model.standalone import standalone_spec
+from mjsim.model.standalone.strips import standalone_spec
 from mjsim.results.measures import measure
 from mjsim.results.prediction import prediction, reference
 from mjsim.results.trajectory import load

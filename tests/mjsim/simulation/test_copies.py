@@ -9,7 +9,7 @@ import pytest
 from analytic.friction.laws import ConstantBounds, register
 from analytic.scene.limbs import quadruped
 from analytic.scene.surface import SURFACES
-from mjsim.model.chain import Chain
+from mjsim.model.bodies.chain import Chain
 from mjsim.scene import Numerics, Scene, registry
 from mjsim.simulation.schedule import walking
 from mjsim.simulation.simulation import Simulation

@@ -10,7 +10,7 @@ from walks import refusal
 
 from analytic import GAITS, SURFACES, Patches, predict
 from mjsim.commands import run
-from mjsim.files.tables import build, read_tables
+from mjsim.files.scene_tables.tables import build, read_tables
 from mjsim.results.provenance import provenance
 from mjsim.results.trajectory import load
 from mjsim.scene import Scene

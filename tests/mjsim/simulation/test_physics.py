@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analytic import SURFACES, Robot
-from mjsim.model.standalone import walking_scene
+from mjsim.model.standalone.strips import walking_scene
 from mjsim.scene import Scene
 from mjsim.simulation.simulation import Simulation
 

@@ -8,8 +8,8 @@ import pytest
 
 from analytic import GAITS, LAWS, SURFACES, Elastica, Patches, Robot, Surface, predict
 from analytic.friction import laws as laws
-from mjsim.model.chain import Chain
-from mjsim.model.standalone import write
+from mjsim.model.bodies.chain import Chain
+from mjsim.model.standalone.strips import write
 from mjsim.results.measures import measure
 from mjsim.results.status import Status
 from mjsim.scene import Numerics, Scene, registry

@@ -5,8 +5,8 @@ import pytest
 
 from analytic.scene.limbs import quadruped
 from analytic.scene.robot import Robot
+from mjsim.model.bodies.chain import Chain
 from mjsim.model.builder import compile_model
-from mjsim.model.chain import Chain
 from mjsim.scene import Numerics, Scene, registry
 from mjsim.simulation.simulation import Simulation
 

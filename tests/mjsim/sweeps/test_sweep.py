@@ -18,7 +18,7 @@ from poison import work
 from analytic.prediction import predict
 from mjsim.commands.sweep import main, sweep
 from mjsim.files.processes import clean_start
-from mjsim.files.tables import build
+from mjsim.files.scene_tables.tables import build
 from mjsim.results.measures import measure
 from mjsim.scene import Numerics
 from mjsim.simulation.checked import walk_checked

@@ -8,7 +8,7 @@ from walks import coarsen
 
 from analytic.scene.surface import SURFACES
 from mjsim.commands import run
-from mjsim.files.tables import merged
+from mjsim.files.scene_tables.tables import merged
 from mjsim.uncertainty.fields import Fitted, Within, read_spreads, values_at
 from mjsim.uncertainty.interval import (
     by_reference,

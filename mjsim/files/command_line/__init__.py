@@ -1,0 +1,1 @@
+"""Command lines: options from dataclasses and scenes, messages of one line, Ctrl-C."""

@@ -1,0 +1,1 @@
+"""Gaits from files: staged pressures, and what a sensor recorded."""

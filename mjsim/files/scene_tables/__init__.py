@@ -1,0 +1,1 @@
+"""Scenes as tables of plain values, from TOML and options, and back."""

@@ -1,0 +1,1 @@
+"""What a model looks like: skins, ground, lights, cameras, ruler."""

@@ -1,0 +1,1 @@
+"""Robots as MJCF: chain, cable, rod, limbs, and the parts that all have."""

@@ -1,0 +1,1 @@
+"""The live viewer: a walk that goes on, with a slider per chamber."""
