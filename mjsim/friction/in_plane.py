@@ -1,12 +1,13 @@
 """Friction of a robot of limbs: each contact resists by a bound in the plane, over its area.
 
 Contacts and their bounds are those of analytic.solvers.limbs.contacts, found from the forces of the
-step before. A tip resists at its points, a side at its middle as it slips and turns. Each point has
-three rows, see mjsim.friction.friction_rows: dry friction of the whole bound V along its slip s,
-turning included, or along the traction where it does not slide, and across that V v / |s|, where s
-is the slip of the step before: together the tangent of V s / |s|, as in Newton's method, so that
-friction opposes the slip whatever its direction. What the bounds leave open is left to viscosity at
-all contacts alike, as in analytic.friction.dissipation_in_plane; it is small beside them.
+step before. A tip resists at its points, a side at its middle, by load at that of its load, as it
+slips and turns. Each point has three rows, see mjsim.friction.friction_rows: dry friction of the
+whole bound V along its slip s, turning included, or along the traction where it does not slide, and
+across that V v / |s|, where s is the slip of the step before: together the tangent of V s / |s|, as
+in Newton's method, so that friction opposes the slip whatever its direction. What the bounds leave
+open is left to viscosity at all contacts alike, as in analytic.friction.dissipation_in_plane; it is
+small beside them.
 """
 
 import math

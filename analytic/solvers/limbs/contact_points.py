@@ -9,6 +9,7 @@ two moments beyond are right, so that a side turns about where its load is.
 import math
 from collections.abc import Sequence
 
+EVEN: tuple[float, ...] = ()  # parts of points that are alike
 _ALONG = (0.5 - 12**-0.5, 0.5 + 12**-0.5)
 _NARROW = 1e-9  # spread of the pushes over the length, within which they are at one place
 

@@ -18,7 +18,7 @@ from analytic.friction.contact_length import flat_pressures
 from analytic.friction.contacts import POINT, runs_without_gaps
 from analytic.friction.laws import LAWS
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb, check_tethers
-from analytic.solvers.limbs.contact_points import of_area, of_load
+from analytic.solvers.limbs.contact_points import EVEN, of_area, of_load
 from analytic.solvers.limbs.contact_state import TETHER, Contact, ContactState
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.rest import Rest
@@ -192,12 +192,11 @@ class ContactSearch:
         load, length = sum([force[vertex] for vertex in inner]), limb.length
         if len(run) > POINT:
             places = [place[vertex] for vertex in run]
-            push = [force[vertex] for vertex in run]
-            flat = min(limb.load.length_between(places, push), length)
+            flat = min(limb.load.length_between(places, [force[on] for on in run]), length)
             if flat > SHORT * length:
                 begin = min(max(0.5 * (places[0] + places[-1] - flat), 0.0), length - flat)
-                carried = [place[vertex] for vertex in inner], [force[vertex] for vertex in inner]
-                return self._contact(i, part, begin, flat, load, *carried)
+                pushes = [place[vertex] for vertex in inner], [force[vertex] for vertex in inner]
+                return self._contact(i, part, begin, flat, load, pushes)
         at = sum([place[vertex] * force[vertex] for vertex in inner]) / load
         if limb.segments > 1 or min(state.bends[i]) < 0:
             return self._contact(i, part, at, 0.0, load)
@@ -269,32 +268,27 @@ class ContactSearch:
         if side <= 0:
             return self._contact(i, end, tip, 0.0, load), 0.0, carried
         begin = tip if at_begin else tip - side
-        places = distance if at_begin else limb.arclength[::-1]
-        contact = self._contact(i, end, begin, side, load, places[:carried], force[:carried])
+        places = limb.arclength if at_begin else limb.arclength[::-1]
+        contact = self._contact(i, end, begin, side, load, (places[:carried], force[:carried]))
         return contact, total - load_from.of(side), carried
 
     def _contact(
         self, i: int, part: str, begin: float, length: float, load: float,
-        places: Sequence[float] = (), pushes: Sequence[float] = (),
+        pushes: tuple[Sequence[float], Sequence[float]] = ((), ()),
     ) -> Contact:  # fmt: skip
         """A side that begins somewhere along a limb, or a tip there: all across the limb.
 
-        Args:
-            i, part, begin, length, load: see Contact.
-            places, pushes: of the vertices that load it [m, N].
+        By load a side resists where the vertices that load it push, at places [m] by forces [N].
         """
         aside = self._limbs[i].aside
-        across = len(aside)
         if not length:
-            return Contact(i, part, length, (begin,) * across, aside, load)
-        if not self._law.needs_load:
-            near, far = of_area(begin, length)
-            return Contact(i, part, length, (near,) * across + (far,) * across, aside + aside, load)
-        (near, far), (first, last) = of_load(places, pushes, self._limbs[i].length)
-        return Contact(
-            i, part, length, (near,) * across + (far,) * across, aside + aside, load, begin,
-            (first / across,) * across + (last / across,) * across,
-        )  # fmt: skip
+            return Contact(i, part, length, (begin,) * len(aside), aside, load)
+        along, share = of_area(begin, length), EVEN
+        if self._law.needs_load:
+            along, parts = of_load(*pushes, self._limbs[i].length)
+            share = tuple([part / len(aside) for part in parts for _ in aside])
+        at = tuple([place for place in along for _ in aside])
+        return Contact(i, part, length, at, aside + aside, load, begin, share)
 
 
 def parts_of(limb: Limb, robot: LimbedRobot) -> tuple[str, ...]:

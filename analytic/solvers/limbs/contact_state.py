@@ -15,7 +15,7 @@ class Contact(NamedTuple):
         at, aside: arclengths of the points that it resists at, and how far to the left of the
             middle line each is [m].
         load: normal force on the whole, of a tether its drag [N].
-        begin: arclength where a side begins that resists by its load [m].
+        begin: arclength where a side begins [m].
         share: parts of its points in that load [1]; none where all are alike.
     """
 
@@ -38,9 +38,10 @@ class Contact(NamedTuple):
     @property
     def stretch(self) -> tuple[float, float]:
         """Arclengths between which it is, the same of a tip [m]."""
+        if self.share:
+            return self.begin, self.begin + self.length
         half = 0.5 * self.length
-        begin = self.begin if self.share else self.middle - half
-        return begin, begin + self.length if self.share else self.middle + half
+        return self.middle - half, self.middle + half
 
     @property
     def shares(self) -> tuple[float, ...]:

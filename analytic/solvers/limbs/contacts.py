@@ -2,7 +2,8 @@
 
 A tip resists by V_t, over its width; limbs that begin at one place share the tip force of an end by
 their widths. A side resists by tau times its area, at four points: two of Gauss along it, two
-across. Under mu N each resists by its coefficient times its load. A foot changes the contact that
+across. Under mu N each resists by its coefficient times its load, a side at four points that stand
+for where it is pushed, see analytic.solvers.limbs.contact_points. A foot changes the contact that
 it is in at all its points alike.
 """
 
@@ -157,7 +158,7 @@ class Contacts(ContactSearch):
         return float(bound)
 
     def radius(self, contact: Contact) -> float:
-        """Mean distance from its middle of a side's area, 0 of a tip or of a point [m]."""
+        """Mean distance from its middle of a side's area, or load, 0 of a tip or a point [m]."""
         a, b = 0.5 * contact.length, 0.5 * self._limbs[contact.limb].width
         if not a or len(contact.at) == 1:
             return 0.0
