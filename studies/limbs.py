@@ -28,6 +28,7 @@ from mjsim.files.command_line.cli import parse
 from mjsim.files.files import check_folder
 from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene, resolved
+from mjsim.scene.scene import Chamber
 from mjsim.simulation.simulation import Simulation
 from studies.drawing import save
 from studies.labels import name_lines
@@ -42,7 +43,8 @@ LEFT = 0.7  # of the chart's gait
 _SPEEDS = (20, 50, 100, 200, 400)  # ticks
 _PALE = 3e-3  # L; errors below it have a light cell
 # alike at tips and sides; Drake's springs there do not stiffen with pressure, so nor do ours
-UNIFORM, UNIFORM_CHAMBER = Surface("uniform", friction=FRICTION), "constant-pressure"
+UNIFORM = Surface("uniform", friction=FRICTION)
+SPRINGS: dict[str, Chamber] = {UNIFORM.name: "constant-pressure"}
 GROUNDS = {**SURFACES, UNIFORM.name: UNIFORM}
 WALKS, DRAKE = DOCS / "quadruped_walks.csv", DOCS / "quadruped_drake.csv"
 _REPEATS = 3  # of a walk, the quickest of which is timed
@@ -81,7 +83,7 @@ def walked(
         walked per second of CPU, by the quickest of some runs; status.
     """
     gait = replace(undulation("wave", left=left), ramp_time=RAMP)
-    chamber = UNIFORM_CHAMBER if surface == UNIFORM.name else Scene.chamber
+    chamber = SPRINGS.get(surface, Scene.chamber)
     if not step:
         path = quasi_static(quadruped(), gait, GROUNDS[surface], states, elements, law=law,
                             chamber=chamber, twists=0)  # fmt: skip
