@@ -28,7 +28,7 @@ def gather(stage: Path, live: bool) -> None:
     shutil.rmtree(stage, ignore_errors=True)
     shutil.copytree(TOP / "site" / "static", stage / "_static")
     home = (TOP / "site" / "home.md").read_text("utf-8")
-    (stage / "index.md").write_text(home.replace("<!-- live -->\n", LIVE if live else ""))
+    _write(stage, "index.md", home.replace("<!-- live -->\n", LIVE if live else ""))
     shutil.copy(TOP / "site" / "reference.md", stage / "reference.md")
     listing = {"examples": "Examples", "docs/tutorials": "Tutorials"}
     for folder, title in listing.items():

@@ -18,6 +18,7 @@ def test_the_strip_has_the_published_mass_whatever_its_inertia():
         assert what.gait.period == pytest.approx(0.1)
 
 
+@pytest.mark.slow
 def test_a_strip_that_hops_is_thrown_unless_it_may_hop_so_high():
     numerics = {"links": 12, "timestep": 5e-4, "damping_time": BASE.damping}
     low, high = (

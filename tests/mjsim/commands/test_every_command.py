@@ -126,7 +126,10 @@ def case(request, tmp_path_factory):
 
 ALSO_SLOW = pytest.mark.parametrize(
     "case",
-    ["strip", "quadruped", pytest.param("three-legs", marks=pytest.mark.slow)],
+    [
+        "strip",
+        *(pytest.param(name, marks=pytest.mark.slow) for name in ("quadruped", "three-legs")),
+    ],
     indirect=True,
 )
 

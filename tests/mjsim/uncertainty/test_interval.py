@@ -108,6 +108,7 @@ def test_a_fit_s_derivatives_are_along_its_own_directions():
         assert slopes[axis] == pytest.approx(change / (2 * step), rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("few_states")
 def test_where_the_bounds_tie_the_direction_is_not_known():
     base = merged({"ground": {"surface": "polyethylene"}})

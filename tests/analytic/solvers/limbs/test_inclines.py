@@ -74,6 +74,7 @@ def test_slopes_to_the_left_and_to_the_right_are_mirrored():
     assert left[1] < -0.005  # it drifts downhill
 
 
+@pytest.mark.slow
 def test_where_no_bound_holds_its_weight_there_is_no_number():
     path = walk(QUADRUPED, undulation("wave"), POLYETHYLENE, 4, 4, incline=Incline(0.1))
     assert not path.converged
