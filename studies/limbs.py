@@ -28,6 +28,7 @@ from mjsim.files.command_line.cli import parse
 from mjsim.files.files import check_folder
 from mjsim.results.measures import measure
 from mjsim.scene import Numerics, Scene, resolved
+from mjsim.scene.scene import Chamber
 from mjsim.simulation.simulation import Simulation
 from studies.drawing import save
 from studies.labels import name_lines
@@ -41,7 +42,9 @@ RAMP, STATES = 8.0, 16  # s; of the reference
 LEFT = 0.7  # of the chart's gait
 _SPEEDS = (20, 50, 100, 200, 400)  # ticks
 _PALE = 3e-3  # L; errors below it have a light cell
-UNIFORM = Surface("uniform", friction=FRICTION)  # alike at tips and sides
+# alike at tips and sides; Drake's springs there do not stiffen with pressure, so nor do ours
+UNIFORM = Surface("uniform", friction=FRICTION)
+SPRINGS: dict[str, Chamber] = {UNIFORM.name: "constant-pressure"}
 GROUNDS = {**SURFACES, UNIFORM.name: UNIFORM}
 WALKS, DRAKE = DOCS / "quadruped_walks.csv", DOCS / "quadruped_drake.csv"
 _REPEATS = 3  # of a walk, the quickest of which is timed
@@ -80,14 +83,14 @@ def walked(
         walked per second of CPU, by the quickest of some runs; status.
     """
     gait = replace(undulation("wave", left=left), ramp_time=RAMP)
+    chamber = SPRINGS.get(surface, Scene.chamber)
     if not step:
-        path = quasi_static(
-            quadruped(), gait, GROUNDS[surface], states, elements, law=law, twists=0
-        )
+        path = quasi_static(quadruped(), gait, GROUNDS[surface], states, elements, law=law,
+                            chamber=chamber, twists=0)  # fmt: skip
         ahead, aside = path.displacement / LENGTH
         return {"ahead": ahead, "aside": aside, "turn": float(np.degrees(path.turn)), "speed": 0.0,
                 "status": "ok" if path.converged else "unconverged"}  # fmt: skip
-    scene = Scene(quadruped(), gait, GROUNDS[surface], friction=law)
+    scene = Scene(quadruped(), gait, GROUNDS[surface], friction=law, chamber=chamber)
     took = []
     for _ in range(_REPEATS):
         simulation = Simulation(scene, Numerics(links=elements, timestep=step, twists=0))

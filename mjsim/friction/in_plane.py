@@ -1,12 +1,13 @@
 """Friction of a robot of limbs: each contact resists by a bound in the plane, over its area.
 
 Contacts and their bounds are those of analytic.solvers.limbs.contacts, found from the forces of the
-step before. A tip resists at its points, a side at its middle as it slips and turns. Each point has
-three rows, see mjsim.friction.friction_rows: dry friction of the whole bound V along its slip s,
-turning included, or along the traction where it does not slide, and across that V v / |s|, where s
-is the slip of the step before: together the tangent of V s / |s|, as in Newton's method, so that
-friction opposes the slip whatever its direction. What the bounds leave open is left to viscosity at
-all contacts alike, as in analytic.friction.dissipation_in_plane; it is small beside them.
+step before. A tip resists at its points, a side at its middle, by load at that of its load, as it
+slips and turns. Each point has three rows, see mjsim.friction.friction_rows: dry friction of the
+whole bound V along its slip s, turning included, or along the traction where it does not slide, and
+across that V v / |s|, where s is the slip of the step before: together the tangent of V s / |s|, as
+in Newton's method, so that friction opposes the slip whatever its direction. What the bounds leave
+open is left to viscosity at all contacts alike, as in analytic.friction.dissipation_in_plane; it is
+small beside them.
 """
 
 import math
@@ -165,11 +166,12 @@ class LimbFooting:
         ahead, left = self._data.xmat[body, :2].tolist()
         a, b, c, d, _, _ = nap
         scaled = whole = 0.0
-        for along, aside in zip(contact.at, contact.aside, strict=True):
-            u = -(along - contact.middle) * left - aside * ahead
-            v = (along - contact.middle) * ahead - aside * left
-            whole += math.hypot(u, v)
-            scaled += math.hypot(a * u + b * v, c * u + d * v)
+        middle = contact.middle
+        for along, aside, part in zip(contact.at, contact.aside, contact.shares, strict=True):
+            u = -(along - middle) * left - aside * ahead
+            v = (along - middle) * ahead - aside * left
+            whole += part * math.hypot(u, v)
+            scaled += part * math.hypot(a * u + b * v, c * u + d * v)
         return scaled / whole if whole else 1.0
 
     def _resistances(self, way: Way | None = None) -> tuple[list[float], list[float]]:
@@ -178,16 +180,17 @@ class LimbFooting:
         Against motion one way where the ground or a foot has a nap.
         """
         rows, finder, ground, bounds, drags = self._rows, self._finder, self._ground, [], []
-        alike = (ground,) if isinstance(ground, Surface) else None
+        alike = ((ground, 1.0),) if isinstance(ground, Surface) else None
         bound = drag = 0.0
         before = None
         for (contact, share), body, place, speed in zip(
             self._owners, rows.bodies, rows.places, rows.speeds, strict=True
         ):
             if self._varies or contact is not before:
-                under = alike or [ground.at(x) for x in self._x(contact, body, place.real)]
-                part, bound, drag, before = share / len(under), 0.0, 0.0, contact
-                for surface in under:
+                under = alike or self._under(contact, body, place.real)
+                bound, drag, before = 0.0, 0.0, contact
+                for surface, of_contact in under:
+                    part = share * of_contact
                     dry, wet = finder.resistance(
                         contact, surface.against(way) if way else surface, speed, way or "ahead",
                         self._pressures,
@@ -197,14 +200,19 @@ class LimbFooting:
             drags.append(drag)
         return bounds, drags
 
-    def _x(self, contact: Contact, body: int, x: float) -> list[float]:
-        """Places along x of what a point stands for, of a side all that it resists at [m]."""
+    def _under(self, contact: Contact, body: int, x: float) -> list[tuple[Surface, float]]:
+        """Surfaces under what a point at x [m] stands for, and their parts of it.
+
+        Of a side those under all places that it resists at.
+        """
+        ground = self._ground
         if not contact.length:
-            return [x]
+            return [(ground.at(x), 1.0)]
         ahead, left = self._data.xmat[body, :2].tolist()
+        middle = contact.middle
         return [
-            x + (along - contact.middle) * ahead + aside * left
-            for along, aside in zip(contact.at, contact.aside, strict=True)
+            (ground.at(x + (along - middle) * ahead + aside * left), part)
+            for along, aside, part in zip(contact.at, contact.aside, contact.shares, strict=True)
         ]
 
     def _viscosities(self, bound: float, drag: float) -> list[float]:

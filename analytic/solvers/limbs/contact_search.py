@@ -9,6 +9,8 @@ carry. Each vertex that pushes loads one contact alone: a tip carries what pushe
 else the limb rests the rest.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,6 +18,7 @@ from analytic.friction.contact_length import flat_pressures
 from analytic.friction.contacts import POINT, runs_without_gaps
 from analytic.friction.laws import LAWS
 from analytic.scene.limbs import Limb, LimbedRobot, chambers_by_limb, check_tethers
+from analytic.solvers.limbs.contact_points import EVEN, of_area, of_load
 from analytic.solvers.limbs.contact_state import TETHER, Contact, ContactState
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.rest import Rest
@@ -23,7 +26,6 @@ from analytic.solvers.limbs.resting_limb import resting_limbs
 
 Array = NDArray[np.float64]
 
-_ALONG = (0.5 - 12**-0.5, 0.5 + 12**-0.5)  # of a side: Gauss's points, over its length
 _WHOLE = 1e-9  # of a length: all of it
 SHORT = 1e-9  # of a length
 END = {"begin": 0, "end": -1}
@@ -190,11 +192,11 @@ class ContactSearch:
         load, length = sum([force[vertex] for vertex in inner]), limb.length
         if len(run) > POINT:
             places = [place[vertex] for vertex in run]
-            push = [force[vertex] for vertex in run]
-            flat = min(limb.load.length_between(places, push), length)
+            flat = min(limb.load.length_between(places, [force[on] for on in run]), length)
             if flat > SHORT * length:
                 begin = min(max(0.5 * (places[0] + places[-1] - flat), 0.0), length - flat)
-                return self._contact(i, part, begin, flat, load)
+                pushes = [place[vertex] for vertex in inner], [force[vertex] for vertex in inner]
+                return self._contact(i, part, begin, flat, load, pushes)
         at = sum([place[vertex] * force[vertex] for vertex in inner]) / load
         if limb.segments > 1 or min(state.bends[i]) < 0:
             return self._contact(i, part, at, 0.0, load)
@@ -266,17 +268,27 @@ class ContactSearch:
         if side <= 0:
             return self._contact(i, end, tip, 0.0, load), 0.0, carried
         begin = tip if at_begin else tip - side
-        return self._contact(i, end, begin, side, load), total - load_from.of(side), carried
+        places = limb.arclength if at_begin else limb.arclength[::-1]
+        contact = self._contact(i, end, begin, side, load, (places[:carried], force[:carried]))
+        return contact, total - load_from.of(side), carried
 
-    def _contact(self, i: int, part: str, begin: float, length: float, load: float) -> Contact:
-        """A side that begins somewhere along a limb, or a tip there: all across the limb."""
+    def _contact(
+        self, i: int, part: str, begin: float, length: float, load: float,
+        pushes: tuple[Sequence[float], Sequence[float]] = ((), ()),
+    ) -> Contact:  # fmt: skip
+        """A side that begins somewhere along a limb, or a tip there: all across the limb.
+
+        By load a side resists where the vertices that load it push, at places [m] by forces [N].
+        """
         aside = self._limbs[i].aside
-        across = len(aside)
         if not length:
-            return Contact(i, part, length, (begin,) * across, aside, load)
-        near, far = _ALONG
-        at = (begin + length * near,) * across + (begin + length * far,) * across
-        return Contact(i, part, length, at, aside + aside, load)
+            return Contact(i, part, length, (begin,) * len(aside), aside, load)
+        along, share = of_area(begin, length), EVEN
+        if self._law.needs_load:
+            along, parts = of_load(*pushes, self._limbs[i].length)
+            share = tuple([part / len(aside) for part in parts for _ in aside])
+        at = tuple([place for place in along for _ in aside])
+        return Contact(i, part, length, at, aside + aside, load, begin, share)
 
 
 def parts_of(limb: Limb, robot: LimbedRobot) -> tuple[str, ...]:

@@ -15,6 +15,8 @@ class Contact(NamedTuple):
         at, aside: arclengths of the points that it resists at, and how far to the left of the
             middle line each is [m].
         load: normal force on the whole, of a tether its drag [N].
+        begin: arclength where a side begins [m].
+        share: parts of its points in that load [1]; none where all are alike.
     """
 
     limb: int
@@ -23,11 +25,28 @@ class Contact(NamedTuple):
     at: tuple[float, ...]
     aside: tuple[float, ...]
     load: float
+    begin: float = 0.0
+    share: tuple[float, ...] = ()
 
     @property
     def middle(self) -> float:
-        """Arclength of its middle [m]."""
-        return 0.5 * (self.at[0] + self.at[-1])
+        """Arclength of its middle, of its load where it resists by that [m]."""
+        if not self.share:
+            return 0.5 * (self.at[0] + self.at[-1])
+        return sum([part * at for part, at in zip(self.share, self.at, strict=True)])
+
+    @property
+    def stretch(self) -> tuple[float, float]:
+        """Arclengths between which it is, the same of a tip [m]."""
+        if self.share:
+            return self.begin, self.begin + self.length
+        half = 0.5 * self.length
+        return self.middle - half, self.middle + half
+
+    @property
+    def shares(self) -> tuple[float, ...]:
+        """Parts of its points in its resistance [1]."""
+        return self.share or (1 / len(self.at),) * len(self.at)
 
 
 class ContactState(NamedTuple):

@@ -2,7 +2,8 @@
 
 A tip resists by V_t, over its width; limbs that begin at one place share the tip force of an end by
 their widths. A side resists by tau times its area, at four points: two of Gauss along it, two
-across. Under mu N each resists by its coefficient times its load. A foot changes the contact that
+across. Under mu N each resists by its coefficient times its load, a side at four points that stand
+for where it is pushed, see analytic.solvers.limbs.contact_points. A foot changes the contact that
 it is in at all its points alike.
 """
 
@@ -140,9 +141,7 @@ class Contacts(ContactSearch):
         width, grip = self._limbs[contact.limb].width, self._grips[contact.limb]
         bound = self._dry(contact, surface)
         if grip.feet:
-            half = 0.5 * contact.length
-            stretch = contact.middle - half, contact.middle + half
-            mean, hold = grip.over(way, stretch, pressures)
+            mean, hold = grip.over(way, contact.stretch, pressures)
             bound = mean * bound + hold
         if surface.static_ratio > 1:
             bound *= surface.at_speed(speed)
@@ -159,10 +158,17 @@ class Contacts(ContactSearch):
         return float(bound)
 
     def radius(self, contact: Contact) -> float:
-        """Mean distance from its middle of a side's area, 0 of a tip or of a point [m]."""
+        """Mean distance from its middle of a side's area, or load, 0 of a tip or a point [m]."""
         a, b = 0.5 * contact.length, 0.5 * self._limbs[contact.limb].width
         if not a or len(contact.at) == 1:
             return 0.0
+        if contact.share:  # lines across
+            arms = [abs(at - contact.middle) for at in contact.at]
+            lines = [arm * arm / b * math.asinh(b / arm) if arm else 0.0 for arm in arms]
+            return 0.5 * sum([
+                part * (math.hypot(arm, b) + line)
+                for part, arm, line in zip(contact.share, arms, lines, strict=True)
+            ])  # fmt: skip
         far = math.hypot(a, b)  # over a rectangle
         halves = a * a / b * math.log((b + far) / a) + b * b / a * math.log((a + far) / b)
         return (far + 0.5 * halves) / 3
@@ -191,7 +197,7 @@ def _all_ways(ground: Ground) -> list[Surface]:
 
 def shares(contacts: list[Contact]) -> Array:
     """Part of each point in its contact, (C,): a viscosity that is equal is so for contacts."""
-    return np.array([1 / len(contact.at) for contact in contacts for _ in contact.at])
+    return np.array([part for contact in contacts for part in contact.shares])
 
 
 def spans_of(ground: Ground, times: Array | None, states: int) -> Array:

@@ -19,6 +19,17 @@ function flatLength(weight, total, moment) {
   return (total - Math.sqrt(Math.max(total * total - 2 * weight * moment, 0))) / weight;
 }
 
+// Gauss's rule of the pushes of vertices, as contact_points.py has it: two places, and their parts.
+function pointsOfLoad(places, pushes, length) {
+  const load = sum(pushes), mean = sum(places.map((place, i) => place * pushes[i])) / load;
+  const moment = (order) => sum(places.map((place, i) => pushes[i] * (place - mean) ** order));
+  const square = moment(2);
+  if (square <= (SHORT * length) ** 2 * load) return [[mean, mean], [0.5, 0.5]];
+  const lean = (0.5 * moment(3)) / square, half = Math.hypot(lean, Math.sqrt(square / load));
+  const part = 0.5 * (1 + lean / half);
+  return [[mean + lean - half, mean + lean + half], [part, 1 - part]];
+}
+
 export class ContactSearch {
   constructor(limbs, weight, byLoad) {
     this.limbs = limbs; // as data.py writes them: robot's limbs with those at rest
@@ -26,7 +37,7 @@ export class ContactSearch {
     this.byLoad = byLoad;
   }
 
-  // Contacts {limb, part, length, at, aside, load}; `force` and `height` of the vertices of each
+  // Contacts {limb, part, length, at, aside, load, shares}; `force` and `height` of the vertices of each
   // limb [N, m], `inflated` of each limb.
   search(force, height, inflated) {
     const state = { force, height, inflated, passed: new Map(), reached: new Set() };
@@ -124,12 +135,13 @@ export class ContactSearch {
       flat = Math.min(flat, length);
       if (flat > SHORT * length) {
         const from = Math.min(Math.max(0.5 * (begin + end - flat), 0), length - flat);
-        return this.contact(i, part, from, flat, load);
+        const of = (numbers) => inner.map((vertex) => numbers[vertex]);
+        return this.contact(i, part, from, flat, load, of(place), of(force));
       }
     }
     const at = sum(inner.map((vertex) => place[vertex] * force[vertex])) / load;
     if (limb.segments > 1) return this.contact(i, part, at, 0, load);
-    return { limb: i, part, length: SHORT * length, at: [at], aside: [0], load };
+    return { limb: i, part, length: SHORT * length, at: [at], aside: [0], load, shares: [1] };
   }
 
   // Whether the limb that carries another lies flat where that begins.
@@ -171,15 +183,23 @@ export class ContactSearch {
     const side = whole ? length : Math.min(flatLength(weight, total, moment), length);
     if (side <= 0) return { contact: this.contact(i, end, tip, 0, load), surplus: 0, count };
     const begin = atBegin ? tip : tip - side;
-    const contact = this.contact(i, end, begin, side, load);
+    const places = inwards(limb.arclength).slice(0, count);
+    const contact = this.contact(i, end, begin, side, load, places, force.slice(0, count));
     return { contact, surplus: total - weight * side, count };
   }
 
-  // A side that begins somewhere along a limb, or a tip there: all across the limb.
-  contact(i, part, begin, length, load) {
-    const { aside } = this.limbs[i];
-    if (!length) return { limb: i, part, length, at: aside.map(() => begin), aside, load };
-    const at = ALONG.flatMap((share) => aside.map(() => begin + length * share));
-    return { limb: i, part, length, at, aside: [...aside, ...aside], load };
+  // A side that begins somewhere along a limb, or a tip there: all across the limb. By load the
+  // places and pushes of the vertices that load a side tell its points.
+  contact(i, part, begin, length, load, places, pushes) {
+    const { aside, length: whole } = this.limbs[i], across = aside.length;
+    if (!length) {
+      const shares = aside.map(() => 1 / across);
+      return { limb: i, part, length, at: aside.map(() => begin), aside, load, shares };
+    }
+    const [along, parts] = this.byLoad ? pointsOfLoad(places, pushes, whole)
+      : [ALONG.map((share) => begin + length * share), [0.5, 0.5]];
+    const at = along.flatMap((place) => aside.map(() => place));
+    const shares = parts.flatMap((share) => aside.map(() => share / across));
+    return { limb: i, part, length, at, aside: [...aside, ...aside], load, shares };
   }
 }

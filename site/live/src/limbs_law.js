@@ -10,6 +10,9 @@ const POINT = 1e-8; // m^2; points that are closer do not tell a turn
 const SHORT = 1e-9; // of a length: a side of no area
 const STEEP = Math.tan(1), LEANS = Math.sin(1); // of the trunk: it fell over
 
+// Arclength of a side's middle, or of its load's [m].
+const middleOf = ({ at, shares }) => at.reduce((whole, place, i) => whole + shares[i] * place, 0);
+
 export class LimbsLaw {
   constructor(physics, robot, settings, law) {
     this.physics = physics;
@@ -77,7 +80,7 @@ export class LimbsLaw {
   pointsOf(contact) {
     const { limb, length, at, aside, part } = contact, starts = this.settings.starts[limb];
     const number = this.numbers.get(`${limb} ${part}`);
-    const place = length ? 0.5 * (at[0] + at.at(-1)) : at[0], asides = length ? [0] : aside;
+    const place = length ? middleOf(contact) : at[0], asides = length ? [0] : aside;
     const first = length ? number + this.limbs[limb].aside.length : number;
     const link = Math.max(starts.filter((start) => start <= place).length - 1, 0);
     return asides.map((left, i) => ({
@@ -86,10 +89,19 @@ export class LimbsLaw {
     }));
   }
 
-  // Mean distance of a side's area from its middle [m].
-  radiusOf({ limb, length, at }) {
+  // Mean distance of a side's area from its middle, or of its load [m].
+  radiusOf(contact) {
+    const { limb, length, at, shares } = contact;
     if (at.length === 1) return 0;
-    const a = 0.5 * length, b = 0.5 * this.limbs[limb].width, far = Math.hypot(a, b);
+    const a = 0.5 * length, b = 0.5 * this.limbs[limb].width;
+    if (this.byLoad) { // lines across
+      const middle = middleOf(contact);
+      return at.reduce((whole, place, i) => {
+        const arm = Math.abs(place - middle), line = arm ? ((arm * arm) / b) * Math.asinh(b / arm) : 0;
+        return whole + 0.5 * shares[i] * (Math.hypot(arm, b) + line);
+      }, 0);
+    }
+    const far = Math.hypot(a, b);
     const halves = ((a * a) / b) * Math.log((b + far) / a) + ((b * b) / a) * Math.log((a + far) / b);
     return (far + 0.5 * halves) / 3;
   }
