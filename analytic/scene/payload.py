@@ -109,6 +109,9 @@ def mass_moments(carried: Sequence[Payload], length: float, nodes: Array) -> Arr
     return moments
 
 
+_ROUNDING = 1e-9  # of a link
+
+
 def place_on_link(nodes: Array, place: float) -> tuple[int, float]:
     """Link of a chain that a place [m] is on, and how far along that it is [1].
 
@@ -117,7 +120,9 @@ def place_on_link(nodes: Array, place: float) -> tuple[int, float]:
         place: arclength.
     """
     link = int(np.clip(np.searchsorted(nodes, place, side="right") - 1, 0, len(nodes) - 2))
-    return link, float((place - nodes[link]) / (nodes[link + 1] - nodes[link]))
+    along = float((place - nodes[link]) / (nodes[link + 1] - nodes[link]))
+    near = round(along)  # at a node but for rounding, it is at the node
+    return link, float(near) if abs(along - near) < _ROUNDING else along
 
 
 def mass_on_nodes(moments: Array) -> Array:

@@ -8,7 +8,10 @@ through, tells both, at no cost: steps longer than 2 ms are believed only where 
 for the distance to within the tolerance, and where no momentum decides. The quasi-static reference,
 solved for by itself, costs as much as ten such walks. On 129 scenes that were not used to choose,
 with friction at the ends, the distance is then within 10 %, 2 % and 0.5 % (or 0.001 L) in 99, 97
-and 97 %, see `python benchmarks/auto.py check`. The levels are chosen, see mjsim.scene.auto; steps
+and 97 %, see `python benchmarks/auto.py check`. Those have ramps of 0.5 to 4 s and ideal valves;
+quicker scenes must agree more closely: of 93 with ramps of 0.4 to 0.8 s, most with valves that lag,
+69 got a sure answer down to 2 ms and 66 of these were right (73 of 80 by the rule as it is for the
+others; the numbers were chosen on them). The levels are chosen, see mjsim.scene.auto; steps
 are made shorter where a ramp needs it. A failure counts as the robot's only if two fine walks fail
 alike.
 """
@@ -34,6 +37,8 @@ _FINE = 0.005  # s: at longer steps a strip may fall by the numerics alone
 _CALM = 0.4  # of the tolerance that two walks may be apart by, at steps longer than _FINE; chosen
 _CLOSE = 0.25  # the same at steps down to _FINEST, and of robots in space; chosen
 _FINEST = 0.002  # s
+_SHORTEST = 0.5  # s: ramps of the scenes that these were chosen on, without valves that lag
+_STRICT = 0.25, 0.5  # beyond them: of the tolerance, unexplained, and apart at _FINEST; chosen
 _SHORT = 1e-3  # of the length: less is as good as the same, whatever the tolerance
 
 
@@ -130,23 +135,31 @@ def agreement(before: Trajectory, walk: Trajectory, tolerance: float) -> tuple[f
     if walk.scene.in_space:  # where no rule tells what is to be expected
         return error, error <= (1.0 if timestep <= _FINEST else _CLOSE) * most
     unexplained = math.inf if unbraked(walk.scene) else fine.unexplained / most
-    return error, error <= closeness(timestep, unexplained) * most
+    return error, error <= closeness(timestep, unexplained, _beyond(walk.scene)) * most
 
 
-def closeness(timestep: float, unexplained: float) -> float:
+def _beyond(scene: Scene) -> bool:
+    """Tell whether a scene is quicker than those that the rule was chosen on."""
+    return bool(scene.valves.time_constant) or min(scene.gait.ramp_times) < _SHORTEST
+
+
+def closeness(timestep: float, unexplained: float, beyond: bool = False) -> float:
     """Part of the tolerance within which a strip's walk must agree with the one before.
 
     Args:
         timestep: of the walk [s].
         unexplained: displacement that the rule of friction does not account for, over the
             tolerance; NaN where there is no rule.
+        beyond: whether its scene is quicker than those that this was chosen on.
 
     Returns:
         The part, below 0 where no agreement is enough.
     """
     if timestep <= _FINEST:
-        return 1.0
-    if abs(unexplained) > 1.0 or (math.isnan(unexplained) and timestep > _FINE):
+        return _STRICT[1] if beyond else 1.0
+    if abs(unexplained) > (_STRICT[0] if beyond else 1.0) or (
+        math.isnan(unexplained) and timestep > _FINE
+    ):
         return -1.0
     return _CALM if timestep > _FINE else _CLOSE
 

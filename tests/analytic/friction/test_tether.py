@@ -16,6 +16,8 @@ from analytic import (
     Tether,
     predict,
 )
+from analytic.friction.contacts import of_tether
+from analytic.scene.chain import node_positions
 from analytic.scene.surface import Surface
 
 LENGTH = Robot().length
@@ -122,3 +124,11 @@ def test_friction_that_bends_nothing_refuses_it():
 def test_what_is_no_tether_is_refused(values, words):
     with pytest.raises(ValueError, match=words):
         Robot(tether=values)
+
+
+@pytest.mark.parametrize("at", [0.0, 1 / 3, 1.0])
+def test_at_a_node_but_for_rounding_it_is_tied_to_that_node_alone(at):
+    for length in np.linspace(0.06, 0.2, 60):
+        robot = Robot(length=length, tether=Tether(at, drag=0.005))
+        (contact,) = of_tether(robot, node_positions(robot, 24))
+        assert contact.share == [1.0]

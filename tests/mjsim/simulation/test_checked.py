@@ -81,6 +81,9 @@ def test_steps_are_short_where_the_rule_of_friction_does_not_account_for_the_dis
 ):
     assert closeness(timestep, unexplained) < 0.0 < closeness(timestep, 0.5) < 1.0
     assert closeness(0.002, unexplained) == 1.0
+    # of scenes quicker than those that this was chosen on less is believed
+    assert closeness(0.02, 0.5, beyond=True) < 0.0 < closeness(0.02, 0.2, beyond=True)
+    assert closeness(0.002, unexplained, beyond=True) < 1.0
 
 
 def test_where_no_rule_of_friction_is_known_coarse_walks_are_not_believed():
