@@ -28,8 +28,8 @@ def mean_sites(model: mujoco.MjModel) -> NDArray[np.int32]:
 class NodeTendons:
     """Tendons of the nodes, of which MuJoCo works out those that resist and no other.
 
-    MuJoCo spends a quarter of a step on the tendons of 26 nodes and of their mean. One of no wraps
-    costs nothing, but its rate has to be asked for.
+    The tendons of 26 nodes and of their mean are a quarter of MuJoCo's step with warm caches, and a
+    tenth of a walk. One of no wraps costs nothing, but its rate has to be asked for.
 
     Args:
         model, data: as compiled.
