@@ -21,6 +21,7 @@ _BENT = 5e-3  # rad, by which the whole strip bends at its peak pressure at leas
 _STIFFENED = 100.0  # times its rigidity without pressure, at the peak
 _LADEN = 100.0  # times its own mass, that a robot carries
 _PROUD = 0.25  # of its length, that a foot drops below its underside: as high as it arches
+_HELD = 20.0  # times its weight, that friction of constant bound holds it by
 _ROUNDING = 1e-6  # of a pressure in a file
 _DECADE = math.log(10.0)
 _BENDS = ("peak_pressure", "chamber_height")  # fields of which a meant one must bend the strip
@@ -29,6 +30,7 @@ _BENDING = ("peak_pressure", "modulus", "thickness", "chamber_height", "chamber_
 Units = tuple[tuple[str, float], ...]  # names and sizes
 
 LENGTHS = (("mm", 1e-3), ("um", 1e-6), ("cm", 1e-2))
+_FORCES = (("mN", 1e-3), ("uN", 1e-6))
 _MASSES = (("g", 1e-3), ("mg", 1e-6))
 _UP = (1e3, 1e6)  # factors that a value may be too small by
 _PRESSURES = (("kPa", 1e3), ("psi", PSI), ("MPa", 1e6), ("bar", 1e5))
@@ -53,6 +55,7 @@ def check_robot(robot: AnyRobot, given: Collection[str] = (), gravity: float = G
         _check_measured(limb.strip, robot.peak_pressure, where)
     _check_payload(robot)
     _check_feet(robot)
+    _check_bounds(robot)
     if isinstance(robot, Robot) and pneunet.turn_number(robot) < _BENT:
         raise ValueError(_unbent(robot, given))
 
@@ -79,6 +82,21 @@ def _check_feet(robot: AnyRobot) -> None:
         near = [words for words, scale in readings(drop, LENGTHS) if drop * scale <= most]
         raise ValueError(f"feet: drop must be at most a quarter of the length, {most:.2g} m, got "
                          f"{drop:g} m{asked(near[:1])}")  # fmt: skip
+
+
+def _check_bounds(robot: AnyRobot) -> None:
+    """Refuse bounds of a tether or a foot, whatever its load, that are none for its weight."""
+    most = _HELD * robot.weight
+    for limb in limbs_of(robot):
+        tether = limb.strip.tether
+        bounds = [("tether: drag", tether.drag if tether else 0.0),
+                  *(("feet: hold", foot.hold) for foot in limb.strip.feet)]  # fmt: skip
+        for name, bound in bounds:
+            if bound <= most:
+                continue
+            near = [words for words, scale in readings(bound, _FORCES) if bound * scale <= most]
+            raise ValueError(f"{name} must be one for a robot of {robot.weight:.2g} N, got "
+                             f"{bound:g} N{asked(near[:1])}")  # fmt: skip
 
 
 def _check_measured(strip: Robot, peak_pressure: float, where: str) -> None:

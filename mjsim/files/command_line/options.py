@@ -200,6 +200,9 @@ def _placed(field: str, text: str, example: str) -> Iterator[tuple[str, str, dic
         place, *settings = re.split(r"\s+(?=\w+=)", words)
         if not place or "=" in place or not all("=" in setting for setting in settings):
             raise _not_such(field, example, words)
+        keys = [setting.partition("=")[0] for setting in settings]
+        if twice := next((key for key in keys if keys.count(key) > 1), None):
+            raise ValueError(f"{field}: key {twice!r} stands twice, got {words!r}")
         yield words, place, dict(s.split("=", 1) for s in settings)
 
 
