@@ -17,6 +17,8 @@ from analytic.fields import in_si, records
 
 Array = NDArray[np.float64]
 
+_ROUNDING = 1e-9  # of a link
+
 
 @dataclass(frozen=True)
 class Payload:
@@ -107,9 +109,6 @@ def mass_moments(carried: Sequence[Payload], length: float, nodes: Array) -> Arr
         squares = np.stack([(1 - middle) ** 2, middle * (1 - middle), middle**2])
         moments[on] += (mass * (squares + spread * np.array([[1.0], [-1.0], [1.0]]))).T
     return moments
-
-
-_ROUNDING = 1e-9  # of a link
 
 
 def place_on_link(nodes: Array, place: float) -> tuple[int, float]:

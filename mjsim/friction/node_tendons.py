@@ -1,6 +1,6 @@
 """Tendons that carry the friction of a strip's nodes, of which MuJoCo works out a few at a time."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import mujoco
 import numpy as np
@@ -22,7 +22,13 @@ def mean_sites(model: mujoco.MjModel) -> NDArray[np.int32]:
     both = model.tendon(PREFIX + TENDONS[2]).id
     begin = int(model.tendon_adr[both])
     end = int(model.tendon_adr[both + 1]) if both + 1 < model.ntendon else model.nwrap
-    return model.wrap_objid[begin + 2 : end : WRAPS]
+    return model.wrap_objid[begin + WRAPS - 1 : end : WRAPS]
+
+
+def end_sites(model: mujoco.MjModel, tendons: Sequence[int] | NDArray[np.int_]) -> list[int]:
+    """Sites that tendons of one site each end at, those of their nodes."""
+    sites: list[int] = model.wrap_objid[model.tendon_adr[tendons] + WRAPS - 1].tolist()
+    return sites
 
 
 class NodeTendons:
@@ -45,8 +51,7 @@ class NodeTendons:
         self._model, self._data = model, data
         self.mean = model.tendon(PREFIX + TENDONS[2]).id
         self._wraps, self._rate = model.tendon_num, data.ten_velocity
-        # each ends at the site of its node
-        self._sites: list[int] = model.wrap_objid[model.tendon_adr[self.of] + 2].tolist()
+        self._sites = end_sites(model, self.of)
         self._site = dict(zip(self.of, self._sites, strict=True))
         self._mean_sites = mean_sites(model)
         self._averaged: list[int] = []

@@ -10,7 +10,7 @@ from analytic.friction.grip import Grip
 from analytic.friction.laws import LAWS
 from analytic.scene.ground import depends_on_speed
 from mjsim.friction.lean import Lean
-from mjsim.friction.node_tendons import WRAPS, mean_sites
+from mjsim.friction.node_tendons import WRAPS, end_sites, mean_sites
 from mjsim.model.bodies.parts import PREFIX, TENDONS, tendon_names
 from mjsim.model.pads import node_of_geom, pads_by_node
 from mjsim.results.forces import GroundForces
@@ -43,8 +43,7 @@ class ContactRecorder:
         self._mean_sites, self._wraps = mean_sites(model), model.tendon_num
         self._node_of_site = np.full(model.nsite, -1)
         ends = np.flatnonzero(self._node_of_tendon >= 0)
-        sites = model.wrap_objid[model.tendon_adr[ends] + WRAPS - 1]
-        self._node_of_site[sites] = self._node_of_tendon[ends]
+        self._node_of_site[end_sites(model, ends)] = self._node_of_tendon[ends]
         self._coulomb = scene.friction == "coulomb"
         self._viscous = depends_on_speed(scene.ground)
         grip = Grip(scene.strip, LAWS[scene.friction])

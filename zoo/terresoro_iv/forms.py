@@ -27,7 +27,7 @@ def no_memory(values: Array, past: Array, after: Array) -> Array:
     """Each transition begins with limbs flat or curled."""
     numbers = Lagged(*values[:8])
     before = past[:, -1]
-    return moved([before, after], numbers.bounds(before, after), numbers)
+    return moved([before, after], numbers.hub.bounds(before, after), numbers)
 
 
 def dry(values: Array, past: Array, after: Array) -> Array:
@@ -38,14 +38,14 @@ def dry(values: Array, past: Array, after: Array) -> Array:
 def _lagged(values: Array, past: Array, after: Array, factor: Array | float = 1.0) -> Array:
     numbers = Lagged(*values[:9])
     begin, end = amounts(past, after, numbers.lag)
-    return moved([begin, end], factor * numbers.bounds(past[:, -1], after), numbers)
+    return moved([begin, end], factor * numbers.hub.bounds(past[:, -1], after), numbers)
 
 
 def lag_of_both(values: Array, past: Array, after: Array) -> Array:
     """Uncurling lags too."""
     numbers = Lagged(*values[:9])
     begin, end = amounts(past, after, numbers.lag, float(values[9]))
-    return moved([begin, end], numbers.bounds(past[:, -1], after), numbers)
+    return moved([begin, end], numbers.hub.bounds(past[:, -1], after), numbers)
 
 
 def fresh_contact(values: Array, past: Array, after: Array) -> Array:
@@ -69,7 +69,7 @@ def supply(values: Array, past: Array, after: Array) -> Array:
     begin, _ = amounts(past, after, numbers.lag)
     lag = np.clip(numbers.lag + values[9] * (many - 1.5), 0.0, 0.9)
     end = after + np.where(after == 1, lag, 0.0) * (begin - after)
-    return moved([begin, end], numbers.bounds(before, after), numbers)
+    return moved([begin, end], numbers.hub.bounds(before, after), numbers)
 
 
 def unlike_limbs(values: Array, past: Array, after: Array) -> Array:
@@ -89,7 +89,7 @@ def order(values: Array, past: Array, after: Array, parts: int = 5) -> Array:
         return np.where(after > before, curls, uncurls)
 
     return moved([begin + progress(k / parts) * (end - begin) for k in range(parts + 1)],
-                 numbers.bounds(before, after), numbers)  # fmt: skip
+                 numbers.hub.bounds(before, after), numbers)  # fmt: skip
 
 
 FORMS = {

@@ -47,6 +47,25 @@ class Numbers(NamedTuple):
     uncurling: float
     viscous: float = -math.inf
 
+    @property
+    def places(self) -> tuple[Array, Array]:
+        """Contacts of limbs that are flat, and curled, in the hub's frame, (4, 2) each [cm]."""
+        axes = np.asarray(-0.5 * np.pi * np.arange(LIMBS), dtype=np.float64)
+        return (
+            _polar(self.flat, axes + self.flat_angle),
+            _polar(self.curled, axes + self.curled_angle),
+        )
+
+    def bounds(self, before: Array, after: Array) -> Array:
+        """Bounds of friction over that of a flat limb, by states 0 and 1, (..., 4)."""
+        still = np.where(before == 1, np.exp(self.resting), 1.0)
+        moving = np.exp(np.where(after == 1, self.curling, self.uncurling))
+        return np.where(before == after, still, moving)
+
+
+def _polar(length: float, angles: Array) -> Array:
+    return length * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+
 
 class Gait(NamedTuple):
     """A measured gait: states, cycles, and displacement [cm] and turn [deg] of a cycle with sd."""
@@ -113,15 +132,8 @@ def by_friction(numbers: Numbers, dry: bool = True, parts: int = PARTS) -> Law:
 def _transition(pair: Pair, numbers: Numbers, dry: bool, parts: int) -> Array:
     """Displacement of the hub [cm] in its frame before, and its turn [deg]."""
     before, after = (np.array([digit == "1" for digit in state]) for state in pair)
-    axes = -0.5 * np.pi * np.arange(LIMBS)
-    flat, curled = (
-        length * np.stack([np.cos(axes + angle), np.sin(axes + angle)], axis=1)
-        for length, angle in ((numbers.flat, numbers.flat_angle),
-                              (numbers.curled, numbers.curled_angle))
-    )  # fmt: skip
-    still = np.where(before, np.exp(numbers.resting), 1.0)
-    moving = np.exp(np.where(after, numbers.curling, numbers.uncurling))
-    bounds = np.where(before == after, still, moving)
+    flat, curled = numbers.places
+    bounds = numbers.bounds(before, after)
     start, end = (np.where(state[:, None], curled, flat) for state in (before, after))
     film = bounds * np.exp(numbers.viscous) * parts
     bounds = bounds if dry else np.zeros(LIMBS)

@@ -18,8 +18,8 @@ from zoo.comparison import Predicted
 from zoo.terresoro_iv.at_once import least_dissipation
 from zoo.terresoro_iv.hub import (
     HERE,
-    LIMBS,
     Gait,
+    Numbers,
     gaits,
     jackknife,
     turned,
@@ -42,23 +42,9 @@ class Lagged(NamedTuple):
     lag: float = 0.0
 
     @property
-    def places(self) -> tuple[Array, Array]:
-        """Contacts of limbs that are flat, and curled, in the hub's frame, (4, 2) each [cm]."""
-        axes = np.asarray(-0.5 * np.pi * np.arange(LIMBS), dtype=np.float64)
-        return (
-            _polar(self.flat, axes + self.flat_angle),
-            _polar(self.curled, axes + self.curled_angle),
-        )
-
-    def bounds(self, before: Array, after: Array) -> Array:
-        """Of friction over that of a flat limb, by states 0 and 1, (N, 4)."""
-        still = np.where(before == 1, np.exp(self.resting), 1.0)
-        moving = np.exp(np.where(after == 1, self.curling, self.uncurling))
-        return np.where(before == after, still, moving)
-
-
-def _polar(length: float, angles: Array) -> Array:
-    return length * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    def hub(self) -> Numbers:
+        """The numbers but for the lag."""
+        return Numbers(*self[:-1])
 
 
 def amounts(past: Array, after: Array, lag: float, lag_back: float = 0.0) -> tuple[Array, Array]:
@@ -84,7 +70,7 @@ def moved(curled: Sequence[Array], bounds: Array, numbers: Lagged) -> Array:
         bounds: of friction, (N, 4).
         numbers: places of contacts, and the viscous part.
     """
-    flat, bent = numbers.places
+    flat, bent = numbers.hub.places
     film = bounds * np.exp(numbers.viscous) * (len(curled) - 1)
     places = [flat + (bent - flat) * one[..., None] for one in curled]
     shift, turn = np.zeros((len(bounds), 2)), np.zeros(len(bounds))
@@ -102,7 +88,7 @@ def motions(numbers: Lagged, past: Array, after: Array, parts: int = 1) -> Array
     """Motions of transitions with a past, (N, 3), see `amounts` and `moved`."""
     begin, end = amounts(past, after, numbers.lag)
     curled = [begin + part / parts * (end - begin) for part in range(parts + 1)]
-    return moved(curled, numbers.bounds(past[:, -1], after), numbers)
+    return moved(curled, numbers.hub.bounds(past[:, -1], after), numbers)
 
 
 def steady(states: Sequence[str]) -> tuple[Array, Array]:
