@@ -1,6 +1,6 @@
 """From tracked markers to a fitted scene, gaits with error bars and a page for others.
 
-python examples/from_a_video.py [MARKERS.csv [MM_PER_PIXEL [FOLDER]]]    # docs/from_a_video.md
+python examples/from_a_video.py [MARKERS.csv [PIXEL [FOLDER]]]    # docs/from_a_video.md
 """
 
 import json
@@ -9,15 +9,12 @@ from contextlib import redirect_stdout
 from io import StringIO
 from pathlib import Path
 
-import numpy as np
-
 from mjsim.commands import fit, report, run
 
 HERE = Path(__file__).parent
 SCENE = ("--scene", HERE.parent / "zoo/majidi_strip/scene.toml", "--surface", "polyethylene")
 FINE = ("--cycles", 2, "--links", 12, "--timestep", 0.02)
 FREE = ("--free", "robot.modulus,surface.tip_force,surface.shear_strength")
-HEAD = "time [s],left [mm],x@0.5 [mm],right [mm]"
 
 
 def said(command, *options):
@@ -26,16 +23,13 @@ def said(command, *options):
     return json.loads(printed.getvalue())
 
 
-def main(markers=HERE / "markers.csv", scale=0.25, folder="from_a_video"):
-    track, known, page = (Path(folder) / name for name in ("track.csv", "fit.json", "page.html"))
-    track.parent.mkdir(exist_ok=True)
-    frame, *x = np.genfromtxt(markers, delimiter=",", skip_header=1).T
-    np.savetxt(track, np.transpose([frame / 30, *(float(scale) * np.array(x))]), "%.4f", ",",
-               header=HEAD, comments="")  # fmt: skip
-    found = said(fit, track, *SCENE, *FINE, *FREE, "--out", track.parent)
+def main(markers=HERE / "markers.csv", pixel="0.25mm", folder="from_a_video"):
+    known, page = (Path(folder) / name for name in ("fit.json", "page.html"))
+    found = said(fit, markers, *SCENE, *FINE, *FREE, "--pixel", pixel, "--frame-rate", 30,
+                 "--out", folder)  # fmt: skip
     known.write_text(json.dumps(found))
-    scene = ("--scene", track.with_name("fit.toml"), "--uncertain", known, "--no-video", "--out")
-    walks = [said(run, *scene, track.with_name(gait), "--gait", gait)
+    scene = ("--scene", known.with_name("fit.toml"), "--uncertain", known, "--no-video", "--out")
+    walks = [said(run, *scene, known.with_name(gait), "--gait", gait)
              for gait in ("wave", "full-wave", "pulse")]  # fmt: skip
     report.main([*(walk["trajectory"] for walk in walks), "--no-video", "--uncertain", str(known),
                  "--out", str(page)])  # fmt: skip

@@ -279,3 +279,30 @@ def test_markers_of_a_camera_give_back_the_strip_and_its_gaits(tmp_path):
         told = truth.locomotion.per_cycle / 0.13
         assert walk["uncertain"]["low_over_L"] < told < walk["uncertain"]["high_over_L"]
     assert (tmp_path / "page.html").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("text", "pixel", "words"),
+    [
+        (None, "0.25mm", "no such file"),
+        ("", "0.25mm", "is empty"),
+        ("frame,left [px],middle [px]\n", "0.25mm", "has no number to fit"),
+        ("frame,middle [px]\n0,1\n", "0.25mm", "column 'middle' is unknown"),
+        ("frame,left [px],right [px]\n0,0,a\n", "0.25mm", "must be a number, got 'a'"),
+        ("frame,left [px],right [px]\n0,0,520\n9,5,520\n3,5,520\n", "0.25mm", "not go back"),
+        ("frame,left [px],right [px]\n0,520,0\n", "0.25mm", "wrong order"),
+        ("frame,left [px],right [px]\n0,0,520\n", "2.5mm", "look at the unit"),
+        ("frame,left [px],right [px]\n0,0,520\n", "wide", "--pixel must be"),
+        ("frame,left [px],right [px]\n0,0,520\n", "0.25mm", "data must be more than"),
+    ],
+)
+def test_a_film_that_is_none_ends_in_one_line(tmp_path, capsys, text, pixel, words):
+    markers = tmp_path / "markers.csv"
+    if text is not None:
+        markers.write_text(text)
+    with pytest.raises(SystemExit) as end:
+        example("from_a_video")(markers, pixel, tmp_path / "out")
+    said = capsys.readouterr().err
+    assert end.value.code == 2
+    assert words in said
+    assert said.count("\n") == 1

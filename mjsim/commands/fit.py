@@ -60,6 +60,10 @@ class Options(SceneOptions):
     zero: Literal["angle", "pressure"] | None = None
     """what a bench's files of pressure and angle may read at rest, one unknown per file: angle, the
     protractor's; pressure, the sensor's, or the one at which the segment begins to bend"""
+    pixel: str = ""
+    """size of a pixel on the robot, of columns in px: 0.25mm"""
+    frame_rate: float | None = None
+    """pictures per second, of a column frame in place of time"""
     model: Literal["mujoco", "quasi-static"] = "mujoco"
     """what walks: MuJoCo, coarse at first and at the end with the scene's own links and time step;
     or the elastica that friction bends, without inertia and with ideal valves"""
@@ -125,7 +129,7 @@ def _of_actuators(options: Options, base: Tables) -> int:
     )
     from mjsim.fitting.actuator_picture import draw
 
-    for name in ("start", "bounds", "prior"):
+    for name in ("start", "bounds", "prior", "pixel", "frame_rate"):
         if getattr(options, name):
             raise ValueError(f"{name} is for fields that are numbers, not for {_ACTUATOR}, got "
                              f"{getattr(options, name)!r}")  # fmt: skip
@@ -146,14 +150,20 @@ def _of_actuators(options: Options, base: Tables) -> int:
 
 
 def _fit(options: Options, base: Tables) -> "tuple[Estimate, dict[str, Any]]":
+    from mjsim.files.units import in_unit
+    from mjsim.fitting.camera import Camera
     from mjsim.fitting.estimate import estimate
+    from mjsim.fitting.markers import check_places
     from mjsim.fitting.observations import read_observations
     from mjsim.fitting.parameters import parameters
     from mjsim.fitting.walks import WALKS, Predictor, coarse, processes
 
     began = time.perf_counter()
     free = parameters(base, options.free, options.start, options.bounds, options.prior)
-    series = read_observations(options.data, options.zero or "")
+    pixel = in_unit("pixel", options.pixel, "m") if options.pixel else None
+    camera = Camera(pixel, options.frame_rate)
+    series = read_observations(options.data, options.zero or "", camera)
+    check_places(series, base, [parameter.name for parameter in free])
     walk, second = WALKS[options.model], next(k for k in WALKS if k != options.model)
     runs = {run for line in series if line.quantity != "angle" for run in line.runs}
     with processes(len(runs), len(free)) or contextlib.nullcontext() as pool:

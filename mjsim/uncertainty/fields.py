@@ -222,6 +222,7 @@ def _fitted(path: Path) -> Fitted:
         names = tuple(str(row["name"]) for row in rows)
         errors = [row["relative_error"] for row in rows]
         values = tuple(float(row["value"]) for row in rows)
+        reasons = "".join(f"; {note}" for note in content.get("notes", ()))
     except OSError as error:
         raise ValueError(f"uncertain {str(path)!r}: {missing(path, error)}") from error
     except (ValueError, KeyError, TypeError) as error:
@@ -231,7 +232,7 @@ def _fitted(path: Path) -> Fitted:
     open_ended = [name for name, error in zip(names, errors, strict=True) if error is None]
     if open_ended:
         raise ValueError(f"uncertain {str(path)!r}: the fit gives no interval of "
-                         f"{', '.join(open_ended)}")  # fmt: skip
+                         f"{', '.join(open_ended)}{reasons}")  # fmt: skip
     lengths, directions = np.linalg.eigh(correlation * np.outer(errors, errors))
     factor = directions * np.sqrt(np.maximum(lengths, 0.0))
     return Fitted(names, values, tuple(map(tuple, factor.tolist())))
