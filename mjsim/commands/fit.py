@@ -37,7 +37,8 @@ class Options(SceneOptions):
     """Fit fields of a scene to measurements by least squares, with 95 % intervals.
 
     Data are CSV files, which docs/fitting.md describes. Prints each parameter, and what the data do
-    not determine; writes the fitted scene, fit.toml, and fit.png. Exit code 0: done; 2: bad input;
+    not determine; writes the fitted scene, fit.toml, what --uncertain of other commands reads,
+    fit.json, and fit.png. Exit code 0: done; 2: bad input;
     3: a parameter is not determined or ended at a bound, or the model misses the data so much that
     no interval is sure.
     """
@@ -68,7 +69,7 @@ class Options(SceneOptions):
     """what walks: MuJoCo, coarse at first and at the end with the scene's own links and time step;
     or the elastica that friction bends, without inertia and with ideal valves"""
     out: Path = Path("fitted")
-    """folder for fit.toml and fit.png, made if need be"""
+    """folder for fit.toml, fit.json and fit.png, made if need be"""
     json: bool = False
     """print one JSON object instead of the table"""
 
@@ -97,14 +98,15 @@ def main(argv: Sequence[str] | None = None) -> int:
         fail(PROGRAM, str(error))
     paths: list[Path] = []
     end: OSError | None = None
+    whole_record = record_of(fit, doubts, notes) | record
     try:
-        for path in _write(options.out, fit, tables, doubts, notes):
+        for path in _write(options.out, fit, tables, doubts, notes, whole_record):
             paths.append(path)
     except OSError as error:
         end = error  # after the numbers, which are not lost
     if options.json:
         files = {"files": [str(path) for path in paths]}
-        say(strict_json(record_of(fit, doubts, notes) | record | files))
+        say(strict_json(whole_record | files))
     else:
         say("\n".join([table(fit, doubts), *zeros(fit), _summary(fit, record), *notes]))
         print(*paths)
@@ -212,9 +214,10 @@ def _whole(tables: Tables) -> tuple[Tables, list[str]]:
 
 
 def _write(
-    folder: Path, fit: "Estimate", tables: Tables, doubts: "Doubts", notes: list[str]
-) -> Iterator[Path]:
-    """Paths of the scene's file and its picture, each once it is written."""
+    folder: Path, fit: "Estimate", tables: Tables, doubts: "Doubts", notes: list[str],
+    record: dict[str, Any],
+) -> Iterator[Path]:  # fmt: skip
+    """Paths of the scene's file, the record and the picture, each once it is written."""
     from mjsim.fitting.picture import draw
     from mjsim.fitting.report import table, zeros
 
@@ -226,6 +229,9 @@ def _write(
             f"{name} = {fit.values[name]:.6g}" for name in others))  # fmt: skip
     _write_toml(folder / "fit.toml", tables, comments)
     yield folder / "fit.toml"
+    with whole(folder / "fit.json") as part:
+        part.write_text(strict_json(record), "utf-8")
+    yield folder / "fit.json"
     draw(fit, folder / "fit.png")
     yield folder / "fit.png"
 
