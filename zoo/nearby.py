@@ -7,7 +7,7 @@ lines miss no input tells: it is not known either, and spread as the walks besid
 """
 
 import csv
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
@@ -146,8 +146,13 @@ def left(robot: Robot, found: Lines, measured: Sequence[Measurement] = ()) -> Ar
     return errors(covariance, found.slope[[one.predicted for one in robot.quantities]])
 
 
-def tell(robot: Robot) -> None:
-    """Print a row per measurement, those that tell most first."""
+def tell(robot: Robot, others: Mapping[str, float]) -> None:
+    """Print a row per measurement, those that tell most first; and where others say otherwise.
+
+    Args:
+        robot: near which scenes were walked.
+        others: what another model or a source says, by name of the quantity.
+    """
     found = lines(*walked(robot))
     asked = [k for k, one in enumerate(robot.quantities) if one.predicted]
     before = left(robot, found)
@@ -160,3 +165,9 @@ def tell(robot: Robot) -> None:
     for name, after in rows:
         cells = (f"{x:.2g} {robot.quantities[k].unit}" for x, k in zip(after, asked, strict=True))
         print(f"| {name} | " + " | ".join(cells) + " |")
+    unsure = errors(known(robot, found), found.slope)
+    for one, value, error in zip(robot.quantities, found.value, unsure, strict=True):
+        if one.name in others:
+            other = others[one.name]
+            print(f"{one.name}: {value:.3g} ± {error:.2g} {one.unit} for {other:.3g}, "
+                  f"{abs(value - other) / error:.1f} errors apart")  # fmt: skip

@@ -162,7 +162,7 @@ def read_spreads(base: Tables, text: str) -> tuple[Spread, ...]:
     Args:
         base: tables of the scene.
         text: name=part, or name=size in its unit, with commas between; fields with + between are
-            off together; or a file that `undulator fit --json` printed.
+            off together; or fit.json, which `undulator fit` wrote.
 
     Raises:
         ValueError: a name is no field with a number, is there twice, a size is none, or a file is
@@ -227,7 +227,7 @@ def _fitted(path: Path) -> Fitted:
         raise ValueError(f"uncertain {str(path)!r}: {missing(path, error)}") from error
     except (ValueError, KeyError, TypeError) as error:
         raise ValueError(
-            f"uncertain {str(path)!r} must be what undulator fit --json printed"
+            f"uncertain {str(path)!r} must be fit.json as undulator fit writes it"
         ) from error
     open_ended = [name for name, error in zip(names, errors, strict=True) if error is None]
     if open_ended:

@@ -13,7 +13,7 @@ import numpy as np
 
 from mjsim import Numerics, Trajectory, simulate
 from studies import Array
-from studies.inchworm import BASE, Values, outcome, scene
+from studies.inchworm import BASE, LENGTH, Values, outcome, scene
 from zoo.nearby import Input, Quantity, Robot, tell, walk
 
 WALKS = 64
@@ -62,9 +62,10 @@ def quantities(factors: Array) -> Array:
                      height[0], last.min()])  # fmt: skip
 
 
+PUBLISHED = {"distance at 13 Hz": -0.240 / 13 / LENGTH}  # 240 mm/s, at 5.5 kV
 ROBOT = Robot(INPUTS, QUANTITIES, quantities, Path(__file__).with_name("nearby.csv"))
 
 if __name__ == "__main__":
     if "--walk" in sys.argv:
         walk(ROBOT, WALKS)
-    tell(ROBOT)
+    tell(ROBOT, PUBLISHED)
