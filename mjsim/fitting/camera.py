@@ -26,12 +26,13 @@ class Camera(NamedTuple):
         Raises:
             ValueError: a number is none above 0, or is of no column.
         """
-        units = {_unit(head) for table in tables for head in table.heads}
+        heads = [head for table in tables for head in table.heads]
+        units = {_unit(head) for head in heads}
         for name, value, unit in zip(self._fields, self, (PIXEL, FRAME), strict=True):
             if value is not None and not (value > 0 and math.isfinite(value)):
                 raise ValueError(f"{name} must be a number above 0, got {value:g}")
             if value is not None and unit not in units:
-                raise ValueError(f"{name} is for columns of {unit}, and no file has one")
+                raise ValueError(f"{name} is for columns of {unit}, got {', '.join(heads)}")
 
     def units(self, where: str, heads: Iterable[str]) -> dict[str, float]:
         """Sizes in SI of the units that columns have, by what heads call them.

@@ -34,7 +34,7 @@ QUANTITIES = (
     Quantity("distance at 9 Hz", "L", None, predicted=True),
     Quantity("distance at 13 Hz", "L", None, predicted=True),
     Quantity("distance at 2 Hz", "L", 0.01),
-    Quantity("distance at 1 Hz, half that speed", "L", 0.01),
+    Quantity("distance at 1 Hz", "L", 0.01),
     Quantity("distance at 2 Hz, three quarters of the voltage", "L", 0.01),
     Quantity("height at rest", "mm", 1.0),
     Quantity("height with the voltage on", "mm", 1.0),

@@ -103,8 +103,8 @@ def test_pictures_beside_a_clock_are_not_read(tmp_path):
 @pytest.mark.parametrize(
     ("camera", "words"),
     [
-        (Camera(pixel=1e-3), "pixel is for columns of px, and no file has one"),
-        (Camera(frame_rate=30), "frame_rate is for columns of frame, and no file has one"),
+        (Camera(pixel=1e-3), "pixel is for columns of px, got time"),
+        (Camera(frame_rate=30), "frame_rate is for columns of frame, got time"),
         (Camera(pixel=-1e-3), "pixel must be a number above 0, got -0.001"),
         (Camera(frame_rate=0), "frame_rate must be a number above 0, got 0"),
     ],
