@@ -80,7 +80,7 @@ def follow(
         ValueError: see analytic.solvers.limbs.contacts.spans_of and
             analytic.friction.grip.check_feet_in_space.
     """
-    spans = spans_of(ground, times, len(rests))
+    spans = spans_of(tree.robot, ground, times, len(rests))
     check_feet_in_space(tree.robot, ground)
     finder = Contacts(tree, law)
     contacts = [finder.find(rest, row) for rest, row in zip(rests, pressures, strict=True)]
@@ -162,7 +162,7 @@ def walk(
         )
     if times is not None:
         times_of(times, len(path))
-    spans_of(ground, times, len(path))  # refuses what has no times and needs them
+    spans_of(robot, ground, times, len(path))  # refuses what has no times and needs them
     clock = np.arange(float(len(path))) if times is None else np.asarray(times, dtype=float)
     path, times = _with_thresholds(robot, ground.at(0.0), acting_pressures(robot, path), clock)
     if twists is None:
