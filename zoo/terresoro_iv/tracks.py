@@ -3,8 +3,9 @@
 FOLDER is demos/data/visualtracking of clfreeman7/Path_Planning (commit b9acea9), which states no
 licence: it is read where it lies. Five tours go through all 240 transitions, one after the other,
 so each run has a known past. Runs are cut where the robot starts to move, which is found in each
-track; a tour whose track has lost transitions is set right by the other four. Prints what was found
-and writes the means, recut.csv and recut_gaits.csv.
+track; a tour whose track has lost transitions is set right by the other four, and axes are those of
+the hub, which was placed otherwise in each tour. Prints what was found and writes the means,
+recut.csv and recut_gaits.csv.
 """
 
 import csv
@@ -17,7 +18,7 @@ import numpy as np
 from scipy.io import loadmat
 
 from studies import Array
-from zoo.terresoro_iv.hub import HERE, LIMBS, turned
+from zoo.terresoro_iv.hub import DATA, LIMBS, turned
 
 TOURS = (7, 8, 9, 10, 11)
 PIXEL = 0.23898  # cm, of the same robot and camera; as are frames (demo2_PrimitivesTest.m)
@@ -64,6 +65,29 @@ def track(path: Path) -> Track:
     place = rotation @ first + table[:, 45:48]
     place[0] = first
     return Track(PIXEL * place[:, :2], np.unwrap(np.arctan2(rotation[:, 1, 0], rotation[:, 0, 0])))
+
+
+def markers(frame: Array) -> Array:
+    """Places of the eight markers in a frame, columns and rows of its pixels, (8, 2)."""
+    return frame[:24].reshape(8, 3)[:, :2]
+
+
+def axes(folder: Path) -> Array:
+    """By how much the hub was turned when each tour began, less their mean, (5,) [rad].
+
+    Tours count headings from their first frame, in which the hub was placed by hand. Its eight
+    markers are on a circle, nearly at equal angles.
+    """
+    angles = np.array([
+        axis(markers(loadmat(folder / f"Euler {tour}.mat")["all_pt"][0])) for tour in TOURS
+    ])  # fmt: skip
+    return angles - angles.mean()
+
+
+def axis(spokes: Array) -> float:
+    """Mean direction of markers (8, 2) about their middle, within an eighth of a turn [rad]."""
+    along = (spokes - spokes.mean(axis=0)) @ [1, 1j]
+    return float(np.angle(((along / np.abs(along)) ** len(spokes)).mean())) / len(spokes)
 
 
 def starts(of: Track, first: float, count: int, block: int = _BLOCK) -> Array:
@@ -125,6 +149,8 @@ def runs(folder: Path) -> Runs:
         of = track(folder / f"Euler {tour}.mat")
         moves.append(motions(of, starts(of, FIRST[tour] + FRAMES - 1.5, orders.shape[1] - 1)))
     skips = lost(moves, orders)
+    for moved, angle in zip(moves, axes(folder), strict=True):
+        moved[:, :2] = turned(moved[:, :2], -angle)
     rows: list[tuple[Array, Array, Array, int]] = []
     for tour, order in enumerate(orders):
         states = (order[:, None] >> np.arange(LIMBS)[::-1]) & 1
@@ -160,7 +186,7 @@ def main(folder: str) -> None:
     pairs = list(zip(text[: len(found.after)], text[len(found.after) :], strict=True))
     head = ("dx [cm]", "dx_sd [cm]", "dy [cm]", "dy_sd [cm]", "turn [deg]", "turn_sd [deg]")
     spread = []
-    with (HERE / "recut.csv").open("w", newline="", encoding="utf-8") as file:
+    with (DATA / "recut.csv").open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(("from_limbs", "to_limbs", "repeats", *head))
         for pair in sorted(set(pairs)):
@@ -170,7 +196,7 @@ def main(folder: str) -> None:
             cells = np.column_stack([here.mean(axis=0), sd]).ravel()
             writer.writerow((*pair, len(here), *(f"{x:.3f}" for x in cells)))
     print("runs of a transition differ by", np.sqrt((np.array(spread) ** 2).mean(axis=0)).round(2))
-    with (HERE / "recut_gaits.csv").open("w", newline="", encoding="utf-8") as file:
+    with (DATA / "recut_gaits.csv").open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(("gait", "cycles", *head))
         for name in GAITS:

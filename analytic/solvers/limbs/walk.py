@@ -98,11 +98,12 @@ def follow(
                 state, ground, x, 0.0, -heading[i], pressures=row
             )
             motion = least_dissipation_in_plane(
-                bounds, before, after - before, viscous / spans[i], shares(state), nap
-            )
+                bounds, 0.5 * (before + after), after - before, viscous / spans[i], shares(state),
+                nap,
+            )  # fmt: skip
             shift += 0.5 * motion.shift
             turn += 0.5 * motion.turn
-        place[i + 1] = place[i] + turned @ shift
+        place[i + 1] = place[i] + rotation(heading[i] + 0.5 * turn) @ shift
         heading[i + 1] = heading[i] + turn
     when = np.arange(float(len(rests))) if times is None else times
     return Path(tree.robot, pressures, when, rests, contacts, place, heading)

@@ -7,7 +7,7 @@ import pytest
 
 from analytic import Robot
 from analytic.scene.feet import Foot
-from analytic.scene.limbs import quadruped
+from analytic.scene.limbs import quadruped, rotation
 from analytic.scene.quadruped_gaits import undulation
 from analytic.scene.surface import SURFACES, Surface
 from analytic.solvers.limbs.contacts import Contacts
@@ -46,12 +46,28 @@ def test_tips_that_resist_viscously_alone_move_the_hub_by_least_squares():
         before, after = (100 * weights @ each.nodes[:, :2] for each in rests)
         rows = np.zeros((len(root), 2, 3))
         rows[:, 0, 0] = rows[:, 1, 1] = 1.0
-        rows[:, 0, 2], rows[:, 1, 2] = -before[:, 1], before[:, 0]
+        middle = 0.5 * (before + after)
+        rows[:, 0, 2], rows[:, 1, 2] = -middle[:, 1], middle[:, 0]
         pulls = root[:, None] * (before - after)
         scaled = (root[:, None, None] * rows).reshape(-1, 3)
         expected += 0.5 * np.linalg.lstsq(scaled, pulls.ravel(), rcond=None)[0]
-    found = [*100 * path.place[-1], path.heading[-1]]
-    assert found == pytest.approx(expected, rel=1e-3, abs=1e-6)
+    expected[:2] = rotation(0.5 * expected[2]) @ expected[:2]
+    assert [*100 * path.place[-1], path.heading[-1]] == pytest.approx(expected, rel=1e-3, abs=1e-6)
+
+
+def test_a_walk_by_weak_friction_is_of_second_order_in_its_increments():
+    """Tips that resist viscously, on which all stands, so that nothing jumps."""
+    robot = shod(quadruped(), Foot(0, 1, grip=0.0, damping=1.0), limbs=quadruped().outer)
+    ends = robot.peak_pressure * np.array([[0.0, 0.8, 0.9, 0.9, 0.9], [0.0, 1.0, 0.9, 0.7, 1.0]])
+    found = []
+    for count in (1, 2, 4, 8, 64):
+        pressures = np.linspace(*ends, count + 1)
+        tree, rests = shapes(robot, pressures, 4, twists=0)
+        path = follow(tree, rests, pressures, SMOOTH, times=np.linspace(0, 1, count + 1))
+        found.append([*path.place[-1] / robot.length, path.heading[-1]])
+    errors = np.abs(np.array(found[:-1]) - found[-1]).max(axis=1)
+    assert errors[0] < 2e-4
+    assert (errors[:-1] / errors[1:] > 3.0).all(), errors
 
 
 @pytest.mark.parametrize("bent", [False, pytest.param(True, marks=pytest.mark.slow)])
