@@ -166,6 +166,14 @@ def resists_by_speed(robot: AnyRobot, ground: Ground) -> bool:
     return feet or depends_on_speed(ground)
 
 
+def refuse_speed(robot: AnyRobot, ground: Ground) -> None:
+    """Raise ValueError for ground or feet that resist by speed, where friction is by load."""
+    if resists_by_speed(robot, ground):
+        speedy = depends_on_speed(ground)
+        what = f"surface {ground.name!r}" if speedy else "a foot with damping"
+        raise ValueError(f"{what} resists by speed: friction must be constant, not coulomb")
+
+
 def check_feet_in_space(robot: AnyRobot, ground: Ground) -> None:
     """Refuse ground on which feet with a direction are not known, in the plane.
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from analytic.checks import is_number, one_of, positive, slope, whole
 from analytic.fields import in_si
-from analytic.friction.grip import Grip, check_feet_in_space, resists_by_speed
+from analytic.friction.grip import Grip, check_feet_in_space, refuse_speed
 from analytic.friction.laws import LAWS, ROUGHNESS, Friction
 from analytic.scene.chain import CHAMBER_LAWS
 from analytic.scene.feet import Foot, check_chambers, proud, refuse_damping, refuse_proud
@@ -19,7 +19,6 @@ from analytic.scene.ground import (
     Incline,
     check_adhesion,
     check_for_limbs,
-    depends_on_speed,
     surfaces_of,
 )
 from analytic.scene.limbs import (
@@ -155,10 +154,8 @@ class Scene:
         self._check_turns()
         if self.in_space:
             self._check_limbs()
-        if self.friction == "coulomb" and resists_by_speed(self.robot, self.ground):
-            speedy = depends_on_speed(self.ground)
-            what = f"surface {self.ground.name!r}" if speedy else "a foot with damping"
-            raise ValueError(f"{what} resists by speed: friction must be constant, not coulomb")
+        if self.friction == "coulomb":
+            refuse_speed(self.robot, self.ground)
         check_adhesion(self.ground)
         feet = self._check_feet()
         acts = LAWS[self.friction].acts_on
