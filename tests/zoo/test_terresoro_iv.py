@@ -98,7 +98,9 @@ def test_means_that_are_cut_anew_are_of_the_same_transitions():
 def test_limbs_on_a_picture_are_found_where_they_were_drawn():
     """Ellipses, one turned by 20 degrees against the axes, around a hub that is turned by 10."""
     rows, columns = np.mgrid[:300, :300]
-    place = tracks.PIXEL * ((columns - 160) + 1j * (rows - 140)) * np.exp(-1j * np.radians(10))
+    place = (
+        tracks.ORANGE.pixel * ((columns - 160) + 1j * (rows - 140)) * np.exp(-1j * np.radians(10))
+    )
     picture = np.zeros((300, 300, 3))
     for limb in range(hub.LIMBS):
         local = place * np.exp(-1j * (np.radians(250) - 0.5 * np.pi * limb)) - 11.0

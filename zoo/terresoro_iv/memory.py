@@ -41,9 +41,9 @@ from zoo.terresoro_iv.model import (
 from zoo.terresoro_iv.tracks import Runs, runs
 
 START = (7.5, 4.9, 0.9, 0.7, -0.35, 0.7, 0.2)
-_SCALE = (1.0, 0.1, 0.3, 0.3, 0.3, 0.3, 0.1)
+SCALE = (1.0, 0.1, 0.3, 0.3, 0.3, 0.3, 0.1)
 _MORE = {"free flat contact": (1.0, 0.1)}  # scales of further values; 0.1 of others
-_STEP, _MOST = 3e-3, 15  # of differences, over a number; evaluations with slopes
+STEP, _MOST = 3e-3, 15  # of differences, over a number; evaluations with slopes
 
 
 def fit(name: str, found: Runs, rows: NDArray[np.intp], start: Array) -> Array:
@@ -54,8 +54,8 @@ def fit(name: str, found: Runs, rows: NDArray[np.intp], start: Array) -> Array:
     def left(values: Array) -> Array:
         return np.asarray(((FORMS[name].law(values, past, after) - motion) / spread).ravel())
 
-    scale = np.array([*_SCALE, *_MORE.get(name, (0.1, 0.1, 0.1))])[: len(start)]
-    return np.asarray(least_squares(left, start, x_scale=scale, diff_step=_STEP, max_nfev=_MOST,
+    scale = np.array([*SCALE, *_MORE.get(name, (0.1, 0.1, 0.1))])[: len(start)]
+    return np.asarray(least_squares(left, start, x_scale=scale, diff_step=STEP, max_nfev=_MOST,
                                     ftol=1e-5).x)  # fmt: skip
 
 

@@ -18,7 +18,7 @@ from scipy.io import loadmat
 
 from studies import Array
 from zoo.terresoro_iv.hub import DATA, LIMBS
-from zoo.terresoro_iv.tracks import PIXEL, TOURS, axes, markers
+from zoo.terresoro_iv.tracks import ORANGE, axes, markers
 
 BRIGHT = 180  # of 765, above which a pixel is the robot's; the mat is black
 HUB, FAR = 4.6, 19.0  # cm from the centre, between which pixels are a limb's
@@ -35,7 +35,7 @@ def limbs(picture: Array, centre: Array, angle: float) -> Array:
         angle: by which the hub's axes are turned on the picture [rad].
     """
     rows, columns = np.nonzero(picture.sum(axis=2) > BRIGHT)
-    place = PIXEL * ((columns - centre[0]) + 1j * (rows - centre[1])) * np.exp(-1j * angle)
+    place = ORANGE.pixel * ((columns - centre[0]) + 1j * (rows - centre[1])) * np.exp(-1j * angle)
     place = place[(np.abs(place) > HUB) & (np.abs(place) < FAR)]
     axis = float(np.angle((place**LIMBS).mean())) / LIMBS
     turn = 0.5 * np.pi
@@ -44,7 +44,7 @@ def limbs(picture: Array, centre: Array, angle: float) -> Array:
     for limb in range(LIMBS):
         here = place[which == limb] * np.exp(-1j * turn * (limb + 1))
         middle, along = here.mean(), here * np.exp(-1j * (axis - turn))
-        length, area = np.ptp(along.real), len(here) * PIXEL**2
+        length, area = np.ptp(along.real), len(here) * ORANGE.pixel**2
         found.append([abs(middle), np.angle(middle), np.abs(here).max(), area, area / length])
     return np.array(found)
 
@@ -52,7 +52,7 @@ def limbs(picture: Array, centre: Array, angle: float) -> Array:
 def measured(folder: Path) -> Array:
     """Numbers of all limbs on all first frames, (5, 4, 5)."""
     found = []
-    for tour, angle in zip(TOURS, axes(folder), strict=True):
+    for tour, angle in zip(ORANGE.first, axes(folder), strict=True):
         with Image.open(folder / f"firstframe{tour:02d}.jpg") as image:
             picture = np.asarray(image.convert("RGB"), dtype=float)
         first = loadmat(folder / f"Euler {tour}.mat")["all_pt"][0]
