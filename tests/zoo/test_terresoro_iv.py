@@ -7,7 +7,7 @@ import pytest
 
 from analytic.friction.dissipation_in_plane import least_dissipation_in_plane
 from mjsim import build, read_tables
-from zoo.terresoro_iv import fit, hub, limbs, model, outline, scenes, tracks
+from zoo.terresoro_iv import blue, fit, hub, limbs, model, outline, scenes, tracks
 from zoo.terresoro_iv.at_once import SHARPEST, least_dissipation
 from zoo.terresoro_iv.forms import FORMS
 from zoo.terresoro_iv.outline import flat_place
@@ -121,6 +121,15 @@ def test_the_hubs_axis_is_that_of_its_markers():
 @pytest.fixture(scope="module")
 def fitted():
     return model.Lagged(*model.remembered()[0])
+
+
+def test_friction_of_other_feet_is_found_where_it_was_planted(fitted):
+    random = np.random.default_rng(5)
+    past, after = random.integers(0, 2, (80, 3, 4)), random.integers(0, 2, (80, 4))
+    planted = fitted._replace(resting=-0.5, uncurling=-1.1)
+    of = tracks.Runs(past, after, model.motions(planted, past, after), np.zeros(80))
+    found = blue.fit(("resting", "uncurling"), of, np.ones(80, dtype=bool), fitted)
+    assert found == pytest.approx(planted, abs=0.02)
 
 
 def test_tips_of_limbs_are_where_contacts_were_fitted_and_the_hub_stays_level(fitted):

@@ -1,9 +1,9 @@
 """TerreSoRo-IV once more, on other feet: `python -m zoo.terresoro_iv.blue FOLDER`.
 
-The blue robot has the same limbs and another frictional component; nothing of it was fitted before.
-Of its single runs it prints what the orange robot's numbers explain, what is explained when friction
-alone is fitted anew, and the lag, and all; each fit also with an eighth of the transitions left out
-at a time.
+The blue robot has the same limbs and another frictional component; nothing of it was fitted
+before. Of its single runs it prints what the orange robot's numbers explain, what is explained when
+friction alone is fitted anew, and the lag, and all; each fit also with an eighth of the transitions
+left out at a time.
 """
 
 import sys
@@ -25,6 +25,7 @@ FREED = {
     "and the lag": ("resting", "curling", "uncurling", "viscous", "lag"),
     "and the curled contact, all 7": Lagged._fields,
 }
+_TINY = 1e-9  # an error that rounding makes
 
 
 def fit(freed: tuple[str, ...], of: Runs, kept: Array, start: Lagged) -> Lagged:
@@ -62,7 +63,7 @@ def main(folder: str) -> None:
                     for one in (motions(best, of.past, of.after), held_out))  # fmt: skip
         print(f"| {name} | {r2} | {seen} |", flush=True)
         shown = zip(Lagged._fields, best, jackknife(np.array(others)), strict=True)
-        print("   ", ", ".join(f"{word} {x:.3f} ± {e:.3f}" for word, x, e in shown if e > 0))
+        print("   ", ", ".join(f"{word} {x:.3f} ± {e:.3f}" for word, x, e in shown if e > _TINY))
 
 
 if __name__ == "__main__":

@@ -91,9 +91,9 @@ def markers(frame: Array) -> Array:
 
 
 def axes(folder: Path, of: Experiment = ORANGE) -> Array:
-    """By how much the hub was turned when each tour began, less the orange robot's mean, (5,) [rad].
+    """By how much the hub was turned when each tour began, (5,) [rad].
 
-    Tours count headings from their first frame, in which the hub was placed by hand. Its eight
+    Over the mean of the orange robot's tours. Tours count headings from their first frame, in which the hub was placed by hand. Its eight
     markers are on a circle, nearly at equal angles.
     """
     each, orange = (
