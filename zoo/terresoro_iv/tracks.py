@@ -93,8 +93,8 @@ def markers(frame: Array) -> Array:
 def axes(folder: Path, of: Experiment = ORANGE) -> Array:
     """By how much the hub was turned when each tour began, (5,) [rad].
 
-    Over the mean of the orange robot's tours. Tours count headings from their first frame, in which the hub was placed by hand. Its eight
-    markers are on a circle, nearly at equal angles.
+    Over the mean of the orange robot's tours. Headings count from a tour's first frame, in which
+    the hub was placed by hand. Its eight markers are on a circle, nearly at equal angles.
     """
     each, orange = (
         np.array([axis(markers(loadmat(folder / f"Euler {tour}.mat")["all_pt"][0]))
