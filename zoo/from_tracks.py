@@ -22,14 +22,12 @@ from mjsim.files.files import check_folder, whole
 from studies import Array
 from zoo.comparison import Row, draw
 from zoo.terresoro_iv.fit import FOLDS
-from zoo.terresoro_iv.forms import FORMS
 from zoo.terresoro_iv.hub import Gait, gaits, jackknife, measured_cycles
 from zoo.terresoro_iv.memory import START, fit, folds_of
-from zoo.terresoro_iv.model import Lagged, cycle
-from zoo.terresoro_iv.tracks import GAITS, TOURS, gait, runs
+from zoo.terresoro_iv.model import FORM, Lagged, cycle
+from zoo.terresoro_iv.tracks import GAITS, ORANGE, gait, runs
 
 HERE = Path(__file__).parent
-FORM = "lag of curling"
 SOURCE = "tracks of TerreSoRo-IV: C. Freeman, A. Mahendran, V. Vikas, IEEE T-RO 2025"
 _STYLE = Path(pictures.__file__).parent / "page" / "style.css"
 _WIDE = float(stats.t.ppf(0.975, FOLDS - 1))  # standard errors of a 95 % interval
@@ -44,24 +42,22 @@ class Shown(NamedTuple):
 
 
 NUMBERS = (
-    Shown("a flat limb's contact, from the centre", "cm"),
-    Shown("its direction", "deg", math.degrees),
     Shown("a curled limb's contact, from the centre", "cm"),
     Shown("its direction", "deg", math.degrees),
-    Shown("friction of a limb that stays curled, over a flat one's", "", math.exp),
-    Shown("friction of a limb that curls", "", math.exp),
-    Shown("friction of a limb that uncurls", "", math.exp),
-    Shown("viscous over dry friction, at 1 cm in a transition", "", math.exp),
+    Shown("viscous friction of a limb that stays curled, over a flat one's", "", math.exp),
+    Shown("of a limb that curls", "", math.exp),
+    Shown("of a limb that uncurls", "", math.exp),
+    Shown("a flat limb's over its dry friction, at 1 cm in a transition", "", math.exp),
     Shown("part of a curl that lacks when the next transition begins", ""),
 )
 
 
 def fitted(folder: Path) -> tuple[Array, Array]:
-    """Numbers fitted to all transitions of the tours, (9,), and with parts left out, (8, 9)."""
-    found, form = runs(folder), FORMS[FORM]
+    """Numbers fitted to all transitions of the tours, (7,), and with parts left out, (8, 7)."""
+    found = runs(folder)
     fold = folds_of(found)
-    values = fit(form, found, np.arange(len(fold)), np.array(START))
-    return values, np.array([fit(form, found, np.flatnonzero(fold != k), values)
+    values = fit(FORM, found, np.arange(len(fold)), np.array(START))
+    return values, np.array([fit(FORM, found, np.flatnonzero(fold != k), values)
                              for k in range(FOLDS)])  # fmt: skip
 
 
@@ -123,7 +119,11 @@ def checked(folder: Path) -> Path:
     Raises:
         ValueError: one is missing.
     """
-    names = ("state_order_2", *(f"Euler {tour}" for tour in TOURS), *(f"Gait {g}" for g in GAITS))
+    names = (
+        ORANGE.order,
+        *(f"Euler {tour}" for tour in ORANGE.first),
+        *(f"Gait {g}" for g in GAITS),
+    )
     for name in names:
         if not (folder / f"{name}.mat").is_file():
             raise ValueError(f"folder {str(folder)!r} has no track {name + '.mat'!r}")

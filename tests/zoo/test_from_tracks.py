@@ -7,7 +7,7 @@ from scipy.io import savemat
 from zoo import from_tracks
 from zoo.terresoro_iv import hub, model, tracks
 
-TRUE = model.Lagged(10.0, 4.7, 8.0, 5.1, 0.5, 0.4, -0.3, 0.8, 0.2)
+TRUE = model.Lagged(8.0, 5.0, 0.8, 0.6, -0.3, 0.8, 0.2)
 _MOVES = 9  # pictures in which a transition is done
 
 
@@ -44,21 +44,23 @@ def film(path, motions, begin):
     rotation = np.zeros((frames, 3, 3))
     rotation[:, 0, 0], rotation[:, 1, 0], rotation[:, 0, 1], rotation[:, 1, 1] = c, s, -s, c
     rotation[:, 2, 2] = 1.0
+    angles = np.pi / 4 * np.arange(8)  # of markers around the hub's middle
+    table[0, :24] = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(8)]).ravel()
     table[:, 36:45] = rotation.transpose(0, 2, 1).reshape(frames, 9)
-    table[:, 45:47] = place / tracks.PIXEL
+    table[:, 45:47] = place / tracks.ORANGE.pixel
     savemat(path, {"all_pt": table})
 
 
 @pytest.mark.slow
 def test_tracks_give_back_the_numbers_and_the_gaits_that_made_them(tmp_path, capsys, monkeypatch):
     random = np.random.default_rng(4)
-    orders = [tour(random) for _ in tracks.TOURS]
+    orders = [tour(random) for _ in tracks.ORANGE.first]
     savemat(tmp_path / "state_order_2.mat", {"state_order_2": np.array(orders) + 1})
-    for number, order in zip(tracks.TOURS, orders, strict=True):
+    for number, order in zip(tracks.ORANGE.first, orders, strict=True):
         states = bits(order)
         past = np.array([states[np.maximum(np.arange(k - 8, k + 1), 0)] for k in range(240)])
         film(tmp_path / f"Euler {number}.mat", model.motions(TRUE, past, states[1:]),
-             tracks.FIRST[number] + tracks.FRAMES - 1.5)  # fmt: skip
+             tracks.ORANGE.first[number] + tracks.FRAMES - 1.5)  # fmt: skip
     for gait in hub.gaits():
         first, count = tracks.GAITS[gait.name]
         motions = np.tile(model.motions(TRUE, *model.steady(gait.states)), (tracks.CYCLES + 1, 1))
@@ -75,7 +77,7 @@ def test_tracks_give_back_the_numbers_and_the_gaits_that_made_them(tmp_path, cap
     assert [name for name, _ in told][::2] == [f"gait {name}, distance" for name in "ABCDE"]
     assert "part of a curl that lacks" in capsys.readouterr().out
     page = (tmp_path / "out" / "page.html").read_text("utf-8")
-    assert page.count("<tr>") == 9 + 10 + 2
+    assert page.count("<tr>") == 7 + 10 + 2
     assert "http" not in page.split("base64")[0]
 
 
