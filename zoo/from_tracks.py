@@ -1,4 +1,4 @@
-"""From tracks of a hub with four limbs to its numbers, gaits that no fit has seen, and a page.
+"""From tracks of a hub with four limbs to numbers, scenes, gaits that no fit has seen, and a page.
 
 The tracks are those of TerreSoRo-IV (`zoo.terresoro_iv.tracks`), which state no licence: they are
 read where they lie, and nothing of them is kept but what is fitted. Numbers are fitted to the
@@ -23,13 +23,16 @@ from studies import Array
 from zoo.comparison import Row, draw
 from zoo.terresoro_iv.fit import FOLDS
 from zoo.terresoro_iv.hub import Gait, gaits, jackknife, measured_cycles
+from zoo.terresoro_iv.limbs import lay
 from zoo.terresoro_iv.memory import START, fit, folds_of
-from zoo.terresoro_iv.model import FORM, Lagged, cycle
+from zoo.terresoro_iv.model import FORM, Lagged, cycle, steady
+from zoo.terresoro_iv.scenes import scene, stages
 from zoo.terresoro_iv.tracks import GAITS, ORANGE, gait, runs
 
 HERE = Path(__file__).parent
 SOURCE = "tracks of TerreSoRo-IV: C. Freeman, A. Mahendran, V. Vikas, IEEE T-RO 2025"
 _STYLE = Path(pictures.__file__).parent / "page" / "style.css"
+_CYCLES = 2  # of a scene
 _WIDE = float(stats.t.ppf(0.975, FOLDS - 1))  # standard errors of a 95 % interval
 
 
@@ -86,6 +89,14 @@ def numbers(values: Array, left_out: Array) -> list[tuple[str, str, str, str]]:
             for shown, value, error in zip(NUMBERS, values, errors, strict=True)]  # fmt: skip
 
 
+def scenes(numbers: Lagged) -> dict[str, str]:
+    """Texts of scenes in which limbs of the numbers walk two cycles of each gait, by file."""
+    laid = lay(numbers)
+    return {f"gait_{one.name}.toml":
+            scene(numbers, laid, stages(numbers, laid, *steady(one.states)), _CYCLES)
+            for one in gaits()}  # fmt: skip
+
+
 def page(known: Sequence[tuple[str, ...]], rows: Sequence[Row], picture: bytes) -> str:
     """HTML that needs nothing beside it."""
     image = base64.b64encode(picture).decode()
@@ -131,7 +142,7 @@ def checked(folder: Path) -> Path:
 
 
 def main(folder: Path, out: Path) -> list[tuple[str, dict[str, Any]]]:
-    """Fit the tracks of a folder, and write gaits.png and page.html.
+    """Fit the tracks of a folder, and write gaits.png, page.html and a scene per gait.
 
     Exits with 2 and one line where the folder has not the tracks.
 
@@ -148,9 +159,12 @@ def main(folder: Path, out: Path) -> list[tuple[str, dict[str, Any]]]:
     print(*(f"{words}: {value} ({between}) {unit}".rstrip() for words, value, between, unit
             in known), sep="\n")  # fmt: skip
     draw(rows, out / "gaits.png")
-    with whole(out / "page.html") as part:
-        part.write_text(page(known, rows, (out / "gaits.png").read_bytes()), "utf-8")
-    print(out / "page.html")
+    files = {"page.html": page(known, rows, (out / "gaits.png").read_bytes()),
+             **scenes(Lagged(*values))}  # fmt: skip
+    for name, text in files.items():
+        with whole(out / name) as part:
+            part.write_text(text, "utf-8")
+    print(*(out / name for name in files))
     return [(row.quantity, {
         "text": f"{_predicted(row)} {row.unit} (95 %), measured {_measured(row)}",
         "low": row.predicted - _WIDE * row.predicted_error,

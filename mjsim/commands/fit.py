@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 PROGRAM = "undulator fit"
 EXAMPLES = (
     "track.csv --scene my.toml --free robot.modulus,surface.tip_force,surface.shear_strength",
+    "markers.csv --pixel 0.25mm --frame-rate 30 --scene my.toml --free robot.modulus",
     "runs.csv --robot quadruped --free surface.tip_force,robot.modulus --model quasi-static",
     "bench.csv --free robot.actuator --zero angle",
 )

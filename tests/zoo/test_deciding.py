@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from zoo import nearby
+from zoo.__main__ import HERE
 from zoo.deciding import errors, narrowed
 from zoo.dielectric_inchworm import decide as dielectric
 from zoo.nearby import Input, Quantity, Robot, known, left, lines, measurements, spread
@@ -94,10 +95,27 @@ def test_a_strip_of_twice_the_rigidity_and_twice_the_weight_walks_the_same():
     assert two == pytest.approx(one, rel=1e-6)
 
 
+def line_of(name):
+    """What the zoo's page says would decide on a robot."""
+    page = (HERE / "README.md").read_text("utf-8").partition("## What would decide")[2]
+    (line,) = (line for line in page.splitlines() if f"({name}/README.md" in line)
+    return line
+
+
 def test_each_robot_that_has_one_says_in_a_line_of_the_zoo_what_would_decide():
-    page = (nearby.__file__ and piezo.ROBOT.table.parents[1] / "README.md").read_text("utf-8")
-    lines_of_it = page.partition("## What would decide")[2].splitlines()
-    for path in piezo.ROBOT.table.parents[1].glob("*/decide.py"):
-        name = path.parent.name
-        (line,) = (line for line in lines_of_it if f"({name}/README.md" in line)
-        assert f"zoo.{name}.decide" in line
+    robots = [path.parent.name for path in HERE.glob("*/decide.py")]
+    assert len(robots) >= 5
+    for name in robots:
+        assert f"zoo.{name}.decide" in line_of(name)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_the_line_of_the_zoo_is_of_the_measurement_that_narrows_most(name):
+    robot = ROBOTS[name]
+    found = lines(*nearby.walked(robot))
+    before = left(robot, found)
+    after = {one.name: left(robot, found, [one]) for one in measurements(robot, found)}
+    best = min(after, key=lambda word: float(np.mean(after[word] / before)))
+    said = line_of(name)
+    assert best.replace(", ± ", " to ") in said
+    assert f"{after[best][0]:.2g} of {before[0]:.2g}" in said

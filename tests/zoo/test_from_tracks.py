@@ -4,23 +4,17 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
+from mjsim import build, read_tables
 from zoo import from_tracks
-from zoo.terresoro_iv import hub, model, tracks
+from zoo.terresoro_iv import hub, model, scenes, tracks
 
 TRUE = model.Lagged(8.0, 5.0, 0.8, 0.6, -0.3, 0.8, 0.2)
 _MOVES = 9  # pictures in which a transition is done
 
 
 def tour(random):
-    """States of a way through each transition between 16 states once, 241 (Hierholzer)."""
-    left = {state: [int(s) for s in random.permutation(16) if s != state] for state in range(16)}
-    way, found = [0], []
-    while way:
-        if left[way[-1]]:
-            way.append(left[way[-1]].pop())
-        else:
-            found.append(way.pop())
-    return found[::-1]
+    """Numbers of states on a way through each transition once, with states renamed, 241."""
+    return random.permutation(16)[[int(state, 2) for state in scenes.tour()]]
 
 
 def bits(states):
@@ -77,6 +71,7 @@ def test_tracks_give_back_the_numbers_and_the_gaits_that_made_them(tmp_path, cap
     assert [name for name, _ in told][::2] == [f"gait {name}, distance" for name in "ABCDE"]
     assert "part of a curl that lacks" in capsys.readouterr().out
     page = (tmp_path / "out" / "page.html").read_text("utf-8")
+    assert build(read_tables(tmp_path / "out" / "gait_A.toml"))[0].in_space
     assert page.count("<tr>") == 7 + 10 + 2
     assert "http" not in page.split("base64")[0]
 
