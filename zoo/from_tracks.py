@@ -21,6 +21,8 @@ from mjsim.files.command_line.cli import fail
 from mjsim.files.files import check_folder, whole
 from studies import Array
 from zoo.comparison import Row, draw
+from zoo.deciding import errors, narrowed
+from zoo.terresoro_iv import decide
 from zoo.terresoro_iv.fit import FOLDS
 from zoo.terresoro_iv.hub import Gait, gaits, jackknife, measured_cycles
 from zoo.terresoro_iv.limbs import lay
@@ -33,6 +35,7 @@ HERE = Path(__file__).parent
 SOURCE = "tracks of TerreSoRo-IV: C. Freeman, A. Mahendran, V. Vikas, IEEE T-RO 2025"
 _STYLE = Path(pictures.__file__).parent / "page" / "style.css"
 _CYCLES = 2  # of a scene
+_BEST = 5  # measurements that the page tells
 _WIDE = float(stats.t.ppf(0.975, FOLDS - 1))  # standard errors of a 95 % interval
 
 
@@ -97,7 +100,25 @@ def scenes(numbers: Lagged) -> dict[str, str]:
             for one in gaits()}  # fmt: skip
 
 
-def page(known: Sequence[tuple[str, ...]], rows: Sequence[Row], picture: bytes) -> str:
+def deciding(values: Array, left_out: Array) -> list[tuple[str, str]]:
+    """Measurements that narrow the gaits' distances most, and the error that each leaves."""
+    at, spread = Lagged(*values), decide.covariance(left_out)
+    gradient = decide.slopes(decide.distances, at)
+
+    def error(covariance: Array) -> float:
+        return float(np.sqrt(np.mean(errors(covariance, gradient) ** 2)))
+
+    after = {one.name: error(narrowed(spread, decide.slopes(one.value, at), one.error))
+             for one in decide.MEASUREMENTS}  # fmt: skip
+    best = sorted(after, key=lambda name: after[name])[:_BEST]
+    return [(name, f"{found:.3f} cm") for name, found in
+            (("none", error(spread)), *((name, after[name]) for name in best))]  # fmt: skip
+
+
+def page(
+    known: Sequence[tuple[str, ...]], rows: Sequence[Row], next_: Sequence[tuple[str, str]],
+    picture: bytes,
+) -> str:  # fmt: skip
     """HTML that needs nothing beside it."""
     image = base64.b64encode(picture).decode()
     walked = [(row.quantity, _predicted(row), _measured(row), row.unit) for row in rows]
@@ -111,6 +132,8 @@ def page(known: Sequence[tuple[str, ...]], rows: Sequence[Row], picture: bytes) 
         _table(("a cycle", "predicted", "measured", "unit"), walked),
         "<p class='note'>Both ± are 95 %. Those of predictions hold what the fit does not know, "
         "not what the model leaves out.</p>",
+        "<h2>What one more measurement would narrow</h2>",
+        _table(("measurement", "error of the gaits' distances, rms"), next_),
         f"<img style='max-width:100%' alt='Measured beside predicted' "
         f"src='data:image/png;base64,{image}'></body></html>",
     ])  # fmt: skip
@@ -159,8 +182,8 @@ def main(folder: Path, out: Path) -> list[tuple[str, dict[str, Any]]]:
     print(*(f"{words}: {value} ({between}) {unit}".rstrip() for words, value, between, unit
             in known), sep="\n")  # fmt: skip
     draw(rows, out / "gaits.png")
-    files = {"page.html": page(known, rows, (out / "gaits.png").read_bytes()),
-             **scenes(Lagged(*values))}  # fmt: skip
+    told = page(known, rows, deciding(values, left_out), (out / "gaits.png").read_bytes())
+    files = {"page.html": told, **scenes(Lagged(*values))}
     for name, text in files.items():
         with whole(out / name) as part:
             part.write_text(text, "utf-8")

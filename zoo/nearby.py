@@ -54,7 +54,7 @@ class Quantity(NamedTuple):
     predicted: bool = False
 
 
-class Robot(NamedTuple):
+class Study(NamedTuple):
     """A robot near which scenes are walked.
 
     Attributes:
@@ -85,30 +85,30 @@ class Lines(NamedTuple):
     missed: Array
 
 
-def spread(robot: Robot, count: int) -> Array:
+def spread(study: Study, count: int) -> Array:
     """Logarithms of factors of the inputs, (count, F): normal by their errors, evenly (Sobol)."""
-    sobol = qmc.Sobol(len(robot.inputs), scramble=True, seed=_SEED)
+    sobol = qmc.Sobol(len(study.inputs), scramble=True, seed=_SEED)
     chance = np.clip(sobol.random(count), _CENTRED / count, 1 - _CENTRED / count)
-    return np.asarray(ndtri(chance) * [one.error for one in robot.inputs])
+    return np.asarray(ndtri(chance) * [one.error for one in study.inputs])
 
 
-def walk(robot: Robot, count: int) -> None:
+def walk(study: Study, count: int) -> None:
     """Walk scenes near the known one, and write the table."""
-    inputs = spread(robot, count)
+    inputs = spread(study, count)
     with ProcessPoolExecutor() as pool:
-        found = list(pool.map(robot.walk, np.exp(inputs)))
-    with robot.table.open("w", newline="", encoding="utf-8") as file:
+        found = list(pool.map(study.walk, np.exp(inputs)))
+    with study.table.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow([*(one.name for one in robot.inputs), *(q.name for q in robot.quantities)])
+        writer.writerow([*(one.name for one in study.inputs), *(q.name for q in study.quantities)])
         writer.writerows([[f"{x:.5g}" for x in (*np.exp(row), *shown)]
                           for row, shown in zip(inputs, found, strict=True)])  # fmt: skip
 
 
-def walked(robot: Robot) -> tuple[Array, Array]:
+def walked(study: Study) -> tuple[Array, Array]:
     """Logarithms of factors of inputs (N, F), and quantities (N, K), of walks that went well."""
-    rows = np.genfromtxt(robot.table, delimiter=",", skip_header=1)
+    rows = np.genfromtxt(study.table, delimiter=",", skip_header=1)
     rows = rows[np.isfinite(rows).all(axis=1)]
-    count = len(robot.inputs)
+    count = len(study.inputs)
     return np.log(rows[:, :count]), rows[:, count:]
 
 
@@ -121,52 +121,52 @@ def lines(inputs: Array, quantities: Array) -> Lines:
     return Lines(found[0], np.column_stack([found[1:].T, np.eye(len(missed))]), missed)
 
 
-def measurements(robot: Robot, found: Lines) -> list[Measurement]:
+def measurements(study: Study, found: Lines) -> list[Measurement]:
     """What could be measured: each input, and each quantity that has an accuracy."""
     unit = np.eye(found.slope.shape[1])
     ones = [Measurement(f"{one.name}, ± {one.accuracy:.0%}", unit[k], one.accuracy)
-            for k, one in enumerate(robot.inputs)]  # fmt: skip
+            for k, one in enumerate(study.inputs)]  # fmt: skip
     return ones + [
         Measurement(f"{one.name}, ± {one.accuracy:g} {one.unit}", slope, one.accuracy)
-        for one, slope in zip(robot.quantities, found.slope, strict=True)
+        for one, slope in zip(study.quantities, found.slope, strict=True)
         if one.accuracy is not None
     ]
 
 
-def known(robot: Robot, found: Lines) -> Array:
+def known(study: Study, found: Lines) -> Array:
     """Covariance of logarithms of inputs and of what lines miss, (F + K, F + K)."""
-    return block_diag(np.diag([one.error**2 for one in robot.inputs]), found.missed)
+    return block_diag(np.diag([one.error**2 for one in study.inputs]), found.missed)
 
 
-def left(robot: Robot, found: Lines, measured: Sequence[Measurement] = ()) -> Array:
+def left(study: Study, found: Lines, measured: Sequence[Measurement] = ()) -> Array:
     """Standard errors of the predicted quantities after measurements, (P,)."""
-    covariance = known(robot, found)
+    covariance = known(study, found)
     for one in measured:
         covariance = narrowed(covariance, one.slope, one.error)
-    return errors(covariance, found.slope[[one.predicted for one in robot.quantities]])
+    return errors(covariance, found.slope[[one.predicted for one in study.quantities]])
 
 
-def tell(robot: Robot, others: Mapping[str, float]) -> None:
+def tell(study: Study, others: Mapping[str, float]) -> None:
     """Print a row per measurement, those that tell most first; and where others say otherwise.
 
     Args:
-        robot: near which scenes were walked.
+        study: walks near a scene.
         others: what another model or a source says, by name of the quantity.
     """
-    found = lines(*walked(robot))
-    asked = [k for k, one in enumerate(robot.quantities) if one.predicted]
-    before = left(robot, found)
-    print("| measurement | " + " | ".join(robot.quantities[k].name for k in asked) + " |")
+    found = lines(*walked(study))
+    asked = [k for k, one in enumerate(study.quantities) if one.predicted]
+    before = left(study, found)
+    print("| measurement | " + " | ".join(study.quantities[k].name for k in asked) + " |")
     print("|---" * (len(asked) + 1) + "|")
     rows = [("none", before), *sorted(
-        ((one.name, left(robot, found, [one])) for one in measurements(robot, found)),
+        ((one.name, left(study, found, [one])) for one in measurements(study, found)),
         key=lambda row: float(np.mean(row[1] / before)))]  # fmt: skip
     rows.append(("all inputs, exactly", np.sqrt(np.diag(found.missed))[asked]))
     for name, after in rows:
-        cells = (f"{x:.2g} {robot.quantities[k].unit}" for x, k in zip(after, asked, strict=True))
+        cells = (f"{x:.2g} {study.quantities[k].unit}" for x, k in zip(after, asked, strict=True))
         print(f"| {name} | " + " | ".join(cells) + " |")
-    unsure = errors(known(robot, found), found.slope)
-    for one, value, error in zip(robot.quantities, found.value, unsure, strict=True):
+    unsure = errors(known(study, found), found.slope)
+    for one, value, error in zip(study.quantities, found.value, unsure, strict=True):
         if one.name in others:
             other = others[one.name]
             print(f"{one.name}: {value:.3g} ± {error:.2g} {one.unit} for {other:.3g}, "

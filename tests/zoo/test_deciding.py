@@ -7,10 +7,10 @@ from zoo import nearby
 from zoo.__main__ import HERE
 from zoo.deciding import errors, narrowed
 from zoo.dielectric_inchworm import decide as dielectric
-from zoo.nearby import Input, Quantity, Robot, known, left, lines, measurements, spread
+from zoo.nearby import Input, Quantity, Study, known, left, lines, measurements, spread
 from zoo.piezo_inchworm import decide as piezo
 
-ROBOTS = {"piezo_inchworm": piezo.ROBOT, "dielectric_inchworm": dielectric.ROBOT}
+STUDIES = {"piezo_inchworm": piezo.STUDY, "dielectric_inchworm": dielectric.STUDY}
 
 
 @pytest.fixture(params=range(5))
@@ -52,10 +52,10 @@ def test_one_more_measurement_never_widens_and_of_the_quantity_itself_leaves_its
 
 
 def test_lines_through_walks_are_those_that_made_them(random):
-    robot = Robot([Input("a", 0.1, 0.01), Input("b", 0.5, 0.1)], [Quantity("p", "mm", 1.0)] * 2,
+    study = Study([Input("a", 0.1, 0.01), Input("b", 0.5, 0.1)], [Quantity("p", "mm", 1.0)] * 2,
                   lambda factors: factors, None)  # fmt: skip
     slope, noise = random.normal(size=(2, 2)), np.array([[0.04, 0.01], [0.01, 0.09]])
-    inputs = spread(robot, 4096)
+    inputs = spread(study, 4096)
     assert inputs.std(axis=0) == pytest.approx([0.1, 0.5], rel=0.02)
     straight = 3.0 + inputs @ slope.T
     exact = lines(inputs, straight)
@@ -67,22 +67,22 @@ def test_lines_through_walks_are_those_that_made_them(random):
     assert bent.slope[:, 2:] == pytest.approx(np.eye(2))
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", STUDIES)
 def test_no_measurement_of_a_robot_widens_and_its_own_leaves_no_more_than_its_error(name):
-    robot = ROBOTS[name]
-    found = lines(*nearby.walked(robot))
-    before = left(robot, found)
-    for one in measurements(robot, found):
-        assert (left(robot, found, [one]) <= before + 1e-12).all()
-        (after,) = errors(narrowed(known(robot, found), one.slope, one.error), one.slope[None])
+    study = STUDIES[name]
+    found = lines(*nearby.walked(study))
+    before = left(study, found)
+    for one in measurements(study, found):
+        assert (left(study, found, [one]) <= before + 1e-12).all()
+        (after,) = errors(narrowed(known(study, found), one.slope, one.error), one.slope[None])
         assert after <= one.error
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", STUDIES)
 def test_the_page_of_a_robot_shows_what_its_walks_tell(name, capsys):
-    robot = ROBOTS[name]
-    nearby.tell(robot, {})
-    page = (robot.table.parent / "README.md").read_text("utf-8")
+    study = STUDIES[name]
+    nearby.tell(study, {})
+    page = (study.table.parent / "README.md").read_text("utf-8")
     for line in capsys.readouterr().out.splitlines():
         assert line in page
 
@@ -109,12 +109,12 @@ def test_each_robot_that_has_one_says_in_a_line_of_the_zoo_what_would_decide():
         assert f"zoo.{name}.decide" in line_of(name)
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", STUDIES)
 def test_the_line_of_the_zoo_is_of_the_measurement_that_narrows_most(name):
-    robot = ROBOTS[name]
-    found = lines(*nearby.walked(robot))
-    before = left(robot, found)
-    after = {one.name: left(robot, found, [one]) for one in measurements(robot, found)}
+    study = STUDIES[name]
+    found = lines(*nearby.walked(study))
+    before = left(study, found)
+    after = {one.name: left(study, found, [one]) for one in measurements(study, found)}
     best = min(after, key=lambda word: float(np.mean(after[word] / before)))
     said = line_of(name)
     assert best.replace(", ± ", " to ") in said

@@ -72,7 +72,7 @@ def test_tracks_give_back_the_numbers_and_the_gaits_that_made_them(tmp_path, cap
     assert "part of a curl that lacks" in capsys.readouterr().out
     page = (tmp_path / "out" / "page.html").read_text("utf-8")
     assert build(read_tables(tmp_path / "out" / "gait_A.toml"))[0].in_space
-    assert page.count("<tr>") == 7 + 10 + 2
+    assert page.count("<tr>") == 7 + 10 + 6 + 3  # and heads
     assert "http" not in page.split("base64")[0]
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from mjsim import Numerics, Trajectory, simulate
 from studies import Array
 from studies.inchworm import BASE, LENGTH, Values, outcome, scene
-from zoo.nearby import Input, Quantity, Robot, tell, walk
+from zoo.nearby import Input, Quantity, Study, tell, walk
 
 WALKS = 64
 _WEAK = 0.75  # of the voltage
@@ -63,9 +63,9 @@ def quantities(factors: Array) -> Array:
 
 
 PUBLISHED = {"distance at 13 Hz": -0.240 / 13 / LENGTH}  # 240 mm/s, at 5.5 kV
-ROBOT = Robot(INPUTS, QUANTITIES, quantities, Path(__file__).with_name("nearby.csv"))
+STUDY = Study(INPUTS, QUANTITIES, quantities, Path(__file__).with_name("nearby.csv"))
 
 if __name__ == "__main__":
     if "--walk" in sys.argv:
-        walk(ROBOT, WALKS)
-    tell(ROBOT, PUBLISHED)
+        walk(STUDY, WALKS)
+    tell(STUDY, PUBLISHED)

@@ -14,7 +14,7 @@ import numpy as np
 
 from mjsim import build, measure, read_tables, simulate
 from studies import Array
-from zoo.nearby import Input, Quantity, Robot, tell, walk
+from zoo.nearby import Input, Quantity, Study, tell, walk
 from zoo.piezo_inchworm import rigid_links
 from zoo.piezo_inchworm.model import SCENE
 
@@ -95,9 +95,9 @@ def by_links() -> dict[str, float]:
             "height": 1e3 * ahead.highest, "height at rest": 1e3 * ahead.settled}  # fmt: skip
 
 
-ROBOT = Robot(INPUTS, QUANTITIES, quantities, Path(__file__).with_name("nearby.csv"))
+STUDY = Study(INPUTS, QUANTITIES, quantities, Path(__file__).with_name("nearby.csv"))
 
 if __name__ == "__main__":
     if "--walk" in sys.argv:
-        walk(ROBOT, WALKS)
-    tell(ROBOT, by_links())
+        walk(STUDY, WALKS)
+    tell(STUDY, by_links())
