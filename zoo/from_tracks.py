@@ -131,7 +131,7 @@ def page(
         "<h2>Gaits that the fit has not seen</h2>",
         _table(("a cycle", "predicted", "measured", "unit"), walked),
         "<p class='note'>Both ± are 95 %. Those of predictions hold what the fit does not know, "
-        "not what the model leaves out.</p>",
+        "not what the model leaves out. Bars of the picture are standard errors.</p>",
         "<h2>What one more measurement would narrow</h2>",
         _table(("measurement", "error of the gaits' distances, rms"), next_),
         f"<img style='max-width:100%' alt='Measured beside predicted' "
