@@ -15,24 +15,24 @@ from studies.drawing import FONT, save
 from zoo.comparison import Predicted, Row
 
 SCENE = Path(__file__).with_name("scene.toml")
-PANEL, FOLD, UNSURE = 60.0, 90.0, 10.0  # mm, degrees; the last is assumed
+PANEL, FOLD, UNSURE = 6.0, 90.0, 10.0  # cm, degrees; the last is assumed
 PERIODS = (4.0, 2.0, 1.0, 0.5)  # s
 
 
 def stroke(fold: float) -> float:
-    """How much nearer the stretches come that lie, of panels on sharp hinges that fold [mm]."""
+    """How much nearer the stretches come that lie, of panels on sharp hinges that fold [cm]."""
     return float(2 * PANEL * (1 - np.cos(np.radians(0.5 * fold))))
 
 
 @cache
 def distance() -> float:
-    """Distance per cycle of the scene [mm]."""
+    """Distance per cycle of the scene [cm]."""
     scene, _ = build(read_tables(SCENE))
-    return 1e3 * scene.strip.length * float(reference(scene).displacement[0])
+    return 1e2 * scene.strip.length * float(reference(scene).displacement[0])
 
 
 def predicted() -> dict[str, Predicted]:
-    """Distances per cycle [mm]."""
+    """Distances per cycle [cm]."""
     error = 0.5 * (stroke(FOLD + UNSURE) - stroke(FOLD - UNSURE))
     return {f"period {period:g} s": Predicted(distance(), error) for period in PERIODS}
 
@@ -47,14 +47,14 @@ def draw(rows: list[Row], path: Path) -> None:
                      label=f"{UNSURE:g} degrees of fold")  # fmt: skip
         axes.axhline(value, color="C1", label="predicted, nothing fitted")
         axes.semilogx(PERIODS, [row.measured for row in rows], "ks", label="measured")
-        axes.annotate("their feet slipped", (2, rows[1].measured), (2.15, rows[1].measured + 3),
+        axes.annotate("their feet slipped", (2, rows[1].measured), (2.15, rows[1].measured + 0.3),
                       fontsize=8)  # fmt: skip
         axes.annotate("too fast for the servos", (0.5, rows[3].measured),
-                      (0.52, rows[3].measured - 3), fontsize=8)  # fmt: skip
+                      (0.52, rows[3].measured - 0.3), fontsize=8)  # fmt: skip
         axes.set_xticks(PERIODS, [f"{period:g}" for period in PERIODS])
         axes.minorticks_off()
-        axes.set_ylim(0, 50)
+        axes.set_ylim(0, 5)
         axes.set_xlabel("period [s]")
-        axes.set_ylabel("distance per cycle [mm]")
+        axes.set_ylabel("distance per cycle [cm]")
         axes.legend(fontsize=8, frameon=False, ncols=2, loc="upper left")
         save(figure, path)

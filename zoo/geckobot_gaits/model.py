@@ -7,6 +7,7 @@ four. Their error is the root mean square of all turns that were left out so.
 """
 
 import csv
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -91,19 +92,19 @@ def turns() -> CubicSpline:
     return CubicSpline(np.log(GRIPS), 0.5 * (left - right))
 
 
-def fitted(rows: Array) -> float:
+def fitted(rows: Sequence[int]) -> float:
     """Logarithm of the stiffness that fits the turns at some step lengths best."""
-    known = measured()[rows]
+    known = measured()[list(rows)]
     span = float(np.log(GRIPS[0])), float(np.log(GRIPS[-1]))
-    found = minimize_scalar(lambda x: np.sum((turns()(x)[rows] - known) ** 2), span, span,
+    found = minimize_scalar(lambda x: np.sum((turns()(x)[list(rows)] - known) ** 2), span, span,
                             method="bounded")  # fmt: skip
     return float(found.x)
 
 
 def left_out() -> tuple[Array, Array]:
     """Turns at each step length by the other four, and the stiffnesses that those have."""
-    every = np.arange(len(STEPS))
-    logs = np.array([fitted(every[every != row]) for row in every])
+    every = range(len(STEPS))
+    logs = np.array([fitted([other for other in every if other != row]) for row in every])
     found = np.array([turns()(log)[row] for row, log in enumerate(logs)])
     return found, np.exp(logs)
 
@@ -125,7 +126,7 @@ def draw(rows: list[Row], path: Path) -> None:
     with mpl.rc_context(FONT):
         figure = Figure(figsize=(8.4, 3.6), layout="constrained", dpi=110)
         straight, steered = figure.subplots(1, 2)
-        whole = turns()(fitted(np.arange(len(STEPS))))
+        whole = turns()(fitted(range(len(STEPS))))
         ends = [turns()(np.log(grip)) for grip in GRIPS[[0, -1]]]
         groups = {"straight": (straight, "black", None)} | {
             f"steered {q2:g}": (steered, f"C{k}", k) for k, q2 in enumerate(STEERING)
@@ -148,8 +149,10 @@ def draw(rows: list[Row], path: Path) -> None:
         straight.set_ylabel("distance per cycle [cm]")
         straight.set_ylim(0, None)
         steered.set_ylabel("turn per cycle [deg]")
-        steered.set_title("lines: one stiffness of cups for all; circles: the others' stiffness;\n"
-                          "shaded: cups from a leg's stiffness to 60 times that", fontsize=7.5)  # fmt: skip
+        steered.set_title(
+            "lines: one stiffness of cups for all; circles: the others' stiffness;\n"
+            "shaded: cups from a leg's stiffness to 60 times that", fontsize=7.5,
+        )  # fmt: skip
         for axes in (straight, steered):
             axes.set_xlabel("step length [deg]")
             axes.legend(fontsize=7.5, frameon=False)
@@ -159,7 +162,7 @@ def draw(rows: list[Row], path: Path) -> None:
 def main() -> None:
     """Print the fitted stiffnesses and how far turns that were left out are off."""
     found, grips = left_out()
-    whole = fitted(np.arange(len(STEPS)))
+    whole = fitted(range(len(STEPS)))
     known = measured()
     rows = {"all turns fitted": turns()(whole), "each step length left out": found,
             "cups as stiff as a leg": turns()(np.log(GRIPS[0])),

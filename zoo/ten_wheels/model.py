@@ -23,7 +23,6 @@ from zoo.comparison import CLAIMED, Predicted, Row
 
 SCENE = Path(__file__).with_name("scene.toml")
 WHEELS, DRAWS, DRAWN = 10, 2000, 40
-_LINKS = 4  # of a limb, see test_zoo for how little more of them change
 
 
 def speed(wheels: np.ndarray) -> float:
@@ -38,14 +37,17 @@ def draws() -> Array:
 
 
 @cache
-def slips(links: int = _LINKS) -> tuple[Array, Array, Array]:
+def slips(finer: int = 1) -> tuple[Array, Array, Array]:
     """Walk of the scene: times (T,) [s], ways of its tips (T, WHEELS) and of its hub (T,) [mm].
+
+    Args:
+        finer: times as many links per limb.
 
     Raises:
         ArithmeticError: the walk failed.
     """
     scene, numerics = build(read_tables(SCENE))
-    walk = simulate(scene, replace(numerics, links=links))
+    walk = simulate(scene, replace(numerics, links=finer * numerics.links))
     if walk.status != "ok":
         raise ArithmeticError(f"the ten limbs' walk ended with {walk.status}")
     along = 1e3 * (walk.position[walk.start :, :, :, 0] - walk.position[walk.start, :, :, 0])
@@ -83,8 +85,9 @@ def draw(rows: list[Row], path: Path) -> None:
         wheels.set_ylabel("speed over its spread")
         pairs = WHEELS // 2
         for pair in range(pairs):
-            limbs.plot(time, tips[:, 2 * pair : 2 * pair + 2].mean(axis=1), color=f"C{pair}",
-                       label=f"tips of pair {pair + 1}", lw=2.5 if pair == pairs // 2 else 1.2)  # fmt: skip
+            wide = 2.5 if pair == pairs // 2 else 1.2
+            limbs.plot(time, tips[:, 2 * pair], color=f"C{pair}", lw=wide,
+                       label=f"tips of pair {pair + 1}")  # fmt: skip
         limbs.plot(time, hub, "k--", lw=1, label="hub")
         limbs.axhline(0, color=CLAIMED, lw=5, alpha=0.4, zorder=0, label="stated, of pair 3")
         limbs.set_ylim(-1.2, 2.4)
