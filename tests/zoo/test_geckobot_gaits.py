@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from zoo.geckobot_gaits import model, posture
+from zoo.geckobot_gaits import in_mujoco, model, posture
 from zoo.geckobot_gaits.posture import Gecko, free, stepped
 
 HELD = 1, 2  # front right, rear left
@@ -93,3 +93,9 @@ def test_angles_are_those_of_the_law_up_to_the_largest_pressure():
     )
     most = np.degrees(model.asked(np.array([90.0]), np.array([0.5])))
     assert most == pytest.approx(np.array([[22.5, 157.5, 22.5, 135.2, 104.4]]))
+
+
+def test_mujoco_walks_as_the_elastica_has_it():
+    walked, found = in_mujoco.walk(8.0, 70.0, 0.3), model.cycle(8.0, 70.0, 0.3)
+    assert walked.turn == pytest.approx(found.turn, abs=0.3)
+    assert walked.far == pytest.approx(found.far, rel=0.01)

@@ -31,7 +31,7 @@ STEPS = (50.0, 60.0, 70.0, 80.0, 90.0)  # deg
 STEERING = (0.1, 0.3, 0.5)  # to either side
 GRIPS = np.geomspace(1, 60, 8)  # over a leg's stiffness
 _CYCLES = 4
-_DIAGONALS = (1, 2), (0, 3)  # of feet that are held, by turns
+DIAGONALS = (1, 2), (0, 3)  # of feet that are held, by turns
 
 
 class Cycle(NamedTuple):
@@ -68,7 +68,7 @@ def cycle(grip: Array, step: Array, steering: Array) -> Cycle:
     now = free(of, poses[1])
     for _ in range(_CYCLES):
         before = now
-        for held, pose in zip(_DIAGONALS, poses, strict=True):
+        for held, pose in zip(DIAGONALS, poses, strict=True):
             now = stepped(of, now, held, pose)
     turn = np.angle(np.exp(1j * (now.heading - before.heading)))
     far = np.abs(now.front - before.front)
