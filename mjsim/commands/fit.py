@@ -166,13 +166,13 @@ def _fit(options: Options, base: Tables) -> "tuple[Estimate, dict[str, Any]]":
     pixel = in_unit("pixel", options.pixel, "m") if options.pixel else None
     camera = Camera(pixel, options.frame_rate)
     series = read_observations(options.data, options.zero or "", camera)
-    check_places(series, base, [parameter.name for parameter in free])
     walk, second = WALKS[options.model], next(k for k in WALKS if k != options.model)
+    start = {parameter.name: parameter.start for parameter in free}
+    check_places(series, base, start)
     runs = {run for line in series if line.quantity != "angle" for run in line.runs}
     with processes(len(runs), len(free)) or contextlib.nullcontext() as pool:
         fine = Predictor(base, series, walk, pool=pool)
         rough = fine
-        start = {parameter.name: parameter.start for parameter in free}
         if options.model == "mujoco" and fine.changes(coarse, start):
             rough = Predictor(base, series, walk, coarse, pool=pool)
         fit = estimate(rough, free, refined=fine if rough is not fine else None)

@@ -1,6 +1,6 @@
 """Markers of a track beside each other: what no body can show, and what a wrong film shows."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -63,21 +63,22 @@ def chords(series: Sequence[Series]) -> Iterator[Chord]:
                             (one, two))  # fmt: skip
 
 
-def check_places(series: Sequence[Series], base: Tables, free: Sequence[str]) -> None:
+def check_places(series: Sequence[Series], base: Tables, start: Mapping[str, float]) -> None:
     """Check that markers are in their order and no farther apart than the body between them.
 
     Args:
         series: measurements.
         base: tables of the scene.
-        free: names of what is fitted; where a length is, nothing is checked.
+        start: values at which fields are when the fit begins; where a length is one of them,
+            nothing is checked.
 
     Raises:
         ValueError: in most rows of a track they are not.
     """
-    if any(name.rpartition(".")[2] == "length" for name in free):
+    if any(name.rpartition(".")[2] == "length" for name in start):
         return
     for chord in chords(series):
-        scene = _scene(base, chord)
+        scene = _scene(base, start, chord)
         between = chord.part * limbs_of(scene.robot)[0].strip.length
         ahead = float(np.median(chord.ahead))
         if abs(ahead) > _FAR * between:
@@ -92,18 +93,21 @@ def check_places(series: Sequence[Series], base: Tables, free: Sequence[str]) ->
             )
 
 
-def _scene(base: Tables, chord: Chord) -> Scene:
+def _scene(base: Tables, values: Mapping[str, float], chord: Chord) -> Scene:
     run = chord.first.runs[0]
-    return build(with_values(base, {}, dict(run.fields), run.surface))[0]
+    return build(with_values(base, values, dict(run.fields), run.surface))[0]
 
 
-def film(series: Sequence[Series], model: Sequence[Array], base: Tables) -> list[str]:
+def film(
+    series: Sequence[Series], model: Sequence[Array], base: Tables, values: Mapping[str, float]
+) -> list[str]:
     """What would be wrong with a film that a model cannot follow: its scale, or its clock.
 
     Args:
         series: measurements.
         model: of each, where the model misses them.
         base: tables of the scene.
+        values: of fields in the model.
     """
     modelled = {id(one): values for one, values in zip(series, model, strict=True)}
     walks: dict[int | None, list[Chord]] = {}
@@ -112,14 +116,14 @@ def film(series: Sequence[Series], model: Sequence[Array], base: Tables) -> list
     lines = []
     for found in walks.values():
         name = found[0].first.name.partition(":")[0]
-        period = _scene(base, found[0]).gait.period
+        period = _scene(base, values, found[0]).gait.period
         seen = 1e3 * sum(chord.ahead[0] for chord in found)
         expected = 1e3 * sum(
             modelled[id(chord.second)][chord.rows[1][0]]
             - modelled[id(chord.first)][chord.rows[0][0]]
             for chord in found
         )
-        if abs(expected / seen - 1) > _OFF:
+        if seen > 0 and abs(expected / seen - 1) > _OFF:
             lines.append(
                 f"{name}: the outer markers begin {seen:.4g} mm apart, and the model's "
                 f"{expected:.4g} mm: is a pixel {expected / seen:.3g} times as large?"
@@ -139,10 +143,7 @@ def _repeats(found: Sequence[Chord]) -> float | None:
     time = np.linspace(begin, end, _SAMPLES)
     each = [np.interp(time, chord.time, chord.ahead) for chord in found]
     lags = np.arange(1, int(_LONGEST * _SAMPLES))
-    alike = np.array([
-        np.mean([np.corrcoef(one[lag:], one[:-lag])[0, 1] if np.ptp(one) else 0.0 for one in each])
-        for lag in lags
-    ])  # fmt: skip
+    alike = np.array([np.mean([_alike(one[lag:], one[:-lag]) for one in each]) for lag in lags])
     apart = np.flatnonzero(alike < 0)
     if not apart.size or alike[apart[0] :].max() < _ALIKE:
         return None
@@ -150,3 +151,8 @@ def _repeats(found: Sequence[Chord]) -> float | None:
     peaks = np.flatnonzero(later > later.max() - _NEAR) + apart[0]
     first = peaks[: np.append(np.flatnonzero(np.diff(peaks) > 1), len(peaks) - 1)[0] + 1]
     return float(time[lags[first[np.argmax(alike[first])]]] - begin)
+
+
+def _alike(one: Array, other: Array) -> float:
+    """Correlation, 0 where one of them does not move."""
+    return float(np.corrcoef(one, other)[0, 1]) if np.ptp(one) and np.ptp(other) else 0.0

@@ -52,7 +52,7 @@ def doubts_of(fit: Estimate, base: Tables) -> Doubts:
             f"neighbouring residuals are alike (correlation {fit.misfit.correlation:.2f}): the "
             "model misses something that may be in the values too, and the intervals are withheld"
         )
-        notes += film(fit.series, fit.model, base)
+        notes += film(fit.series, fit.model, base, fit.values)
     return Doubts(notes, withheld, combinations, bool(directions or limits))
 
 

@@ -25,8 +25,8 @@ def track(scale=1.0, speed=1.0, order=1.0):
 
 
 def test_markers_of_the_body_are_let_through():
-    check_places(track(), BASE, ["robot.modulus"])
-    check_places(track(scale=10), BASE, ["robot.length"])
+    check_places(track(), BASE, {"robot.modulus": 2e6})
+    check_places(track(scale=10), BASE, {"robot.length": 0.13})
 
 
 @pytest.mark.parametrize(
@@ -38,7 +38,7 @@ def test_markers_of_the_body_are_let_through():
 )
 def test_markers_farther_apart_than_the_body_or_in_another_order_are_refused(given, words):
     with pytest.raises(ValueError, match=words):
-        check_places(track(**given), BASE, ["robot.modulus"])
+        check_places(track(**given), BASE, {"robot.modulus": 2e6})
 
 
 @pytest.mark.parametrize(
@@ -51,6 +51,11 @@ def test_markers_farther_apart_than_the_body_or_in_another_order_are_refused(giv
     ],
 )
 def test_a_wrong_scale_and_a_wrong_clock_are_told(given, words):
-    said = film(track(**given), [series.value for series in track()], BASE)
+    said = film(track(**given), [series.value for series in track()], BASE, {})
     assert len(said) == (words is not None)
     assert words is None or words in said[0]
+
+
+def test_a_robot_that_stands_still_repeats_nothing():
+    still = [series._replace(value=np.full(len(TIME), 0.1 * k)) for k, series in enumerate(track())]
+    assert film(still, [series.value for series in still], BASE, {}) == []
