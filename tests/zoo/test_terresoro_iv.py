@@ -75,14 +75,18 @@ def test_runs_are_cut_where_motion_begins_though_a_track_drifts():
     assert np.abs(found - true).max() <= 1
 
 
-def test_a_track_that_loses_two_transitions_is_found_out():
+@pytest.mark.parametrize("lost", [2, -1])
+def test_a_track_that_loses_transitions_or_has_one_too_many_is_found_out(lost):
     random = np.random.default_rng(1)
     orders = np.array([random.permutation(np.tile(np.arange(8), 10)) for _ in range(5)])
     vectors = random.normal(size=(8, 8, 3)) * [0.8, 0.8, 5.0]
     moves = [vectors[order[:-1], order[1:]] for order in orders]
-    moves[3] = np.concatenate([moves[3][:30], moves[3][32:], np.zeros((2, 3))])
+    if lost > 0:
+        moves[3] = np.concatenate([moves[3][:30], moves[3][30 + lost :], np.zeros((lost, 3))])
+    else:
+        moves[3] = np.concatenate([moves[3][:30], np.zeros((-lost, 3)), moves[3][30:lost]])
     found = tracks.lost(moves, orders)
-    assert found[3].tolist() == [0, 0, 0, 2, 2, 2, 2]
+    assert found[3].tolist() == [0, 0, 0, lost, lost, lost, lost]
     assert not found[[0, 1, 2, 4]].any()
 
 
