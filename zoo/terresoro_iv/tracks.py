@@ -198,11 +198,22 @@ def runs(folder: Path, of: Experiment = ORANGE) -> Runs:
 
 def gait(folder: Path, name: str) -> Array:
     """Cycles of a gait but the first, from the state that its name begins with, (29, 3)."""
+    of, frames, states = _cut(folder, name)
+    return motions(of, frames[::states])[1:]
+
+
+def gait_steps(folder: Path, name: str) -> Array:
+    """Transitions of the same cycles, (29, T, 3)."""
+    of, frames, states = _cut(folder, name)
+    return motions(of, frames).reshape(CYCLES, states, 3)[1:]
+
+
+def _cut(folder: Path, name: str) -> tuple[Track, Array, int]:
+    """A gait's track, the frames at which its transitions begin, and how many a cycle has."""
     first, states = GAITS[name]
     of = track(folder / f"Gait {name}.mat")
     begin = first + FRAMES - 1.5 + FRAMES * AGAIN.get(name, 0)
-    frames = starts(of, begin, CYCLES * states, 2 * states)
-    return motions(of, frames[::states])[1:]
+    return of, starts(of, begin, CYCLES * states, 2 * states), states
 
 
 def write_means(of: Runs, path: Path) -> None:
