@@ -104,7 +104,7 @@ def test_a_crossing_stalls_where_theory_says():
 
 @pytest.mark.slow
 def test_a_long_robot_goes_otherwise_with_friction_between_its_ends_in_both_models():
-    shifts = example("long_robot")()
+    shifts = example("long_robot")(links=24)
     for part in ("60 % of the pressure", "full pressure"):
         for name in ("felt", "polyethylene", "gelatin"):
             theory, found = (shifts[f"{part}, {name}, {kind}"] for kind in ("all", "MuJoCo"))

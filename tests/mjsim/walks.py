@@ -78,7 +78,7 @@ def turned(walk: Trajectory) -> float:
 
 def coarsen(monkeypatch: pytest.MonkeyPatch, links: int = 18, states: int = 10) -> None:
     """Make the references of records coarse: few links and states."""
-    values = {"_LINKS": links, "STATES": states, "LIMB_STATES": 8}
+    values = {"_LINKS": links, "_LINKS_A_SEGMENT": links // 3, "STATES": states, "LIMB_STATES": 8}
     for name, value in values.items():
         monkeypatch.setattr(prediction, name, value)
 

@@ -102,7 +102,8 @@ def test_the_datum_of_x_is_found():
 
 
 @pytest.mark.slow
-def test_tracks_of_the_quasi_static_model_are_fitted_by_it():
+def test_tracks_of_the_quasi_static_model_are_fitted_by_it(monkeypatch):
+    monkeypatch.setattr("mjsim.fitting.walks._STATES", 20)
     once = {"ground": BASE["ground"]}
     found = estimate(Predictor(once, track(quasi_static, base=once), quasi_static),
                      parameters(once, "robot.modulus"))  # fmt: skip
