@@ -303,7 +303,7 @@ def test_a_trained_rhythm_earns_what_a_finer_model_pays_for_it():
     from studies.control.rhythm import press, train
 
     envs = WalkVectorEnv(num_envs=8, surfaces=("gelatin",))
-    trained = train(envs, generations=3, seed=0)
+    trained = train(envs, generations=2, seed=0)
 
     def went(actions, numerics=None):
         env = WalkEnv(surfaces=("gelatin",), numerics=numerics)

@@ -264,7 +264,7 @@ def test_the_work_of_the_pressure_in_a_cycle_is_what_friction_dissipates():
 @pytest.mark.slow
 def test_every_strength_has_an_answer_or_says_so(surface, phi):
     ground = SURFACES[surface].scaled(max(phi, 1e-6) / PHI)
-    walked = predict(ROBOT, GAITS["wave"], ground, Elastica(18), 25, BENT)
+    walked = predict(ROBOT, GAITS["wave"], ground, Elastica(18), 12, BENT)
     assert np.isfinite(walked.locomotion.per_cycle) or Flag.BRANCH_END in walked.flags
     if phi <= 15:
         assert not walked.flags
