@@ -39,21 +39,6 @@ def test_the_documentation_explains_every_key_of_json(tmp_path, capsys):
     assert [key for key in keys if f"`{key}`" not in said] == []
 
 
-@pytest.mark.parametrize("ramp", [0.2, 0.3, 0.5])
-@pytest.mark.parametrize("surface", ["felt", "polyethylene"])
-@pytest.mark.slow
-def test_what_is_said_of_inertia_is_what_slower_ramps_do(surface, ramp):
-    fine = Numerics(links=48, timestep=0.001)
-    fast, slow = (
-        Scene(gait=replace(GAITS["wave"], ramp_time=part * ramp), ground=SURFACES[surface])
-        for part in (1, 8)
-    )
-    row, distance = told(fast, fine), measure(simulate(slow, fine)).displacement
-    if abs(row["displacement_over_L"] - distance) > 0.003:
-        (note,) = (note for note in row["prediction_notes"] if note.startswith("inertia"))
-        assert float(note.split()[1]) == pytest.approx(distance, rel=0.05, abs=1e-3)
-
-
 @pytest.mark.parametrize("surface", list(SURFACES))
 @pytest.mark.slow
 def test_a_slow_walk_has_no_word_of_inertia(surface):
