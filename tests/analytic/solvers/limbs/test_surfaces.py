@@ -113,10 +113,10 @@ def test_a_limb_peels_at_the_curvature_of_the_closed_form(adhesion):
         bent = float(pneunet.rigidity(LIGHT, pressure)) * kappa**2
         return bent / (128 / 9 * adhesion * LIGHT.width)
 
-    under, over = (
-        brentq(lambda pressure: strength(pressure) - part, 0, LIGHT.peak_pressure)
-        for part in (0.9, 1.1)
-    )
+    def pressure_of(part):
+        return brentq(lambda pressure: strength(pressure) - part, 0, LIGHT.peak_pressure)
+
+    under, over = pressure_of(0.9), pressure_of(1.1)
     pressures = np.append(np.linspace(0, under, 4), over)[:, None] * [0.0, 1.0, 0.0]
     _, rests = shapes(as_strip(LIGHT), pressures, 24, surface=ground)
     peeled = [rest.nodes[:, 2].max() > 2 * ground.adhesion_reach for rest in rests]
