@@ -85,8 +85,8 @@ def scene_of(seed: int) -> Scene:
 
 
 def distance(walk: Trajectory) -> float:
-    found = measure(walk)
-    return found.displacement if found else math.nan
+    measures = measure(walk)
+    return measures.displacement if measures else math.nan
 
 
 def row_of(seed: int) -> Row:

@@ -50,9 +50,9 @@ def imports() -> set[tuple[str, str]]:
         for node in ast.walk(tree):
             if isinstance(node, ast.ImportFrom) and node.module:
                 names = [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
-                known = [name for name in names if (TOP / name.replace(".", "/")).is_dir()
+                modules = [name for name in names if (TOP / name.replace(".", "/")).is_dir()
                          or (TOP / (name.replace(".", "/") + ".py")).is_file()]  # fmt: skip
-                targets = known[-1:] or names[:1]
+                targets = modules[-1:] or names[:1]
                 pairs |= {(module, t) for t in targets if t.split(".")[0] in PACKAGES}
     return pairs
 

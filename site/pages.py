@@ -54,8 +54,8 @@ def _title(path: Path) -> str:
     text = path.read_text("utf-8")
     if path.suffix == ".ipynb":
         return re.sub(r"^#+ ", "", json.loads(text)["cells"][0]["source"][0]).strip()
-    found = re.match(r'"""(.*?)[.:\n"]', text) or re.match(r"# *(.*?)[.:\n]", text)
-    return found[1] if found else path.name
+    title = re.match(r'"""(.*?)[.:\n"]', text) or re.match(r"# *(.*?)[.:\n]", text)
+    return title[1] if title else path.name
 
 
 def _write(stage: Path, name: str, text: str) -> None:

@@ -29,14 +29,14 @@ def main(argv: Sequence[str] | None = None) -> list[Row]:
     for robot in options.robots:
         if robot not in ROBOTS:
             parser.error(f"no robot {robot!r}; there are {', '.join(ROBOTS)}")
-    found = []
+    rows = []
     for robot in options.robots or ROBOTS:
         here = walk(robot)
         if options.draw:
             draw(here, HERE / robot / "picture.png")
-        found += here
-    print(*table(found), sep="\n")
-    return found
+        rows += here
+    print(*table(rows), sep="\n")
+    return rows
 
 
 if __name__ == "__main__":

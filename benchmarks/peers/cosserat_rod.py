@@ -125,5 +125,5 @@ def walk(scene, links, timestep):
         ends = np.abs(place[2, [0, -1]]).max() / robot.length
         return Walked((place[0, 0] - begin) / robot.length, ends, took)
 
-    found, timing = repeated(go, scene.duration, lambda walked: walked.spent)
-    return found, timing
+    walked_strip, timing = repeated(go, scene.duration, lambda walked: walked.spent)
+    return walked_strip, timing

@@ -228,8 +228,8 @@ def by_part(walk: Trajectory) -> tuple[Array, Array]:
 
 
 def _moved(walk: Trajectory) -> Moved | None:
-    found = measure(walk)
-    return found and Moved(found.displacement, found.aside, math.degrees(found.turn))
+    measures = measure(walk)
+    return measures and Moved(measures.displacement, measures.aside, math.degrees(measures.turn))
 
 
 def _words(numerics: Resolved) -> str:

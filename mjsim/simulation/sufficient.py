@@ -172,14 +172,14 @@ def _mujoco(scene: Scene, tolerance: float, numerics: Numerics | None) -> tuple[
 
 def record(scene: Scene, answer: Answer) -> dict[str, Any]:
     """Plain data of an answer; what does not exist is None."""
-    last = answer.tried[-1]
-    finite = math.isfinite(last.displacement)
+    final = answer.tried[-1]
+    finite = math.isfinite(final.displacement)
     return {
         "surface": scene.ground.name, "gait": scene.gait.name,
-        "direction": direction(last.displacement, 1.0, last.error) if answer.sure else None,
-        "displacement_over_L": last.displacement if finite else None,
-        "uncertainty_over_L": last.error if math.isfinite(last.error) else None,
-        "model": last.model, "sure": answer.sure, "why": last.why,
+        "direction": direction(final.displacement, 1.0, final.error) if answer.sure else None,
+        "displacement_over_L": final.displacement if finite else None,
+        "uncertainty_over_L": final.error if math.isfinite(final.error) else None,
+        "model": final.model, "sure": answer.sure, "why": final.why,
         "seconds": sum(tried.seconds for tried in answer.tried),
         "passed_over": [
             {"model": tried.model, "uncertainty_over_L": tried.error

@@ -205,7 +205,7 @@ def _of_limbs(scene: Scene) -> dict[str, Any]:
     hinges = [_hinges(model, hinge_prefix(name), numerics) for name in robot.names]
     return written | {
         "pads": edges(pads_of(model, scene)).tolist(), "padRadius": numerics.pad_radius,
-        "twists": numerics.twists, **{key: [each for own in hinges for each in own[key]]
+        "twists": numerics.twists, **{key: [each for limb in hinges for each in limb[key]]
                                       for key in ("hinges", "angles")},
         "links": [[model.body(f"{link_prefix(name)}{i}").id for i in range(numerics.links + 1)]
                   for name in robot.names],

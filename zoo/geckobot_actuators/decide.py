@@ -59,10 +59,11 @@ def left(angles: Sequence[float], numbers: Array, covariance: Array) -> Array:
 def main() -> None:
     """Print a row per plan."""
     _, pressures, angle = one_robot()
-    known = np.array([through(p, angle) for p in pressures])
-    covariance, middle = np.cov(known, rowvar=False), known.mean(axis=0)
+    parameters = np.array([through(p, angle) for p in pressures])
+    covariance, middle = np.cov(parameters, rowvar=False), parameters.mean(axis=0)
     print(
-        "p_0 [kPa], c, n of the six:", *(f"{a:.1f} {np.exp(b):.2g} {c:.2f};" for a, b, c in known)
+        "p_0 [kPa], c, n of the six:",
+        *(f"{a:.1f} {np.exp(b):.2g} {c:.2f};" for a, b, c in parameters),
     )
     print("| points at [deg] | mean error | at 30 | at 60 |")
     print("|---|---|---|---|")

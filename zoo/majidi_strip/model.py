@@ -16,8 +16,8 @@ SCENE = Path(__file__).with_name("scene.toml")
 def predicted() -> dict[str, Predicted]:
     """The direction on each ground: 1 ahead, 0 none, -1 back."""
     scene, _ = build(read_tables(SCENE))
-    found = {}
+    predictions = {}
     for name, surface in SURFACES.items():
         far = float(reference(replace(scene, ground=surface)).displacement[0])
-        found[name] = Predicted(float(np.sign(far)) if abs(far) > STANDSTILL else 0.0)
-    return found
+        predictions[name] = Predicted(float(np.sign(far)) if abs(far) > STANDSTILL else 0.0)
+    return predictions

@@ -149,5 +149,5 @@ def _zero(pair: list[_Try], by: int) -> float | None:
     """Bound at which a value, gap or margin, is 0 by a line through two tries; None if unknown."""
     if len(pair) < 2 or pair[0][by] == pair[1][by]:
         return None
-    before, last = pair
-    return last.bound - last[by] * (last.bound - before.bound) / (last[by] - before[by])
+    before, latest = pair
+    return latest.bound - latest[by] * (latest.bound - before.bound) / (latest[by] - before[by])

@@ -74,8 +74,8 @@ class BoundedContactsBatch(BoundedEndsBatch):
         contacts = find(strips, force, height, self._parameters.half[rows][:, None] * sides)
         there, node = contacts.there, contacts.node
         length = np.where(there, contacts.length, 0.0)
-        last = np.maximum(there.sum(1) - 1, 0)
-        self.contact[rows] = np.stack([length[:, 0], length[np.arange(len(rows)), last]], axis=1)
+        right = np.maximum(there.sum(1) - 1, 0)
+        self.contact[rows] = np.stack([length[:, 0], length[np.arange(len(rows)), right]], axis=1)
 
         tendons = self._of_nodes[node]
         rates = np.take_along_axis(self._rate[rows], tendons, 1)
