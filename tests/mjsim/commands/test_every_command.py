@@ -118,7 +118,10 @@ class Case(NamedTuple):
     row: dict
 
 
-@pytest.fixture(scope="module", params=list(ROBOTS))
+@pytest.fixture(
+    scope="module",
+    params=["strip", "quadruped", pytest.param("three-legs", marks=pytest.mark.slow)],
+)
 def case(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp(request.param)
     path = folder / "scene.toml"
