@@ -1,4 +1,4 @@
-"""What body auto rests on, and whether it keeps its word.
+"""Benchmark behind body auto, and check that it keeps its word.
 
     python benchmarks/auto.py design [count]   what the levels of mjsim/scene/auto.csv are worth
     python benchmarks/auto.py check [count]    on scenes that it knows nothing of: `make auto`
@@ -163,7 +163,7 @@ def by_scene(rows: list[list], contacts: str) -> list[list[list]]:
 
 
 def rule(rows: list[list], tolerance: float) -> tuple[bool, float]:
-    """Whether the first answer of two walks that agree is right, and its speed."""
+    """Tell whether the first answer of two walks that agree is right, and its speed."""
     before, spent = math.nan, 0.0
     for row in rows:
         spent += 1 / row[7]

@@ -50,7 +50,7 @@ class Row(NamedTuple):
 
     @property
     def converged(self) -> bool:
-        """Whether the two finest walks agree within half of what a distance may be off by."""
+        """Tell whether the two finest walks agree within half of what a distance may be off by."""
         return near(self.finer, self.finest, 0.5)
 
     @property

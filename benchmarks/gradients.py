@@ -79,7 +79,7 @@ def located(inputs: Inputs) -> float:
 
 
 def off(inputs: Inputs, number: Number, exact: float, goal: float) -> float:
-    """By how much a derivative by a number's logarithm is off its differences, inf if unknown."""
+    """Error of a derivative by a number's logarithm against its differences, inf if unknown."""
     weights = ((-1, -0.5), (1, 0.5))
     if number.way:
         weights = ((0, -1.5 * number.way), (number.way, 2.0 * number.way),

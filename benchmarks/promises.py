@@ -1,4 +1,4 @@
-"""Whether what stands beside a distance holds on random scenes: `make promises`.
+"""Tests on random scenes of what stands beside a distance: `make promises`.
 
     python benchmarks/promises.py [count]
 

@@ -44,7 +44,7 @@ class Outcome(NamedTuple):
     real_time: float
 
     def agrees(self) -> tuple[bool, bool]:
-        """In displacement and in turn."""
+        """Agreement in displacement and in turn."""
         off = np.hypot(*(self.walked - self.predicted)[:2])
         far = np.hypot(*self.predicted[:2])
         turned = abs(self.walked[2] - self.predicted[2])

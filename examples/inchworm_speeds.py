@@ -50,7 +50,7 @@ class Runs(NamedTuple):
 
 
 class Fit(NamedTuple):
-    """What was fitted.
+    """Result of a fit.
 
     Attributes:
         gait: the one with the least misfit.

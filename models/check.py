@@ -1,4 +1,4 @@
-"""Whether all files of this folder load, and the strip's and the scripts walk as they say.
+"""Checks that all files of this folder load, and that the strip's and the scripts walk as they say.
 
 Needs mujoco and numpy alone, so that any version of MuJoCo can be asked: python models/check.py
 """

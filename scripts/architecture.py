@@ -68,7 +68,7 @@ def arrows() -> set[tuple[str, str]]:
 
 
 def layers(pairs: set[tuple[str, str]]) -> dict[str, int]:
-    """How many packages at most lie below each."""
+    """Greatest number of packages below each."""
     below: dict[str, set[str]] = {}
     for one, two in pairs:
         below.setdefault(one, set()).add(two)
@@ -94,7 +94,7 @@ def direct(pairs: set[tuple[str, str]]) -> set[tuple[str, str]]:
 
 
 def draw() -> Figure:
-    """What each package builds on, left of it; what follows from other arrows is left out."""
+    """Packages that each one builds on, left of it; what follows from other arrows is left out."""
     pairs = arrows()
     depth = layers(pairs)
     place = {name: (1.5 * column, -_ROWS.get(name, 3.0)) for name, column in depth.items()}

@@ -10,7 +10,7 @@ LOADED = {"img": "src", "script": "src", "link": "href", "video": "src", "source
 
 
 class _Page(HTMLParser):
-    """What a page links to, what it loads, and the places in it that can be linked to."""
+    """Links of a page, files it loads, and the places in it that can be linked to."""
 
     def __init__(self) -> None:
         super().__init__()

@@ -69,7 +69,7 @@ def _write(stage: Path, name: str, text: str) -> None:
 
 
 def _link(stage: Path, page: str, link: re.Match[str]) -> str:
-    """The same link where all pages are gathered; its target is written too."""
+    """Link where all pages are gathered; its target is written too."""
     mark, words, target, anchor = link[1], link[2], link[3], link[4] or ""
     path = posixpath.normpath(posixpath.join(posixpath.dirname(page), target))
     source = TOP / path

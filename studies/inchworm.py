@@ -41,7 +41,7 @@ SPOKEN = (1, 6, 9, 10, 11)  # Hz, at which the run's own words are printed
 
 @dataclass(frozen=True)
 class Values:
-    """What is not published.
+    """Values that are not published.
 
     Attributes:
         rigidity: [N m^2].
@@ -109,7 +109,7 @@ class Case(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """How it went.
+    """Outcome of a walk.
 
     Attributes:
         status: of the walk.
@@ -242,7 +242,7 @@ def _cell(outcome: Outcome | None) -> str:
 
 
 def said(frequency: float) -> str:
-    """What a run of the base says of itself, hops as low as runs allow by default."""
+    """Notes of a run of the base, hops as low as runs allow by default."""
     numerics = Numerics(12, 5e-4, damping_time=BASE.damping)
     walked = simulate(scene(BASE, frequency, cycles=max(8, math.ceil(1.5 * frequency))), numerics)
     row = record(walked)

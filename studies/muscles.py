@@ -79,7 +79,7 @@ def loop(width: float, share: float, seed: int) -> tuple[Array, Array]:
 
 
 def lines() -> Iterator[str]:
-    """What docs/muscles.md says."""
+    """Sentences of docs/muscles.md."""
     for law in LAWS:
         errors = np.array([without_top_third(*points, law)[1] for points in layouts().values()])
         counts = " / ".join(f"{(errors <= limit).sum()}" for limit in WITHIN)

@@ -88,7 +88,7 @@ def scene() -> Figure:
 
 
 def columns() -> Figure:
-    """What the columns of a run measure on the strip."""
+    """Sketch of what the columns of a run measure on the strip."""
     walk = simulate(Scene(ground=SURFACES["felt"]))
     figure, (axes,) = _figure(8, 2.4, 1)
     begin = _shape(axes, walk, 0.0)

@@ -24,7 +24,7 @@ os.environ[gl.VARIABLE] = BACKEND or gl.NONE
 
 @pytest.fixture
 def forgets(monkeypatch):
-    """What a test registers is forgotten after it."""
+    """Forget after a test what it registers."""
     for known in (LAWS, registry.BODIES):
         monkeypatch.setattr(known, "_registered", known.registered)
 

@@ -1,4 +1,4 @@
-"""What was measured of a robot beside what is predicted: rows, a table and a picture."""
+"""Measurements of a robot beside predictions: rows, a table and a picture."""
 
 import csv
 import math

@@ -1,4 +1,4 @@
-"""By how much one more measurement narrows what a fit knows: its information matrix."""
+"""Narrowing of a fit's covariance by one more measurement: its information matrix."""
 
 import numpy as np
 

@@ -130,7 +130,7 @@ class Chain:
         return contacts
 
     def _passive(self, run: NDArray[np.int_]) -> bool:
-        """Whether a run is of an end that does not arch between its nodes, for lack of pressure."""
+        """Tell whether a run is of an end too little inflated to arch between its nodes."""
         return bool((run[0] == 0 and self.rest[0] == 0) or
                     (run[-1] == self.links and self.rest[-1] == 0))  # fmt: skip
 

@@ -282,7 +282,7 @@ def _film(walks: "list[Trajectory]", records: list[dict[str, Any]], out: Path) -
 
 
 def _of_film(error: OSError | KeyboardInterrupt) -> OSError | KeyboardInterrupt:
-    """What ended the videos, in words."""
+    """Words on what ended the videos."""
     if isinstance(error, OSError):
         return OSError(f"a video cannot be written: {error}; --no-video makes none")
     return KeyboardInterrupt("undulator replay makes the video of a walk that is saved")

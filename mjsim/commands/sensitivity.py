@@ -1,4 +1,4 @@
-"""What a per cent of each field does to the distance: `undulator sensitivity`."""
+"""Effect of a per cent of each field on the distance: `undulator sensitivity`."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

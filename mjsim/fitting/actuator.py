@@ -59,7 +59,7 @@ class Fitted(NamedTuple):
 
     @property
     def scales(self) -> list[float]:
-        """How much more each file bends than the curve of all, as a factor."""
+        """Factor by which each file bends more than the curve of all."""
         at = np.linspace(0.0, min(fit.reached for fit in self.each), _GRID)
         curve = self.fit.bend(at)
         return [float(fit.bend(at) @ curve / (curve @ curve)) for fit in self.each]

@@ -37,7 +37,7 @@ class Tendons(NamedTuple):
 
 
 class Layout(NamedTuple):
-    """Where the numbers of the points that touch are written and read.
+    """Places where the numbers of the points that touch are written and read.
 
     Attributes:
         kinds: of the points.

@@ -67,7 +67,7 @@ class Tried(NamedTuple):
 
 @dataclass(frozen=True)
 class Answer:
-    """What was tried, the last one sure if any is.
+    """Models that were tried, the last one sure if any is.
 
     Attributes:
         tried: answers of the models, cheapest first.

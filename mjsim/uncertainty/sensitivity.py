@@ -38,7 +38,7 @@ _GROUND = {
 
 
 class Effect(NamedTuple):
-    """What one per cent of a field does.
+    """Effect of one per cent of a field.
 
     Attributes:
         field: its name; of a stage its number and the chamber too.

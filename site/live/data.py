@@ -137,7 +137,7 @@ def _chambers(robot: Robot | LimbedRobot) -> list[str]:
 
 
 def _springs(strip: Robot, links: int) -> dict[str, Any]:
-    """What joint_springs makes the springs of a limb's hinges of."""
+    """Numbers of which joint_springs makes the springs of a limb's hinges."""
     overlap = segment_overlap(strip.borders, links) * element_lengths(strip, links)[:, None]
     return {
         "overlap": overlap.tolist(),

@@ -1,4 +1,4 @@
-"""What the pages of the repository show: blocks of code, commands within the text, links."""
+"""Contents of the pages of the repository:blocks of code, commands within the text, links."""
 
 import re
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What would decide on GeckoBot's actuators: `python -m zoo.geckobot_actuators.decide`.
+"""Measurements to decide on GeckoBot's actuators: `python -m zoo.geckobot_actuators.decide`.
 
 A power law c (p - p_0)^n goes through the four published points of each of the six. How they differ
 is what is known of a seventh before it is measured; points at some angles, each to 2 degrees,
@@ -37,7 +37,7 @@ def through(pressure: Array, angle: Array) -> Array:
 
 
 def slopes(numbers: Array, pressure: Array) -> Array:
-    """Of angles by the numbers, (K, 3)."""
+    """Slopes of angles by the numbers, (K, 3)."""
     start, size, power = numbers
     over = np.maximum(pressure - start, _FLAT)
     angle = np.exp(size) * over**power

@@ -1,4 +1,4 @@
-"""What would decide on the pneumatic inchworm: `python -m zoo.pneumatic_inchworm.decide`.
+"""Measurements to decide on the pneumatic inchworm: `python -m zoo.pneumatic_inchworm.decide`.
 
 For each measurement that could be made, with the accuracy beside it: what it leaves of the standard
 errors of the robot's numbers and of the speeds at pressures that nobody measured, by the fit's
@@ -41,7 +41,7 @@ def runs_at(
 
 
 def measurements(fit: inchworm.Fit, table: object) -> list[Measurement]:
-    """What could be measured of the robot, its ground and its speed."""
+    """Quantities of robot, ground and speed that could be measured."""
     unit = np.eye(len(fit.values))
     ground = len(inchworm.ROBOT)
     paper, glass = (ground + 2 * fit.materials.index(name) for name in ("Paper", "Glass"))

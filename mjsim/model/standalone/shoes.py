@@ -49,7 +49,7 @@ _ROUNDS = 20  # of a fit at most
 
 
 def refusal(scene: Scene) -> str | None:
-    """What a scene asks for that shoes do not do, None if there is nothing."""
+    """Feature of a scene that shoes do not have, None if there is nothing."""
     ground = scene.ground
     if scene.in_space or scene.body != "chain":
         return "shoes are for strips of body chain"

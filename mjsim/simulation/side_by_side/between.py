@@ -101,7 +101,7 @@ class BoundedContactsBatch(BoundedEndsBatch):
     def _ties(
         self, rows: Indices, contacts: ContactRows, bounds: Array, rates: Array, viscous: Flags
     ) -> tuple[Array, Flags]:
-        """What anchors besides the bounds, (R, K) [N], and which contacts are anchored, (R, K).
+        """Forces that anchor besides the bounds, (R, K) [N], and which contacts are anchored.
 
         Where equal bounds leave open how the whole moves the mean of all, by a friction of its own,
         or the contact at the border of what they leave open.

@@ -76,7 +76,7 @@ WAYS = pytest.mark.parametrize("way", [copy.deepcopy, lambda env: pickle.loads(p
 
 
 def steps(env, actions):
-    """What is felt and what is paid, of either library's environment."""
+    """Observations and rewards of either library's environment."""
     seen = []
     for action in actions:
         felt = env.step(action)

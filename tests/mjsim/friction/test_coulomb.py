@@ -19,7 +19,7 @@ SCENE = Scene()
 
 
 def predicted(surface, strength=1.0, gait=SCENE.gait):
-    """By the elastica, bent by friction so many times as strong as the surface's."""
+    """Distance by the elastica, bent by friction so many times as strong as the surface's."""
     friction = Friction("coulomb", 1.0 if strength else 0.0)
     return walks.predicted(Robot(), gait, surface.scaled(strength or 1.0), friction)
 
@@ -63,7 +63,7 @@ def test_every_body_meets_it(body):
 
 
 def anchor_creep(impratio):
-    """How far the left tip, the heavier one, is dragged while the right one slides, over L."""
+    """Way that the left tip, the heavier one, is dragged while the right one slides, over L."""
     result = walk("gelatin", ramp_time=SLOW, friction="coulomb", impratio=impratio)
     x, _ = result.nodes()
     held = (result.time > 12.0) & (result.time <= 16.0)

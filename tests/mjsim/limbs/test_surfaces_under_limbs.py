@@ -22,7 +22,7 @@ AREA = STRIP.width * STRIP.length
 
 
 def places(ground, slope, friction="constant", steps=100):
-    """Where a limb without pressure is after each step on a slope [m]."""
+    """Place of a limb without pressure after each step on a slope [m]."""
     simulation = Simulation(Scene(SOLO, GAITS["wave"], ground, slope=slope, friction=friction))
     at = []
     for _ in range(steps):

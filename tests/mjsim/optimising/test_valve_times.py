@@ -59,7 +59,7 @@ def test_no_chamber_changes_faster_than_the_supply_lets_it(limit):
 
 
 def test_the_worst_of_what_is_not_known_counts():
-    """The same by predictions of every combination, one by one."""
+    """Predictions of every combination, one by one."""
     base = merged({"ground": {"surface": "gelatin"}})
     others = optimise._corners("surface.tip_force=20%,robot.modulus=10%", [base])
     gelatin = SURFACES["gelatin"]

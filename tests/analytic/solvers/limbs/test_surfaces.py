@@ -30,7 +30,7 @@ def by_limb(gait):
 
 
 def stays(ground, slope, law="constant"):
-    """Whether a limb without pressure stays where it lies on a slope [rad]."""
+    """Tell whether a limb without pressure stays where it lies on a slope [rad]."""
     path = walk(SOLO, GAITS["wave"], ground, law=law, path=np.zeros((3, 3)),
                 times=np.arange(3.0), incline=Incline(slope))  # fmt: skip
     return path.converged and bool(np.abs(path.place).max() < 1e-4 * STRIP.length)
