@@ -175,14 +175,15 @@ def test_modes_know_no_pressures_that_switch_feet():
 
 
 @pytest.mark.parametrize(("feet", "words"), [
-    ([{"begin": 0.2, "end": 0.1}], "end of a foot"),
-    ([{"begin": 0.5, "end": 0.5}], "point at an end"),
-    ([{"begin": -0.1, "end": 0.5}], "begin of a foot"),
+    ([{"begin": 0, "end": 0.1}], "what it does: give grip, grip_back"),
+    ([{"begin": 0.2, "end": 0.1, "grip": 2}], "end of a foot"),
+    ([{"begin": 0.5, "end": 0.5, "grip": 2}], "point at an end"),
+    ([{"begin": -0.1, "end": 0.5, "grip": 2}], "begin of a foot"),
     ([{"begin": 0, "end": 1, "grip": -1}], "grip of a foot"),
     ([{"begin": 0, "end": 1, "hold": "3 kg"}], "hold"),
-    ([{"begin": 0, "end": 0.5}, {"begin": 0.4, "end": 1}], "must not overlap"),
-    ([{"begin": 0, "end": 0}, {"begin": 0, "end": 1}], "must not overlap"),
-    ([{"begin": 0, "end": 1, "chamber": "midle"}], "did you mean middle"),
+    ([{"begin": 0, "end": 0.5, "grip": 2}, {"begin": 0.4, "end": 1, "grip": 2}], "not overlap"),
+    ([{"begin": 0, "end": 0, "hold": 1}, {"begin": 0, "end": 1, "grip": 2}], "not overlap"),
+    ([{"begin": 0, "end": 1, "grip": 2, "chamber": "midle"}], "did you mean middle"),
     ([{"begin": 0, "end": 1, "grib": 2}], "did you mean grip"),
     ([{"begin": 0}], "end of a foot is missing"),
     ([3], "feet must be Foot"),
