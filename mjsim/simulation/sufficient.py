@@ -78,13 +78,17 @@ class Answer:
     sure: bool
 
 
-def smallest_sure(scene: Scene, tolerance: float, numerics: Numerics | None = None) -> Answer:
+def smallest_sure(
+    scene: Scene, tolerance: float, numerics: Numerics | None = None,
+    asks: Callable[[str], None] | None = None,
+) -> Answer:  # fmt: skip
     """Answer of the smallest model that is sure.
 
     Args:
         scene: what walks.
         tolerance: of its displacement per cycle, relative, or 0.001 L.
         numerics: whose links a reference of limbs takes.
+        asks: called with the name of each model before that is asked.
 
     Raises:
         ValueError: no tolerance that was measured.
@@ -92,6 +96,8 @@ def smallest_sure(scene: Scene, tolerance: float, numerics: Numerics | None = No
     check_tolerance(tolerance)
     tried: list[Tried] = []
     for model, ask in _models(scene, tolerance, numerics):
+        if asks:
+            asks(model)
         began = time.perf_counter()
         try:
             shift, error, why = ask()
