@@ -56,7 +56,7 @@ def test_on_ice_the_place_of_the_tether_stays(bent):
     assert np.abs(torso - torso[0]).max() < 1e-4 * QUADRUPED.length
 
 
-@pytest.mark.parametrize("ground", ["felt", "gelatin"])
+@pytest.mark.parametrize("ground", ["felt", pytest.param("gelatin", marks=pytest.mark.slow)])
 def test_limbs_in_one_line_drag_it_as_the_strip_does(ground):
     gait, strip = GAITS["wave"], Robot()
     by_limb = replace(gait, stages=tuple((b, a, c) for a, b, c in gait.stages))

@@ -106,7 +106,7 @@ def test_energy_closes_with_a_payload():
     assert np.abs(left).max() < 0.02 * np.ptp(bent.work)
 
 
-@pytest.mark.parametrize("ground", ["felt", "gelatin"])
+@pytest.mark.parametrize("ground", ["felt", pytest.param("gelatin", marks=pytest.mark.slow)])
 def test_limbs_in_one_line_carry_it_as_the_strip_does(ground):
     gait, spot = GAITS["wave"], 0.6
     by_limb = replace(gait, stages=tuple((b, a, c) for a, b, c in gait.stages))
