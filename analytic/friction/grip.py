@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from analytic.friction.laws import Number, TractionLaw, bounds_both_ways
-from analytic.scene.feet import Foot, check_chambers, refuse_proud
-from analytic.scene.ground import is_round, surfaces_of
+from analytic.scene.feet import Foot, check_chambers, refuse_damping, refuse_proud
+from analytic.scene.ground import depends_on_speed, is_round, surfaces_of
 from analytic.scene.limbs import AnyRobot, limbs_of
 from analytic.scene.robot import Robot
 from analytic.scene.surface import Ground, Surface, Way
@@ -36,13 +36,16 @@ class Grip:
         most: greatest grip of any part of it [1], and hold of all feet together [N].
 
     Raises:
-        ValueError: a foot is switched by a chamber that the robot does not have.
+        ValueError: a foot is switched by a chamber that the robot does not have, or is of a strip
+            and resists viscously.
     """
 
     def __init__(self, strip: Robot, law: TractionLaw, robot: AnyRobot | None = None) -> None:
         whole = strip if robot is None else robot
         self._law, self._width, self._peak = law, strip.width, whole.peak_pressure
         check_chambers(strip.feet, whole.chambers)
+        if isinstance(whole, Robot):
+            refuse_damping(strip.feet)
         self._feet = [_Placed.of(foot, strip.length, whole.chambers) for foot in strip.feet]
         self.feet = bool(self._feet)
         self.switched = any(foot.column is not None for foot in self._feet)
@@ -79,14 +82,14 @@ class Grip:
         ahead, back = bounds_both_ways(self._law, surface, self._width, contact, load)
         if not self._feet:
             return ahead, back
-        grip, hold = self.over("ahead", stretch, pressures)
+        grip, hold, _ = self.over("ahead", stretch, pressures)
         if self._round:
             return grip * ahead + hold, grip * back + hold
-        grip_back, _ = self.over("back", stretch, pressures)
+        grip_back, *_ = self.over("back", stretch, pressures)
         return grip * ahead + hold, grip_back * back + hold
 
-    def over(self, way: Way, stretch: Stretch, pressures: Any) -> tuple[Number, Number]:
-        """Mean grip of a contact against motion one way [1], and what its feet hold by [N].
+    def over(self, way: Way, stretch: Stretch, pressures: Any) -> tuple[Number, Number, Number]:
+        """Mean grip of a contact against motion one way [1], hold and damping of its feet.
 
         Args:
             way: of the motion.
@@ -97,7 +100,7 @@ class Grip:
         low, high = (max, min) if plain else (np.maximum, np.minimum)
         is_side = 1.0 * (end > begin)
         is_tip, length = 1.0 - is_side, end - begin + (1.0 - is_side)
-        grip, hold, bare = 0.0, 0.0, 1.0
+        grip, hold, damping, bare = 0.0, 0.0, 0.0, 1.0
         for foot, first, last, span, column in self._feet:
             on = self._part(column, pressures, low, high)
             stands = is_tip * (first <= begin) * (begin <= last) * (bare > 0.0)
@@ -109,8 +112,9 @@ class Grip:
                 caught = is_side * (begin <= last) * (first <= end) + stands
             grip = grip + share * (on * foot.grip_against(way) + (1.0 - on))
             hold = hold + caught * on * foot.hold
+            damping = damping + caught * on * foot.damping
             bare = bare - share
-        return grip + bare, hold
+        return grip + bare, hold, damping
 
     def _part(self, column: int | None, pressures: Any, low: Any, high: Any) -> Any:
         """Part by which a foot is switched on, 0 to 1."""
@@ -156,6 +160,20 @@ class _Placed(NamedTuple):
         )
 
 
+def resists_by_speed(robot: AnyRobot, ground: Ground) -> bool:
+    """Tell whether the ground, or a foot, resists anywhere by how fast it slides."""
+    feet = any(foot.damping for limb in limbs_of(robot) for foot in limb.strip.feet)
+    return feet or depends_on_speed(ground)
+
+
+def refuse_speed(robot: AnyRobot, ground: Ground) -> None:
+    """Raise ValueError for ground or feet that resist by speed, where friction is by load."""
+    if resists_by_speed(robot, ground):
+        speedy = depends_on_speed(ground)
+        what = f"surface {ground.name!r}" if speedy else "a foot with damping"
+        raise ValueError(f"{what} resists by speed: friction must be constant, not coulomb")
+
+
 def check_feet_in_space(robot: AnyRobot, ground: Ground) -> None:
     """Refuse ground on which feet with a direction are not known, in the plane.
 
@@ -166,6 +184,12 @@ def check_feet_in_space(robot: AnyRobot, ground: Ground) -> None:
     refuse_proud(feet, "a robot of limbs")
     if all(foot.is_round for foot in feet):
         return
+    for foot in feet:
+        if foot.damping:
+            raise ValueError(
+                "damping of a foot must be 0 where feet of limbs grip otherwise back or across "
+                f"than ahead, got {foot.damping:g} N s/m"
+            )
     for surface in surfaces_of(ground):
         if surface.viscosity or not (surface.is_round or surface.nap == "robot"):
             what = "viscosity" if surface.viscosity else "a nap of the ground's own"

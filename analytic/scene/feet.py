@@ -16,8 +16,9 @@ _PLACE = ("begin", "end", "chamber")  # keys of a foot that tell where and when 
 class Foot:
     """Pad, bristles, claw or suction cup on the underside.
 
-    It changes dry friction alone: a viscous film resists as without it. Dry friction that is
-    stronger at rest is so under a foot too, its hold included.
+    It changes dry friction: a viscous film on the ground resists as without it. Dry friction that
+    is stronger at rest is so under a foot too, its hold included. A soft pad may resist viscously
+    besides.
 
     A number may be a text with its unit, as in hold="20 mN", and is in SI then.
 
@@ -40,6 +41,9 @@ class Foot:
     hold: float = 0.0
     """bound by which it resists besides, in all directions: all of it where a tip stands on the
     foot, and of a side the part of the foot that it covers [N]"""
+    damping: float = 0.0
+    """viscous resistance over its speed besides, in all directions, of limbs: of a tip and of a
+    side as hold is [N s/m]"""
     drop: float = 0.0
     """height by which a point at an end stands proud of the underside [m]"""
     chamber: str | None = None
@@ -130,6 +134,16 @@ def refuse_proud(feet: Sequence[Foot], what: str) -> None:
             f"drop of a foot must be 0 for {what}, got {max(drops(feet)):g} m: feet that stand "
             "proud are of strips under constant bounds at all contacts, by elastica and MuJoCo"
         )
+
+
+def refuse_damping(feet: Sequence[Foot]) -> None:
+    """Raise ValueError for feet of a strip that resist viscously."""
+    for foot in feet:
+        if foot.damping:
+            raise ValueError(
+                f"damping of a foot must be 0 for a strip, got {foot.damping:g} N s/m: feet that "
+                "resist viscously are of robots of limbs"
+            )
 
 
 def check_chambers(feet: Sequence[Foot], chambers: Sequence[str]) -> None:

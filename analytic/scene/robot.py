@@ -77,7 +77,7 @@ class Robot:
     give: files of pressure and angle or curvature, one for all segments or one per segment"""
     feet: tuple[Foot, ...] = ()
     """stretches of its underside that resist otherwise than its skin: tables of begin, end, grip,
-    grip_back, grip_across, hold, drop and chamber; as an option 0..0.1 grip_back=2, 1..1
+    grip_back, grip_across, hold, damping, drop and chamber; as an option 0..0.1 grip_back=2, 1..1
     hold=50mN"""
     payload: tuple[Payload, ...] = ()
     """masses that it carries besides its own: tables of mass, begin and end; as an option 0.5

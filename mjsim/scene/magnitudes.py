@@ -22,6 +22,7 @@ _STIFFENED = 100.0  # times its rigidity without pressure, at the peak
 _LADEN = 100.0  # times its own mass, that a robot carries
 _PROUD = 0.25  # of its length, that a foot drops below its underside: as high as it arches
 _HELD = 20.0  # times its weight, that friction of constant bound holds it by
+_SLOWEST = 1e-3  # of its length in a second, at which damping holds it so; chosen
 _ROUNDING = 1e-6  # of a pressure in a file
 _DECADE = math.log(10.0)
 _BENDS = ("peak_pressure", "chamber_height")  # fields of which a meant one must bend the strip
@@ -56,6 +57,7 @@ def check_robot(robot: AnyRobot, given: Collection[str] = (), gravity: float = G
     _check_payload(robot)
     _check_feet(robot)
     _check_bounds(robot)
+    _check_damping(robot)
     if isinstance(robot, Robot) and pneunet.turn_number(robot) < _BENT:
         raise ValueError(_unbent(robot, given))
 
@@ -97,6 +99,18 @@ def _check_bounds(robot: AnyRobot) -> None:
             near = [words for words, scale in readings(bound, _FORCES) if bound * scale <= most]
             raise ValueError(f"{name} must be one for a robot of {robot.weight:.2g} N, got "
                              f"{bound:g} N{asked(near[:1])}")  # fmt: skip
+
+
+def _check_damping(robot: AnyRobot) -> None:
+    """Refuse damping of a foot that no motion of a robot of this weight would overcome."""
+    most = _HELD * robot.weight / (_SLOWEST * robot.length)
+    for limb in limbs_of(robot):
+        for foot in limb.strip.feet:
+            if foot.damping > most:
+                raise ValueError(
+                    f"feet: damping must be one for a robot of {robot.weight:.2g} N, at most "
+                    f"{most:.2g} N s/m, got {foot.damping:g} N s/m"
+                )
 
 
 def _check_measured(strip: Robot, peak_pressure: float, where: str) -> None:

@@ -10,16 +10,15 @@ import numpy as np
 
 from analytic.checks import is_number, one_of, positive, slope, whole
 from analytic.fields import in_si
-from analytic.friction.grip import Grip, check_feet_in_space
+from analytic.friction.grip import Grip, check_feet_in_space, refuse_speed
 from analytic.friction.laws import LAWS, ROUGHNESS, Friction
 from analytic.scene.chain import CHAMBER_LAWS
-from analytic.scene.feet import Foot, check_chambers, proud, refuse_proud
+from analytic.scene.feet import Foot, check_chambers, proud, refuse_damping, refuse_proud
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.ground import (
     Incline,
     check_adhesion,
     check_for_limbs,
-    depends_on_speed,
     surfaces_of,
 )
 from analytic.scene.limbs import (
@@ -155,17 +154,14 @@ class Scene:
         self._check_turns()
         if self.in_space:
             self._check_limbs()
-        if self.friction == "coulomb" and depends_on_speed(self.ground):
-            raise ValueError(
-                f"surface {self.ground.name!r} resists by speed: friction must be constant, not "
-                "coulomb"
-            )
+        if self.friction == "coulomb":
+            refuse_speed(self.robot, self.ground)
         check_adhesion(self.ground)
         feet = self._check_feet()
         acts = LAWS[self.friction].acts_on
         ways: tuple[Way, ...] = ("ahead", "back", "across") if self.in_space else ("ahead", "back")
         surfaces = [s.against(way) for s in surfaces_of(self.ground) for way in ways]
-        holds = any(foot.hold for foot in feet)
+        holds = any(foot.hold or foot.damping for foot in feet)
         holds |= any(limb.strip.tether for limb in limbs_of(self.robot))
         if not holds and not any(acts(surface) or surface.viscosity for surface in surfaces):
             acting = [law for law in _LAWS if any(map(LAWS[law].acts_on, surfaces))]
@@ -192,6 +188,8 @@ class Scene:
         """
         feet = [foot for limb in limbs_of(self.robot) for foot in limb.strip.feet]
         check_chambers(feet, self.robot.chambers)
+        if not self.in_space:
+            refuse_damping(feet)
         if not self.between:
             refuse_proud(feet, "friction at the ends alone")
         if self.friction == "coulomb":

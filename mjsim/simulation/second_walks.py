@@ -16,8 +16,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.friction.grip import resists_by_speed
 from analytic.scene import pneunet
-from analytic.scene.ground import depends_on_speed
 from analytic.scene.limbs import limbs_of, rotation
 from analytic.scene.surface import Surface
 from mjsim.results.measures import measure
@@ -100,7 +100,7 @@ def doubts(walk: Trajectory, row: dict[str, Any]) -> list[str]:
         notes.append(_of_numerics(walk, moved, fine, finer))
         numerics, before = finer, fine
     by_chance = not off(before)
-    if (by_chance and swiftness(scene) <= _HURLED) or depends_on_speed(scene.ground):
+    if (by_chance and swiftness(scene) <= _HURLED) or resists_by_speed(scene.robot, scene.ground):
         return notes
     slow = _walked(*slower(scene, numerics))
     if slow is None:

@@ -14,7 +14,7 @@ from studies import Array
 from zoo.terresoro_iv.forms import FORMS
 from zoo.terresoro_iv.hub import LIMBS, Law, gaits, jackknife
 from zoo.terresoro_iv.hub import together as known_transitions
-from zoo.terresoro_iv.model import recut, recut_gaits, remembered, steady, together
+from zoo.terresoro_iv.model import FORM, recut, recut_gaits, remembered, steady, together
 
 TRANSITIONS, SECONDS = 60, 0.45
 STATES = tuple(format(number, "04b") for number in range(2**LIMBS))
@@ -51,7 +51,7 @@ def reach(steps: Array) -> float:
     return float(distance * abs(np.sin(times * half) / np.sin(half)))
 
 
-def reaches(some: Sequence[tuple[str, ...]], values: Array, form: str = "lag of curling") -> Array:
+def reaches(some: Sequence[tuple[str, ...]], values: Array, form: str = FORM) -> Array:
     """Distances of gaits after TRANSITIONS by a form of memory, (G,) [cm]."""
     pasts, afters = zip(*(steady(states) for states in some), strict=True)
     steps = FORMS[form].law(values, np.concatenate(pasts), np.concatenate(afters))
@@ -71,7 +71,7 @@ def main() -> None:
     put_together = {one: by_transitions(one, law) for one in every}
     farthest = max(every, key=lambda one: float(put_together[one].mean()))
     print(f"{len(every)} gaits; farthest by measured transitions: {_line(farthest, put_together)}")
-    for form in ("lag of curling", "no memory", "lag, load"):
+    for form in (FORM, "no memory", "free flat contact"):
         values, left_out = remembered(form)
         far = np.array([reaches(every, row, form) for row in (values, *left_out)])
         error, order = jackknife(far[1:]), np.argsort(-far[0])

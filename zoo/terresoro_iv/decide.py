@@ -17,11 +17,11 @@ from studies import Array
 from zoo.deciding import errors, narrowed
 from zoo.terresoro_iv.best import cycles, reach, reaches
 from zoo.terresoro_iv.hub import gaits, jackknife
-from zoo.terresoro_iv.model import Lagged, cycle, motions, remembered, steady
+from zoo.terresoro_iv.model import FORM, Lagged, cycle, motions, remembered, steady
 
 _STEP = 0.02  # of differences; wide, since laws have kinks
-_LENGTHS = (0, 2)  # numbers that are lengths, whose steps go with them
-FORMS = ("no memory", "lag of curling", "lag, load", "lag, order of curling")
+_LENGTHS = (0,)  # numbers that are lengths, whose steps go with them
+FORMS = ("no memory", FORM, "free flat contact", "load", "order of curling")
 
 
 class Measurement(NamedTuple):
@@ -55,14 +55,15 @@ def reached_slowly(states: tuple[str, ...], numbers: Lagged) -> float:
 
 C, D = ("0111", "1000", "1111"), ("0011", "1101")
 MEASUREMENTS = (
-    Measurement("friction of a curled over a flat resting limb, 10 %", lambda n: n.resting, 0.1),
-    Measurement("friction of a curling over a flat limb, 10 %", lambda n: n.curling, 0.1),
-    Measurement("friction of an uncurling over a flat limb, 10 %", lambda n: n.uncurling, 0.1),
-    Measurement("viscous over dry friction of a sliding limb, 10 %", lambda n: n.viscous, 0.1),
+    Measurement("damping of a curled over a flat resting limb, 10 %", lambda n: n.resting, 0.1),
+    Measurement("damping of a curling over a flat limb, 10 %", lambda n: n.curling, 0.1),
+    Measurement("damping of an uncurling over a flat limb, 10 %", lambda n: n.uncurling, 0.1),
+    Measurement("damping over dry friction of a flat limb, 10 %", lambda n: n.viscous, 0.1),
     Measurement("part of the curl that lacks after 0.45 s, 0.02", lambda n: n.lag, 0.02),
-    Measurement("direction of a flat limb's contact, 5 deg", lambda n: n.flat_angle, np.radians(5)),
-    Measurement("distance of a flat limb's contact, 0.3 cm", lambda n: n.flat, 0.3),
-    Measurement("how far curling moves it inwards, 0.3 cm", lambda n: n.flat - n.curled, 0.3),
+    Measurement(
+        "direction of a curled limb's contact, 2 deg", lambda n: n.curled_angle, np.radians(2)
+    ),
+    Measurement("distance of a curled limb's contact, 0.2 cm", lambda n: n.curled, 0.2),
     Measurement("gait C, 60 transitions, 1 cm", partial(reached, C), 1.0),
     Measurement("gait D, 60 transitions, 1 cm", partial(reached, D), 1.0),
     Measurement("gait C at half the speed, 1 cm", partial(reached_slowly, C), 1.0),
@@ -71,7 +72,7 @@ MEASUREMENTS = (
 
 
 def slopes(function: Callable[[Lagged], Array | float], at: Lagged) -> Array:
-    """Central differences by the numbers, (..., 9)."""
+    """Central differences by the numbers, (..., 7)."""
     columns = []
     for k in range(len(at)):
         step = np.zeros(len(at))

@@ -16,8 +16,8 @@ from scipy.optimize import least_squares
 
 from studies import Array
 from zoo.terresoro_iv.hub import (
+    DATA,
     FREE,
-    HERE,
     Law,
     Numbers,
     Pair,
@@ -76,7 +76,7 @@ def folds(pairs: Sequence[Pair]) -> Array:
 
 def all_fits() -> dict[tuple[str, int, int], Numbers]:
     """Fits by law, start and the fold that is left out, -1 for none."""
-    path, known = HERE / "fitted.csv", {}
+    path, known = DATA / "fitted.csv", {}
     if path.exists():
         with path.open(encoding="utf-8") as file:
             for line in csv.DictReader(file):

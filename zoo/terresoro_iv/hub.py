@@ -19,6 +19,7 @@ from analytic.friction.dissipation_in_plane import least_dissipation_in_plane
 from studies import Array
 
 HERE = Path(__file__).parent
+DATA = HERE / "data"
 LIMBS = 4
 PARTS = 1  # steps of a transition; 6 change a gait by 0.003 cm and 0.03 degrees at most
 FREE = {"dry": 7, "viscous": 7, "both": 8}  # numbers that are fitted, by kind of friction
@@ -50,10 +51,9 @@ class Numbers(NamedTuple):
     @property
     def places(self) -> tuple[Array, Array]:
         """Contacts of limbs that are flat, and curled, in the hub's frame, (4, 2) each [cm]."""
-        axes = np.asarray(-0.5 * np.pi * np.arange(LIMBS), dtype=np.float64)
         return (
-            _polar(self.flat, axes + self.flat_angle),
-            _polar(self.curled, axes + self.curled_angle),
+            spread_places(self.flat, self.flat_angle),
+            spread_places(self.curled, self.curled_angle),
         )
 
     def bounds(self, before: Array, after: Array) -> Array:
@@ -63,8 +63,10 @@ class Numbers(NamedTuple):
         return np.where(before == after, still, moving)
 
 
-def _polar(length: float, angles: Array) -> Array:
-    return length * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+def spread_places(distance: float, angle: float) -> Array:
+    """Places of four limbs at quarter turns, of which the first is at an angle [rad], (4, 2)."""
+    angles = angle - 0.5 * np.pi * np.arange(LIMBS)
+    return distance * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
 
 class Gait(NamedTuple):
@@ -79,7 +81,7 @@ class Gait(NamedTuple):
 
 def transitions() -> tuple[list[Pair], Array]:
     """Pairs of states and what was measured, (240, 3) [cm, cm, deg]."""
-    with (HERE / "transitions.csv").open(encoding="utf-8") as file:
+    with (DATA / "transitions.csv").open(encoding="utf-8") as file:
         lines = list(csv.DictReader(file))
     pairs = [(line["from_limbs"], line["to_limbs"]) for line in lines]
     return pairs, np.array([[float(line[key]) for key in _COLUMNS] for line in lines])
@@ -91,7 +93,7 @@ _SDS = ("dx_sd [cm]", "dy_sd [cm]", "turn_sd [deg]")
 
 def gaits() -> list[Gait]:
     """The five measured gaits."""
-    with (HERE / "gaits.csv").open(encoding="utf-8") as file:
+    with (DATA / "gaits.csv").open(encoding="utf-8") as file:
         return [
             Gait(line["gait"], tuple(format(int(n) - 1, "04b") for n in line["states"].split()),
                  int(line["cycles"]), np.array([float(line[key]) for key in _COLUMNS]),
@@ -203,7 +205,7 @@ def fitted(minimum: int = 0, law: str = "both") -> tuple[Numbers, Array]:
 
     Under "dry" friction or "both" kinds. The misfit has two minima: 0 is the lower one.
     """
-    with (HERE / "fitted.csv").open(encoding="utf-8") as file:
+    with (DATA / "fitted.csv").open(encoding="utf-8") as file:
         lines = [
             line
             for line in csv.DictReader(file)

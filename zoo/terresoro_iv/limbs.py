@@ -1,235 +1,224 @@
-"""TerreSoRo-IV as a robot of limbs, whose numbers `fit_limbs` finds.
+"""TerreSoRo-IV as a robot of limbs, laid so that their tips are where the hub's contacts are.
 
-A hub with four limbs at quarter turns, which bend in upright planes, rest on the ground by their
-weight and lie flat or stand on their tips: shapes and contacts are `analytic`'s, for weak friction.
-A tip that stays, that curls and that uncurls resist otherwise; the hub's underside slides. The
-motion of the whole is by least dissipation at the contacts that were found, for many transitions at
-once. Nine numbers, fitted to transitions alone; `scenes` hands them to the product's own models.
+A hub on four limbs at quarter turns, which bend in upright planes and stand on their tips: arches
+as long as the robot's limbs are on photographs, so bent at rest that curling moves a tip from the
+contact of a flat limb to that of a curled one (`model`) without lifting the hub. Shapes and
+contacts are `analytic`'s, for weak friction; the motion is by least dissipation for many
+transitions at once. Nothing is fitted here; `scenes` hands the robot to the product's own models.
 """
 
-import csv
 from collections.abc import Sequence
-from itertools import pairwise
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import fsolve
 
 from analytic import Robot
 from analytic.scene.actuator import Actuator
 from analytic.scene.limbs import Limb, LimbedRobot
-from analytic.solvers.limbs.contact_state import Contact
 from analytic.solvers.limbs.contacts import Contacts
 from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.rest import Rest
 from analytic.solvers.limbs.statics import Statics
 from studies import Array
 from zoo.terresoro_iv.at_once import least_dissipation
-from zoo.terresoro_iv.hub import HERE, LIMBS, turned
-from zoo.terresoro_iv.model import amounts, steady, together
+from zoo.terresoro_iv.hub import LIMBS, turned
+from zoo.terresoro_iv.model import Lagged, amounts, steady, together
 
 PEAK = 10e3  # Pa, chosen: a tendon has none
-WEIGHT, OF_HUB = 3.0, 0.5  # N, chosen: rigidity is fitted over it; part that the hub has
-WIDTH, HUB_WIDTH = 0.02, 0.05  # m, chosen; the hub's underside slides
+LENGTH = 0.13  # m, of a limb on photographs, from where it leaves the hub to its tip
+WEIGHT, OF_HUB = 3.0, 0.5  # N, chosen; part that the hub has
+RIGIDITY = 0.018  # N m^2, chosen: so soft that all four tips stay on the ground
+TIP_FORCE = 0.005  # N, chosen: bound of a tip, so weak that friction hardly bends limbs
+WIDTH, HUB_WIDTH = 0.02, 0.05  # m, chosen; the hub is in the air
 HUB_RIGIDITY = 1.0  # N m^2, chosen: stiff
-ELEMENTS, STEPS = 4, 2  # hinges of a limb, steps of a transition
-_POINTS = 24  # that a state has at most, with padding
+ELEMENTS, STEPS = 6, 2  # hinges of a limb, steps of a transition
+_BENDS = (1.9, 2.7)  # rad, near those of flat and curled limbs
+_ROUNDS = 10  # in which they are found under the weight
+_RISE = 8  # states on the way to rest
 
 
-class Numbers(NamedTuple):
-    """The fitted numbers.
+class Laid(NamedTuple):
+    """Where limb 1 is, in the hub's frame, and how it bends.
 
     Attributes:
-        corner: half the side of the square of points where limbs begin [cm].
-        angle: of the limb that begins at (corner, -corner) [rad].
-        length: of a limb [cm].
-        curl: angle by which a limb that is curled and free bends [rad].
-        rigidity: logarithm of D over weight times corner squared, see WEIGHT [1].
-        resting, curling, uncurling: logarithms of the bound of a tip that stays, of a limb that
-            curls and that uncurls, over that of a limb that lies flat [1].
-        lag: part of a curl that lacks after a transition [1].
+        begin: where it begins, (2,) [cm].
+        out: direction of its upright plane [rad].
+        flat, curled: angles by which a limb bends that is called flat, and curled, free [rad].
     """
 
-    corner: float
-    angle: float
-    length: float
-    curl: float
-    rigidity: float
-    resting: float
-    curling: float
-    uncurling: float
-    lag: float
+    begin: Array
+    out: float
+    flat: float
+    curled: float
+
+    @property
+    def axis(self) -> float:
+        """Direction of the tree's trunk, so that limbs begin at corners of a square [rad]."""
+        return float(np.arctan2(self.begin[1], self.begin[0])) + 0.25 * np.pi
+
+    def pressures(self, curled: Array) -> Array:
+        """Pressures in the hub and the limbs by how much these are curled, (..., 4) to (..., 5)."""
+        parts = (self.flat + (self.curled - self.flat) * curled) / self.curled
+        return PEAK * np.insert(parts, 0, 0.0, axis=-1)
 
 
-def robot(numbers: Numbers) -> LimbedRobot:
+def _reach(angle: float) -> float:
+    return LENGTH * float(np.sin(angle)) / angle
+
+
+def _height(angle: float) -> float:
+    return LENGTH * float(1 - np.cos(angle)) / angle
+
+
+def lay(numbers: Lagged) -> Laid:
+    """Limbs whose tips are at the contacts while all are flat and while all are curled.
+
+    As high then, too: an arc that bends by a reaches L sin(a) / a and is L (1 - cos(a)) / a high.
+    What the weight changes is taken off in rounds.
+
+    Raises:
+        ValueError: no such limbs are found.
+    """
+    flat, curled = (places[0] for places in numbers.places)
+    move = flat - curled
+    draw, out = 0.01 * float(np.hypot(*move)), float(np.arctan2(move[1], move[0]))
+    sag = np.zeros((2, 2))  # of flat and curled limbs, in reach and height [m]
+    bends = np.array(_BENDS)
+    for _ in range(_ROUNDS):
+
+        def off(angles: Array, sag: Array = sag) -> tuple[float, float]:
+            one, two = ((_reach(angle) + by[0], _height(angle) + by[1])
+                        for angle, by in zip(angles, sag, strict=True))  # fmt: skip
+            return one[0] - two[0] - draw, one[1] - two[1]
+
+        bends, _, found, message = fsolve(off, bends, full_output=True)
+        if found != 1:
+            raise ValueError(f"no limbs of {LENGTH:g} m draw a tip by {draw:g} m: {message}")
+        reach = _reach(bends[0]) + sag[0, 0]
+        laid = Laid(flat - 100 * reach * np.array([np.cos(out), np.sin(out)]), out, *bends)
+        stance = Stance(laid)
+        for k, angle in enumerate(bends):
+            tips, height = stance.tips(np.full(LIMBS, float(k)))
+            along = 0.01 * (tips[0] - laid.begin) @ [np.cos(out), np.sin(out)]
+            sag[k] = along - _reach(angle), height - _height(angle)
+    return laid
+
+
+def robot(laid: Laid) -> LimbedRobot:
     """The robot, its hub along x."""
-    corner, length = 0.01 * numbers.corner, 0.01 * numbers.length
-    rigid = float(np.exp(numbers.rigidity)) * WEIGHT * corner**2
-    curve = Actuator((0.0, PEAK), (0.0, numbers.curl / length), (rigid, rigid))
-    limb = Robot(length=length, width=WIDTH, segments=(1.0,), actuator=curve, peak_pressure=PEAK,
-                 weight_per_length=(1 - OF_HUB) * WEIGHT / LIMBS / length)  # fmt: skip
-    flat = Actuator((0.0, PEAK), (0.0, 0.0), (HUB_RIGIDITY, HUB_RIGIDITY))
-    hub = Robot(length=2 * corner, width=HUB_WIDTH, segments=(1.0,), actuator=flat,
+    corner = 0.01 * float(np.hypot(*laid.begin)) / np.sqrt(2)
+    curve = Actuator((0.0, PEAK), (0.0, laid.curled / LENGTH), (RIGIDITY, RIGIDITY))
+    limb = Robot(length=LENGTH, width=WIDTH, segments=(1.0,), actuator=curve, peak_pressure=PEAK,
+                 weight_per_length=(1 - OF_HUB) * WEIGHT / LIMBS / LENGTH)  # fmt: skip
+    straight = Actuator((0.0, PEAK), (0.0, 0.0), (HUB_RIGIDITY, HUB_RIGIDITY))
+    hub = Robot(length=2 * corner, width=HUB_WIDTH, segments=(1.0,), actuator=straight,
                 weight_per_length=OF_HUB * WEIGHT / (2 * corner), peak_pressure=PEAK)  # fmt: skip
     limbs = [Limb("hub", hub)]
     for number in range(LIMBS):
         turn = -0.5 * np.pi * number
         begin = turned(np.array([corner, -corner]), turn)
         limbs.append(Limb(f"limb-{number + 1}", limb, "hub", "end" if begin[0] > 0 else "begin",
-                          float(numbers.angle + turn), float(begin[1])))  # fmt: skip
+                          float(laid.out - laid.axis + turn), float(begin[1])))  # fmt: skip
     return LimbedRobot(tuple(limbs), PEAK)
 
 
-class Courses(NamedTuple):
-    """Contacts and moves of T transitions in S steps each, asked before and after each step.
+class Stance:
+    """Shapes of the robot on its tips; those at rest are kept."""
 
-    Attributes:
-        tip: number of the limb of points of tips, -1 of flat limbs and of padding, (T, S, 2, P).
-        share: of a limb's bound that each point has, 0 of padding, (T, S, 2, P).
-        place, move: of the points, (T, S, 2, P, 2) [cm].
-        middle: of the hub in the frame of the shapes, (T, S + 1, 2) [cm].
-    """
+    def __init__(self, laid: Laid) -> None:
+        self._laid = laid
+        self._tree = Tree(robot(laid), ELEMENTS, 0)
+        self._statics = Statics(self._tree, "linearized")
+        self._finder = Contacts(self._tree)
 
-    tip: Array
-    share: Array
-    place: Array
-    move: Array
-    middle: Array
+    @cached_property
+    def _rest(self) -> Rest:
+        """All limbs flat, on the way from no pressure."""
+        rest, flat = self._statics.flat(), self._laid.pressures(np.zeros(LIMBS))
+        for part in np.linspace(0.0, 1.0, _RISE + 1)[1:]:
+            rest = self._statics.equilibrium(part * flat, rest)
+        return rest
 
+    def tips(self, curled: Array) -> tuple[Array, float]:
+        """Places of the tips in the frame of the hub, (4, 2) [cm], and its height [m].
 
-def courses(of: LimbedRobot, begin: Array, end: Array) -> Courses:
-    """What limbs do while they curl from one amount to another, (T, 4) each.
+        Args:
+            curled: how much limbs are, (4,).
 
-    Raises:
-        ValueError: a shape is not found.
-    """
-    found = len(begin), STEPS, 2, _POINTS
-    tip, share, place, move = (np.zeros((*found, *more)) for more in ((), (), (2,), (2,)))
-    middle = np.empty((len(begin), STEPS + 1, 2))
-    tip -= 1
-    area = of.limbs[1].strip.length * of.limbs[1].strip.width
-    known: dict[tuple[float, ...], Rest] = {}
-    for row, (first, last) in enumerate(zip(begin, end, strict=True)):
-        parts = np.linspace(0.0, 1.0, STEPS + 1)[:, None]
-        pressures = PEAK * np.insert(first + parts * (last - first), 0, 0.0, axis=1)
-        tree, rests = _rests(of, pressures, known)
-        finder, last = Contacts(tree), tree.vertices[0].stop - 1
-        for step, (one, two) in enumerate(pairwise(rests)):
-            for which, state in enumerate((one, two)):
-                contacts = finder.find(state, pressures[step + which])
-                if not contacts:
-                    continue
-                count = sum(len(contact.at) for contact in contacts)
-                here = row, step, which, slice(count)
-                weights = finder.weights(contacts)
-                before, after = (100 * weights @ rest.nodes[:, :2] for rest in (one, two))
-                place[here], move[here] = before, after - before
-                points = [_of_point(of, contact, area) for contact in contacts for _ in contact.at]
-                tip[here], share[here] = np.transpose(points)
-        for step, rest in enumerate(rests):
-            half = len(rest.nodes) // 2  # right edges, then left ones
-            hub = rest.nodes[[0, last, half, half + last], :2]
-            middle[row, step] = 100 * hub.mean(axis=0)
-    return Courses(tip.astype(int), share, place, move, middle)
+        Raises:
+            ValueError: no shape is found, or a tip is in the air.
+        """
+        pressures = self._laid.pressures(curled)
+        rest = self._statics.equilibrium(pressures, self._rest)
+        contacts = {contact.limb: contact for contact in self._finder.find(rest, pressures)}
+        if not rest.converged or sorted(contacts) != [1, 2, 3, 4]:
+            raise ValueError(f"limbs that are curled by {curled} do not stand on four tips")
+        middle, heading = hub_of(rest.nodes)
+        places = [
+            (100 * self._finder.weights([contacts[limb]]) @ rest.nodes[:, :2]).mean(axis=0)
+            for limb in range(1, LIMBS + 1)
+        ]
+        along = turned(np.array(places) - 100 * middle[:2], self._laid.axis - heading)
+        return along, float(middle[2])
 
 
-def _of_point(of: LimbedRobot, contact: Contact, area: float) -> tuple[int, float]:
-    """Which limb's tip a contact's points are of, -1 if none's, and their share of a bound."""
-    if contact.limb > 0 and contact.length == 0.0:
-        return contact.limb - 1, 1.0 / len(contact.at)
-    width = of.limbs[contact.limb].strip.width if contact.limb else 0.0
-    return -1, contact.length * width / area / len(contact.at)
-
-
-def _rests(
-    of: LimbedRobot, pressures: Array, known: dict[tuple[float, ...], Rest]
-) -> tuple[Tree, list[Rest]]:
-    """Shapes along pressures, the first one from lying flat, as it is known if it is.
-
-    Three limbs that are curled may stand with the fourth on the ground or in the air: the path
-    decides.
-    """
-    tree = Tree(of, ELEMENTS, 0)
-    statics, key = Statics(tree, "linearized"), tuple(pressures[0].tolist())
-    if key not in known:
-        known[key] = _rest(statics, pressures[0], np.zeros_like(pressures[0]), statics.flat())
-    rests = [known[key]]
-    for before, row in pairwise(pressures):
-        rests.append(_rest(statics, row, before, rests[-1]))
-    return tree, rests
-
-
-def _rest(statics: Statics, row: Array, before: Array, rest: Rest) -> Rest:
-    """The shape at pressures from the one before, in few or many steps.
-
-    Raises:
-        ValueError: none is found.
-    """
-    for parts in (1, 4, 16):
-        found = rest
-        for part in range(1, parts + 1):
-            found = statics.equilibrium(before + part / parts * (row - before), found)
-        if found.converged:
-            return found
-    raise ValueError(f"no shape at {row.tolist()} Pa")
-
-
-def moved(of: Courses, before: Array, after: Array, numbers: Numbers) -> Array:
-    """Displacement of the hub's middle in its frame before, and turn, (T, 3) [cm, cm, deg].
-
-    Args:
-        of: contacts and moves of T transitions.
-        before, after: states, (T, 4).
-        numbers: of friction.
-    """
-    count = of.share[..., 0].size
-    moves = np.where(after == 1, numbers.curling, numbers.uncurling)
-    tips = np.where(before == after, numbers.resting, moves)
-    each = np.arange(len(before))[:, None, None, None]
-    bounds = of.share * np.exp(np.where(of.tip < 0, 0.0, tips[each, of.tip]))
-    motion = least_dissipation(
-        bounds.reshape(count, -1), np.zeros((count, _POINTS)), of.place.reshape(count, -1, 2),
-        of.move.reshape(count, -1, 2),
-    ).reshape(-1, STEPS, 2, 3).mean(axis=2)  # fmt: skip
-    place, heading = np.zeros((len(motion), 2)), np.zeros(len(motion))
-    for step in range(STEPS):
-        place += _turned(motion[:, step, :2], heading)
-        heading += motion[:, step, 2]
-    shift = place + _turned(of.middle[:, -1], heading) - of.middle[:, 0]
-    return np.column_stack([shift, np.degrees(heading)])
-
-
-def _turned(plane: Array, angles: Array) -> Array:
-    c, s = np.cos(angles), np.sin(angles)
-    return np.column_stack([c * plane[:, 0] - s * plane[:, 1], s * plane[:, 0] + c * plane[:, 1]])
+def hub_of(nodes: Array) -> tuple[Array, float]:
+    """Middle of the hub, (3,) [m], and its heading [rad], from all nodes (P, 3)."""
+    half = len(nodes) // 2  # right edges, then left ones
+    last = half // (LIMBS + 1) - 1
+    corners = nodes[[0, half, last, half + last]]
+    along = corners[2:].mean(axis=0) - corners[:2].mean(axis=0)
+    return corners.mean(axis=0), float(np.arctan2(along[1], along[0]))
 
 
 class Walker:
-    """Motions by numbers, whose shapes are kept while geometry, rigidity and lag stay."""
+    """Motions of transitions by the limbs.
 
-    def __init__(self, past: Array, after: Array) -> None:
-        self._past, self._after = past, after
-        self._known: dict[tuple[float, ...], Courses] = {}
+    Args:
+        numbers: of `model`.
+    """
 
-    def forget(self) -> None:
-        """Let go of the shapes that are kept."""
-        self._known.clear()
+    def __init__(self, numbers: Lagged) -> None:
+        self._numbers = numbers
+        self._stance = Stance(lay(numbers))
+        self._known: dict[tuple[float, ...], Array] = {}
 
-    def __call__(self, numbers: Numbers) -> Array:
-        """See `moved`."""
-        key = (*numbers[:5], numbers.lag)
+    def _tips(self, curled: Array) -> Array:
+        key = tuple(np.round(curled, 9).tolist())
         if key not in self._known:
-            begin, end = amounts(self._past, self._after, numbers.lag)
-            self._known[key] = courses(robot(numbers), begin, end)
-        return moved(self._known[key], self._past[:, -1], self._after, numbers)
+            self._known[key] = self._stance.tips(curled)[0]
+        return self._known[key]
 
+    def __call__(self, past: Array, after: Array, steps: int = STEPS) -> Array:
+        """Displacement in the hub's frame before and turn of transitions, (N, 3) [cm, cm, deg].
 
-def known() -> tuple[Numbers, Array]:
-    """The fitted numbers and their standard errors, (9,)."""
-    with (HERE / "limbs.csv").open(encoding="utf-8") as file:
-        value, error = ([float(x) for x in row[1:]] for row in list(csv.reader(file))[1:])
-    return Numbers(*value), np.array(error)
+        Args:
+            past, after: states, see `model.amounts`.
+            steps: of a transition.
 
+        Raises:
+            ValueError: see Stance.tips.
+        """
+        numbers = self._numbers
+        begin, end = amounts(past, after, numbers.lag)
+        parts = np.linspace(0.0, 1.0, steps + 1)[:, None]
+        tips = np.array([
+            [self._tips(curled) for curled in one + parts * (other - one)]
+            for one, other in zip(begin, end, strict=True)
+        ])  # fmt: skip
+        viscous = numbers.factors(past[:, -1], after) * np.exp(numbers.viscous) * steps
+        shift, turn = np.zeros((len(tips), 2)), np.zeros(len(tips))
+        for at, to in zip(tips[:, :-1].swapaxes(0, 1), tips[:, 1:].swapaxes(0, 1), strict=True):
+            motion = least_dissipation(np.ones_like(viscous), viscous, 0.5 * (at + to), to - at)
+            angle = turn + 0.5 * motion[:, 2]
+            c, s = np.cos(angle), np.sin(angle)
+            shift[:, 0] += c * motion[:, 0] - s * motion[:, 1]
+            shift[:, 1] += s * motion[:, 0] + c * motion[:, 1]
+            turn += motion[:, 2]
+        return np.column_stack([shift, np.degrees(turn)])
 
-def cycle(states: Sequence[str], numbers: Numbers) -> Array:
-    """Distance [cm] and turn [deg] of a cycle of a gait that goes on and on."""
-    return together(Walker(*steady(states))(numbers))
+    def cycle(self, states: Sequence[str], steps: int = STEPS) -> Array:
+        """Distance [cm] and turn [deg] of a cycle of a gait that goes on and on."""
+        return together(self(*steady(states), steps))

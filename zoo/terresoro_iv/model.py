@@ -1,9 +1,11 @@
 """TerreSoRo-IV with a memory: a limb that curls has not done so when the next transition starts.
 
-The hub and four contacts of `hub`, but how much limb k is curled, a_k, goes on: at the end of a
-transition a limb that is to be curled still lacks the part `lag` of what it lacked before, and one
-that uncurls has done so. Contacts lie between their places by a_k. One number more; it is fitted,
-with the other eight, to single runs of transitions whose past is known (`memory`).
+A hub and four contacts. A flat limb touches where its area has its centre in public photographs
+(`outline`); a curled one elsewhere, and in between on the line from one to the other by how much
+limb k is curled, a_k. At the end of a transition a limb that is to be curled still lacks the part
+`lag` of what it lacked before, and one that uncurls has done so. Dry friction is alike at all
+contacts, viscous friction is not. Seven numbers are fitted, to single runs of transitions whose
+past is known (`memory`).
 """
 
 import csv
@@ -16,23 +18,26 @@ import numpy as np
 from studies import Array
 from zoo.comparison import Predicted
 from zoo.terresoro_iv.at_once import least_dissipation
-from zoo.terresoro_iv.hub import (
-    HERE,
-    Gait,
-    Numbers,
-    gaits,
-    jackknife,
-    turned,
-)
+from zoo.terresoro_iv.hub import DATA, Gait, gaits, jackknife, spread_places, turned
+from zoo.terresoro_iv.outline import flat_place
 
+FORM = "viscous by state"  # of memory and friction, see `forms`
 _PAST = 8  # states before a transition of a gait that count; 0.23 ** 8 is nothing
 
 
 class Lagged(NamedTuple):
-    """The fitted numbers: those of `hub.Numbers`, and the lag of curling [1]."""
+    """The fitted numbers.
 
-    flat: float
-    flat_angle: float
+    Attributes:
+        curled, curled_angle: distance of a curled limb's contact from the hub's centre [cm], and
+            its direction from the hub's x, of limb 1 [rad].
+        resting, curling, uncurling: logarithms of the viscous resistance of a limb that stays
+            curled, that curls and that uncurls, over that of one that stays flat [1].
+        viscous: logarithm of the viscous resistance of a flat limb over its dry one, at a slip of
+            1 cm in the time of a transition [1].
+        lag: part of a curl that lacks after a transition [1].
+    """
+
     curled: float
     curled_angle: float
     resting: float
@@ -42,9 +47,15 @@ class Lagged(NamedTuple):
     lag: float = 0.0
 
     @property
-    def hub(self) -> Numbers:
-        """The numbers but for the lag."""
-        return Numbers(*self[:-1])
+    def places(self) -> tuple[Array, Array]:
+        """Contacts of limbs that are flat, and curled, in the hub's frame, (4, 2) each [cm]."""
+        return spread_places(*flat_place()), spread_places(self.curled, self.curled_angle)
+
+    def factors(self, before: Array, after: Array) -> Array:
+        """Resistances over that of a flat limb, by states 0 and 1, (..., 4)."""
+        still = np.where(before == 1, np.exp(self.resting), 1.0)
+        moving = np.exp(np.where(after == 1, self.curling, self.uncurling))
+        return np.where(before == after, still, moving)
 
 
 def amounts(past: Array, after: Array, lag: float, lag_back: float = 0.0) -> tuple[Array, Array]:
@@ -61,21 +72,23 @@ def amounts(past: Array, after: Array, lag: float, lag_back: float = 0.0) -> tup
     return begin, after + np.where(after == 1, lag, lag_back) * (begin - after)
 
 
-def moved(curled: Sequence[Array], bounds: Array, numbers: Lagged) -> Array:
+def moved(
+    curled: Sequence[Array], dry: Array, viscous: Array, places: tuple[Array, Array]
+) -> Array:
     """Displacement in the hub's frame before and turn of many transitions, (N, 3) [cm, cm, deg].
 
     Args:
         curled: how much limbs are, at the beginning, perhaps between, and at the end of each
             transition, (N, 4) each, at equal times.
-        bounds: of friction, (N, 4).
-        numbers: places of contacts, and the viscous part.
+        dry, viscous: bounds of friction, and resistances to a slip of 1 cm in a transition, (N, 4).
+        places: of contacts of flat and of curled limbs, (4, 2) each [cm].
     """
-    flat, bent = numbers.hub.places
-    film = bounds * np.exp(numbers.viscous) * (len(curled) - 1)
-    places = [flat + (bent - flat) * one[..., None] for one in curled]
-    shift, turn = np.zeros((len(bounds), 2)), np.zeros(len(bounds))
-    for at, to in pairwise(places):
-        motion = least_dissipation(bounds, film, 0.5 * (at + to), to - at)
+    flat, bent = places
+    film = viscous * (len(curled) - 1)
+    along = [flat + (bent - flat) * one[..., None] for one in curled]
+    shift, turn = np.zeros((len(dry), 2)), np.zeros(len(dry))
+    for at, to in pairwise(along):
+        motion = least_dissipation(dry, film, 0.5 * (at + to), to - at)
         angle = turn + 0.5 * motion[:, 2]
         c, s = np.cos(angle), np.sin(angle)
         shift[:, 0] += c * motion[:, 0] - s * motion[:, 1]
@@ -88,7 +101,9 @@ def motions(numbers: Lagged, past: Array, after: Array, parts: int = 1) -> Array
     """Motions of transitions with a past, (N, 3), see `amounts` and `moved`."""
     begin, end = amounts(past, after, numbers.lag)
     curled = [begin + part / parts * (end - begin) for part in range(parts + 1)]
-    return moved(curled, numbers.hub.bounds(past[:, -1], after), numbers)
+    factors = numbers.factors(past[:, -1], after)
+    viscous = factors * np.exp(numbers.viscous)
+    return moved(curled, np.ones_like(factors), viscous, numbers.places)
 
 
 def steady(states: Sequence[str]) -> tuple[Array, Array]:
@@ -116,7 +131,7 @@ def cycle(states: Sequence[str], numbers: Lagged, parts: int = 1) -> Array:
 def recut_gaits() -> list[Gait]:
     """The five measured gaits, cut where they are walked (`tracks`)."""
     states = {gait.name: gait.states for gait in gaits()}
-    with (HERE / "recut_gaits.csv").open(encoding="utf-8") as file:
+    with (DATA / "recut_gaits.csv").open(encoding="utf-8") as file:
         lines = list(csv.DictReader(file))
     columns = ("dx [cm]", "dy [cm]", "turn [deg]"), ("dx_sd [cm]", "dy_sd [cm]", "turn_sd [deg]")
     return [
@@ -128,16 +143,16 @@ def recut_gaits() -> list[Gait]:
 
 def recut() -> tuple[list[tuple[str, str]], Array]:
     """Pairs of states and means of their runs, cut where the robot moves, (240, 3)."""
-    with (HERE / "recut.csv").open(encoding="utf-8") as file:
+    with (DATA / "recut.csv").open(encoding="utf-8") as file:
         lines = list(csv.DictReader(file))
     names = ("dx [cm]", "dy [cm]", "turn [deg]")
     pairs = [(line["from_limbs"], line["to_limbs"]) for line in lines]
     return pairs, np.array([[float(line[name]) for name in names] for line in lines])
 
 
-def remembered(form: str = "lag of curling") -> tuple[Array, Array]:
+def remembered(form: str = FORM) -> tuple[Array, Array]:
     """Numbers of a form of memory fitted to all runs, (F,), and with parts left out, (8, F)."""
-    with (HERE / "remembered.csv").open(encoding="utf-8") as file:
+    with (DATA / "remembered.csv").open(encoding="utf-8") as file:
         lines = [line for line in csv.DictReader(file) if line["form"] == form]
     values = np.array([[float(x) for x in line["values"].split()] for line in lines])
     return values[0], values[1:]

@@ -3,8 +3,9 @@
 FOLDER is demos/data/visualtracking of clfreeman7/Path_Planning (commit b9acea9), which states no
 licence: it is read where it lies. Five tours go through all 240 transitions, one after the other,
 so each run has a known past. Runs are cut where the robot starts to move, which is found in each
-track; a tour whose track has lost transitions is set right by the other four. Prints what was found
-and writes the means, recut.csv and recut_gaits.csv.
+track; a tour whose track has lost transitions is set right by the other four, and axes are those of
+the hub, which was placed otherwise in each tour. Prints what was found and writes the means,
+recut.csv and recut_gaits.csv.
 """
 
 import csv
@@ -17,16 +18,34 @@ import numpy as np
 from scipy.io import loadmat
 
 from studies import Array
-from zoo.terresoro_iv.hub import HERE, LIMBS, turned
+from zoo.terresoro_iv.hub import DATA, LIMBS, turned
 
-TOURS = (7, 8, 9, 10, 11)
-PIXEL = 0.23898  # cm, of the same robot and camera; as are frames (demo2_PrimitivesTest.m)
 FRAMES = 13.5  # of a transition, 0.45 s at 30 per second
-FIRST = dict(zip(TOURS, (76, 286, 257, 404, 808), strict=True))  # a transition before the first
+
+
+class Experiment(NamedTuple):
+    """Five tours of a robot.
+
+    Attributes:
+        order: name of the file with the order of their states.
+        first: number of each tour, and frame of the transition before its first.
+        pixel: [cm].
+    """
+
+    order: str
+    first: dict[int, int]
+    pixel: float
+
+
+# the orange robot, and the blue one with another frictional component, whose first frames are a
+# transition later there (demo2_PrimitivesTest.m, demo_PrimitivesTest.m, README)
+ORANGE = Experiment("state_order_2", {7: 76, 8: 286, 9: 257, 10: 404, 11: 808}, 0.23898)
+BLUE = Experiment("state_order", {1: 193, 2: 129, 3: 247, 4: 350, 5: 303}, 0.2426)
 GAITS = {"A": (607, 3), "B": (103, 5), "C": (176, 3), "D": (226, 2), "E": (368, 3)}  # first, states
 # robot B stands still after its first cycle and starts again so many transitions after its first
 AGAIN = {"B": 28}
 CYCLES, PAST = 30, 4
+_HEAD = ("dx [cm]", "dx_sd [cm]", "dy [cm]", "dy_sd [cm]", "turn [deg]", "turn_sd [deg]")
 _BLOCK = 10  # transitions whose start is found together, and whose place in the tour is
 _MOST_LOST, _NEAR = 3, 6.0  # transitions, frames
 _SCALE = np.array([0.8, 0.8, 5.0])  # cm, cm, degrees: what transitions differ by; chosen
@@ -56,14 +75,39 @@ class Runs(NamedTuple):
     tour: Array
 
 
-def track(path: Path) -> Track:
+def track(path: Path, pixel: float = ORANGE.pixel) -> Track:
     """The hub's motion from a file of markers and of the rotation that was found from them."""
     table = loadmat(path)["all_pt"]
     first = table[0, :24].reshape(8, 3).mean(axis=0)
     rotation = table[:, 36:45].reshape(-1, 3, 3).transpose(0, 2, 1)
     place = rotation @ first + table[:, 45:48]
     place[0] = first
-    return Track(PIXEL * place[:, :2], np.unwrap(np.arctan2(rotation[:, 1, 0], rotation[:, 0, 0])))
+    return Track(pixel * place[:, :2], np.unwrap(np.arctan2(rotation[:, 1, 0], rotation[:, 0, 0])))
+
+
+def markers(frame: Array) -> Array:
+    """Places of the eight markers in a frame, columns and rows of its pixels, (8, 2)."""
+    return frame[:24].reshape(8, 3)[:, :2]
+
+
+def axes(folder: Path, of: Experiment = ORANGE) -> Array:
+    """By how much the hub was turned when each tour began, (5,) [rad].
+
+    Over the mean of the orange robot's tours. Headings count from a tour's first frame, in which
+    the hub was placed by hand. Its eight markers are on a circle, nearly at equal angles.
+    """
+    each, orange = (
+        np.array([axis(markers(loadmat(folder / f"Euler {tour}.mat")["all_pt"][0]))
+                  for tour in some.first])
+        for some in (of, ORANGE)
+    )  # fmt: skip
+    return np.asarray(each - orange.mean())
+
+
+def axis(spokes: Array) -> float:
+    """Mean direction of markers (8, 2) about their middle, within an eighth of a turn [rad]."""
+    along = (spokes - spokes.mean(axis=0)) @ [1, 1j]
+    return float(np.angle(((along / np.abs(along)) ** len(spokes)).mean())) / len(spokes)
 
 
 def starts(of: Track, first: float, count: int, block: int = _BLOCK) -> Array:
@@ -117,14 +161,16 @@ def lost(moves: list[Array], orders: Array) -> Array:
     return found
 
 
-def runs(folder: Path) -> Runs:
+def runs(folder: Path, of: Experiment = ORANGE) -> Runs:
     """All runs but those in blocks where a track loses some, and the first of each tour."""
-    orders = loadmat(folder / "state_order_2.mat")["state_order_2"].astype(int) - 1
+    orders = loadmat(folder / f"{of.order}.mat")[of.order].astype(int) - 1
     moves = []
-    for tour in TOURS:
-        of = track(folder / f"Euler {tour}.mat")
-        moves.append(motions(of, starts(of, FIRST[tour] + FRAMES - 1.5, orders.shape[1] - 1)))
+    for tour, first in of.first.items():
+        hub = track(folder / f"Euler {tour}.mat", of.pixel)
+        moves.append(motions(hub, starts(hub, first + FRAMES - 1.5, orders.shape[1] - 1)))
     skips = lost(moves, orders)
+    for moved, angle in zip(moves, axes(folder, of), strict=True):
+        moved[:, :2] = turned(moved[:, :2], -angle)
     rows: list[tuple[Array, Array, Array, int]] = []
     for tour, order in enumerate(orders):
         states = (order[:, None] >> np.arange(LIMBS)[::-1]) & 1
@@ -136,7 +182,7 @@ def runs(folder: Path) -> Runs:
             at = number + skip
             past = states[np.maximum(np.arange(at - PAST, at + 1), 0)]
             rows.append((past, states[at + 1], moves[tour][number], tour))
-    for tour, row in zip(TOURS, skips, strict=True):
+    for tour, row in zip(of.first, skips, strict=True):
         if row.any():
             print(f"tour {tour} has lost {row.max()} transitions from number "
                   f"{_BLOCK * int(np.flatnonzero(row)[0])} on")  # fmt: skip
@@ -153,26 +199,30 @@ def gait(folder: Path, name: str) -> Array:
     return motions(of, frames[::states])[1:]
 
 
-def main(folder: str) -> None:
-    """Write the means."""
-    found = runs(Path(folder))
-    text = ["".join(map(str, state)) for state in (*found.past[:, -1], *found.after)]
-    pairs = list(zip(text[: len(found.after)], text[len(found.after) :], strict=True))
-    head = ("dx [cm]", "dx_sd [cm]", "dy [cm]", "dy_sd [cm]", "turn [deg]", "turn_sd [deg]")
+def write_means(of: Runs, path: Path) -> None:
+    """Write means and standard deviations of the runs of each transition, and print the latter."""
+    text = ["".join(map(str, state)) for state in (*of.past[:, -1], *of.after)]
+    pairs = list(zip(text[: len(of.after)], text[len(of.after) :], strict=True))
     spread = []
-    with (HERE / "recut.csv").open("w", newline="", encoding="utf-8") as file:
+    with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(("from_limbs", "to_limbs", "repeats", *head))
+        writer.writerow(("from_limbs", "to_limbs", "repeats", *_HEAD))
         for pair in sorted(set(pairs)):
-            here = found.motion[[one == pair for one in pairs]]
+            here = of.motion[[one == pair for one in pairs]]
             sd = here.std(axis=0, ddof=1)
             spread.append(sd)
             cells = np.column_stack([here.mean(axis=0), sd]).ravel()
             writer.writerow((*pair, len(here), *(f"{x:.3f}" for x in cells)))
     print("runs of a transition differ by", np.sqrt((np.array(spread) ** 2).mean(axis=0)).round(2))
-    with (HERE / "recut_gaits.csv").open("w", newline="", encoding="utf-8") as file:
+
+
+def main(folder: str) -> None:
+    """Write the means."""
+    write_means(runs(Path(folder)), DATA / "recut.csv")
+    write_means(runs(Path(folder), BLUE), DATA / "recut_blue.csv")
+    with (DATA / "recut_gaits.csv").open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(("gait", "cycles", *head))
+        writer.writerow(("gait", "cycles", *_HEAD))
         for name in GAITS:
             here = gait(Path(folder), name)
             cells = np.column_stack([here.mean(axis=0), here.std(axis=0, ddof=1)]).ravel()

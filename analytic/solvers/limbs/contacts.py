@@ -14,14 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.friction.dissipation_in_plane import Nap, nap_of
-from analytic.friction.grip import Grip
+from analytic.friction.grip import Grip, resists_by_speed
 from analytic.scene.ground import (
     check_adhesion,
     check_for_limbs,
-    depends_on_speed,
     durations,
     surfaces_of,
 )
+from analytic.scene.limbs import AnyRobot
 from analytic.scene.robot import GRAVITY
 from analytic.scene.surface import Ground, Surface, Way
 from analytic.solvers.limbs.contact_search import SHORT, ContactSearch
@@ -139,13 +139,13 @@ class Contacts(ContactSearch):
         if contact.part == TETHER:
             return contact.load, 0.0
         width, grip = self._limbs[contact.limb].width, self._grips[contact.limb]
-        bound = self._dry(contact, surface)
+        bound, damping = self._dry(contact, surface), 0.0
         if grip.feet:
-            mean, hold = grip.over(way, contact.stretch, pressures)
+            mean, hold, damping = grip.over(way, contact.stretch, pressures)
             bound = mean * bound + hold
         if surface.static_ratio > 1:
             bound *= surface.at_speed(speed)
-        return float(bound), float(surface.drag(width, contact.length))
+        return float(bound), float(surface.drag(width, contact.length) + damping)
 
     def _dry(self, contact: Contact, surface: Surface) -> float:
         """Bound of a contact by the ground alone [N]."""
@@ -200,17 +200,18 @@ def shares(contacts: list[Contact]) -> Array:
     return np.array([part for contact in contacts for part in contact.shares])
 
 
-def spans_of(ground: Ground, times: Array | None, states: int) -> Array:
+def spans_of(robot: AnyRobot, ground: Ground, times: Array | None, states: int) -> Array:
     """Durations of the increments between states, (B - 1,) [s]; of 1 s each without times.
 
     Raises:
-        ValueError: the ground resists by speed and no times are given, or it changes along x and
-            is adhesive.
+        ValueError: the ground or a foot resists by speed and no times are given, or it changes
+            along x and is adhesive.
     """
     check_for_limbs(ground)
     check_adhesion(ground)
-    if times is None and depends_on_speed(ground):
+    if times is None and resists_by_speed(robot, ground):
         raise ValueError(
-            f"times of the shapes must be given on ground that resists by speed, {ground.name!r}"
+            "times of the shapes must be given where ground or a foot resists by speed, got None "
+            f"on {ground.name!r}"
         )
     return durations(np.arange(float(states)) if times is None else times)

@@ -64,7 +64,7 @@ def stick_slip_path(
     Raises:
         ValueError: see analytic.solvers.limbs.walk.follow.
     """
-    spans = spans_of(ground, times, len(pressures))
+    spans = spans_of(statics.tree.robot, ground, times, len(pressures))
     check_feet_in_space(statics.tree.robot, ground)
     when = np.arange(float(len(pressures))) if times is None else times
     finder = Contacts(statics.tree, law, all_on_tips)

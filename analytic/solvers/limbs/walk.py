@@ -80,7 +80,7 @@ def follow(
         ValueError: see analytic.solvers.limbs.contacts.spans_of and
             analytic.friction.grip.check_feet_in_space.
     """
-    spans = spans_of(ground, times, len(rests))
+    spans = spans_of(tree.robot, ground, times, len(rests))
     check_feet_in_space(tree.robot, ground)
     finder = Contacts(tree, law)
     contacts = [finder.find(rest, row) for rest, row in zip(rests, pressures, strict=True)]
@@ -98,11 +98,12 @@ def follow(
                 state, ground, x, 0.0, -heading[i], pressures=row
             )
             motion = least_dissipation_in_plane(
-                bounds, before, after - before, viscous / spans[i], shares(state), nap
-            )
+                bounds, 0.5 * (before + after), after - before, viscous / spans[i], shares(state),
+                nap,
+            )  # fmt: skip
             shift += 0.5 * motion.shift
             turn += 0.5 * motion.turn
-        place[i + 1] = place[i] + turned @ shift
+        place[i + 1] = place[i] + rotation(heading[i] + 0.5 * turn) @ shift
         heading[i + 1] = heading[i] + turn
     when = np.arange(float(len(rests))) if times is None else times
     return Path(tree.robot, pressures, when, rests, contacts, place, heading)
@@ -162,7 +163,7 @@ def walk(
         )
     if times is not None:
         times_of(times, len(path))
-    spans_of(ground, times, len(path))  # refuses what has no times and needs them
+    spans_of(robot, ground, times, len(path))  # refuses what has no times and needs them
     clock = np.arange(float(len(path))) if times is None else np.asarray(times, dtype=float)
     path, times = _with_thresholds(robot, ground.at(0.0), acting_pressures(robot, path), clock)
     if twists is None:
