@@ -62,7 +62,7 @@ def test_an_underside_between_two_tips_resists_by_nothing_and_the_strip_s_distan
 
 @pytest.mark.slow
 def test_a_light_strip_as_a_tree_loses_what_lies_flat_within_two_elements_behind_a_tip():
-    """A strip's finder takes it for a side from the second node on; see docs/quadruped.md."""
+    """A strip's finder takes it for a side from the second node on; see docs/limbs.md."""
     strip = Robot(weight_per_length=2.0)
     gaits = [Gait("outer-first", tuple(map(tuple, stages)), 8.0)
              for stages in (STAGES, STAGES[:, [1, 0, 2]])]  # fmt: skip
