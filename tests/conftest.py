@@ -25,8 +25,8 @@ os.environ[gl.VARIABLE] = BACKEND or gl.NONE
 @pytest.fixture
 def forgets(monkeypatch):
     """Forget after a test what it registers."""
-    for known in (LAWS, registry.BODIES):
-        monkeypatch.setattr(known, "_registered", known.registered)
+    for names in (LAWS, registry.BODIES):
+        monkeypatch.setattr(names, "_registered", names.registered)
 
 
 @pytest.fixture

@@ -38,9 +38,9 @@ def test_a_robot_of_ones_own_walks_forward_on_felt():
 
 @pytest.mark.slow
 def test_measured_actuators_walk_alike_in_theory_and_mujoco():
-    found = example("measured_actuators")()
-    assert found["MuJoCo"] == pytest.approx(found["theory"], rel=0.02)
-    assert abs(found["affine law, theory"] / found["theory"] - 1) > 0.05
+    shifts = example("measured_actuators")()
+    assert shifts["MuJoCo"] == pytest.approx(shifts["theory"], rel=0.02)
+    assert abs(shifts["affine law, theory"] / shifts["theory"] - 1) > 0.05
 
 
 def test_a_ground_of_ones_own_lies_between_felt_and_gelatin():
@@ -107,9 +107,9 @@ def test_a_long_robot_goes_otherwise_with_friction_between_its_ends_in_both_mode
     shifts = example("long_robot")(links=24)
     for part in ("60 % of the pressure", "full pressure"):
         for name in ("felt", "polyethylene", "gelatin"):
-            theory, found = (shifts[f"{part}, {name}, {kind}"] for kind in ("all", "MuJoCo"))
-            assert found == pytest.approx(theory, rel=0.05, abs=0.001)
-            assert abs(theory - shifts[f"{part}, {name}, ends"]) > 5 * abs(theory - found)
+            theory, simulated = (shifts[f"{part}, {name}, {kind}"] for kind in ("all", "MuJoCo"))
+            assert simulated == pytest.approx(theory, rel=0.05, abs=0.001)
+            assert abs(theory - shifts[f"{part}, {name}, ends"]) > 5 * abs(theory - simulated)
 
 
 @pytest.mark.slow
@@ -126,9 +126,9 @@ def test_wet_ground_turns_a_slow_robot_round():
 def test_a_robot_goes_farther_on_sticky_ground():
     far = example("sticky_ground")()
     for pairs in far.values():
-        (weak, found), (strong, found_there) = pairs
+        (weak, walked), (strong, found_there) = pairs
         assert abs(strong) > 1.2 * abs(weak)
-        assert found == pytest.approx(weak, rel=0.03)
+        assert walked == pytest.approx(weak, rel=0.03)
         assert found_there == pytest.approx(strong, rel=0.06)
 
 
@@ -170,10 +170,10 @@ def test_speeds_give_back_the_groups_that_made_them_and_what_runs_left_out_do(mo
     true = np.array([np.log(6.0), np.log(1.6), np.log(90.0), 0.2, -0.2, -0.3, 0.3])
     speed = of.speeds(table["wave"], ("cork", "felt"), true, runs)
     runs = runs._replace(speed=speed + rng.normal(0, 0.05, 120))
-    found = of.fit(table, runs.of(slice(0, 80)))
-    assert found.noise == pytest.approx(0.05, rel=0.2)
-    assert (np.abs(found.values - true) < 3 * np.sqrt(np.diag(found.covariance))).all()
-    value, wide = of.predictions(table, found, runs.of(slice(80, None)))
+    fitted = of.fit(table, runs.of(slice(0, 80)))
+    assert fitted.noise == pytest.approx(0.05, rel=0.2)
+    assert (np.abs(fitted.values - true) < 3 * np.sqrt(np.diag(fitted.covariance))).all()
+    value, wide = of.predictions(table, fitted, runs.of(slice(80, None)))
     assert np.mean(np.abs(value - runs.speed[80:]) < wide) >= 0.9
 
 
@@ -204,9 +204,9 @@ def test_gaits_are_searched_one_leg_at_a_time_and_mirrored_to_turn_on_the_spot(m
         assert legs.sum(axis=1).max() == 1  # never two at a time
         assert (legs.max(axis=0) == 1).all()
     monkeypatch.setattr(of, "walked", lambda gait, surface: (float("nan"), -len(gait.name)))
-    found = of.main(("felt",))
-    assert found["felt", "turns"][0].name.startswith("spin-full-wave")
-    assert np.isnan(found["felt", "crawls"][1])
+    best_gaits = of.main(("felt",))
+    assert best_gaits["felt", "turns"][0].name.startswith("spin-full-wave")
+    assert np.isnan(best_gaits["felt", "crawls"][1])
 
 
 @pytest.mark.slow
@@ -241,12 +241,12 @@ def test_a_notebook_prints_what_it_shows(name):
     assert len(notebooks.NOTEBOOKS) == 4
     path = next(path for path in notebooks.NOTEBOOKS if path.stem == name)
     shown = notebooks.printed(notebooks.nbformat.read(path, as_version=4))
-    found = notebooks.run(path)
+    notebook = notebooks.run(path)
     times = re.compile(r"in \d+ s|[\d.]+ s$", re.M)
-    shown, printed = (times.sub("", text) for text in (shown, notebooks.printed(found)))
+    shown, printed = (times.sub("", text) for text in (shown, notebooks.printed(notebook)))
     assert len(printed) > 100
     assert numbers(printed) == pytest.approx(numbers(shown), rel=0.01, abs=1e-3)
-    pictures = [out for cell in found.cells for out in cell.get("outputs", [])
+    pictures = [out for cell in notebook.cells for out in cell.get("outputs", [])
                 if "image/png" in out.get("data", {})]  # fmt: skip
     assert pictures
     assert path.stat().st_size < 200_000
@@ -269,8 +269,8 @@ def test_gradient_steps_find_a_gait_that_goes_half_as_far_again_in_a_few_walks()
 def test_markers_of_a_camera_give_back_the_strip_and_its_gaits(tmp_path):
     """The markers are of a strip of 2 MPa on tips of 34 mN and sides of 20 Pa, to 0.3 mm."""
     parameters, walks = example("from_a_video")(folder=tmp_path)
-    for found, true in zip(parameters, (2e6, 0.034, 20.0), strict=True):
-        assert found["low_95"] < true < found["high_95"]
+    for parameter, true in zip(parameters, (2e6, 0.034, 20.0), strict=True):
+        assert parameter["low_95"] < true < parameter["high_95"]
     ground = Surface("bench", tip_force=0.034, shear_strength=20.0)
     for walk in walks:
         truth = predict(

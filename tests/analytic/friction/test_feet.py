@@ -122,10 +122,10 @@ def test_two_feet_and_a_spring_lose_of_their_stretch_what_the_lesser_feet_hold(g
     for number, part in enumerate(np.tile(np.append(rise[1:], rise[-2::-1]), 2)):
         if number % 40 == 0:
             starts.append(place[0])
-        found = tractions(part * stretch - place, compliance, ahead, np.zeros(2), guess=slips,
+        solution = tractions(part * stretch - place, compliance, ahead, np.zeros(2), guess=slips,
                           back=back)  # fmt: skip
-        place = part * stretch + found.whole + compliance @ found.traction
-        slips = found.slips
+        place = part * stretch + solution.whole + compliance @ solution.traction
+        slips = solution.slips
     lost = (min(a_left, b_right) + min(b_left, a_right)) / stiffness
     assert place[0] - starts[-1] == pytest.approx(max(0.0, 1.0 - lost), abs=1e-4)
 

@@ -81,8 +81,10 @@ def test_a_gait_that_starts_inflated_goes_as_far_in_its_first_cycle_as_later():
     # later ones begin with the tension that the one before left in the strip
     assert cycles[1] == pytest.approx(cycles[2], abs=1e-6)
     assert cycles[0] == pytest.approx(cycles[1], abs=2.5e-3)
-    found = predict(scene.robot, scene.gait, scene.ground, friction=Friction(tension=1.0), cycles=2)
-    assert cycles[1] == pytest.approx(found.locomotion.per_cycle / scene.robot.length, abs=2e-4)
+    theory = predict(
+        scene.robot, scene.gait, scene.ground, friction=Friction(tension=1.0), cycles=2
+    )
+    assert cycles[1] == pytest.approx(theory.locomotion.per_cycle / scene.robot.length, abs=2e-4)
 
 
 def test_a_strip_that_is_not_at_rest_when_it_begins_has_no_distance(monkeypatch):
@@ -260,12 +262,13 @@ def test_a_heavy_cantilever_is_followed_to_a_load_of_200():
 
     s, state = np.linspace(0, 1, 801), np.zeros((2, 801))
     for load in np.geomspace(1, 200, 30):
-        found = solve_bvp(lambda s, u, load=load: np.array([u[1], -load * (1 - s) * np.cos(u[0])]),
-                          lambda a, b: np.array([a[0], b[1]]), s, state, tol=1e-8,
-                          max_nodes=100_000)  # fmt: skip
-        state = found.sol(s)
+        solution = solve_bvp(
+            lambda s, u, load=load: np.array([u[1], -load * (1 - s) * np.cos(u[0])]),
+            lambda a, b: np.array([a[0], b[1]]), s, state, tol=1e-8, max_nodes=100_000,
+        )  # fmt: skip
+        state = solution.sol(s)
     fine = np.linspace(0, 1, 20_001)
-    exact = simpson(np.cos(found.sol(fine)[0]), x=fine)
+    exact = simpson(np.cos(solution.sol(fine)[0]), x=fine)
     robot = pneunet.with_load(Robot(), 200.0)
     x, _ = solve_cantilever(robot, np.zeros(3), links=240)
     assert x[-1] / robot.length == pytest.approx(float(exact), abs=2e-3)

@@ -104,9 +104,9 @@ def test_the_last_vertex_of_a_limb_is_at_its_length_to_the_last_digit():
 def test_on_a_film_alone_the_reference_does_not_know_how_slow_the_gait_is(ramp):
     film = Surface("film", viscosity=100.0)
     gait = replace(undulation(), ramp_time=ramp)
-    found = quasi_static(quadruped(), gait, film, 8, 4)
+    theory = quasi_static(quadruped(), gait, film, 8, 4)
     felt = quasi_static(quadruped(), undulation(), FELT, 8, 4)  # where tips hold nothing either
-    assert found.displacement[0] == pytest.approx(felt.displacement[0], rel=0.02)
+    assert theory.displacement[0] == pytest.approx(felt.displacement[0], rel=0.02)
 
 
 def test_a_heavy_torso_between_four_tips_goes_as_far_as_the_reference():
@@ -115,9 +115,9 @@ def test_a_heavy_torso_between_four_tips_goes_as_far_as_the_reference():
     robot = LimbedRobot((heavy, *legs))
     stages = np.array([[0, 0, 0, 0, 0], [0, 1, 1, 0, 0], [0, 1, 1, 1, 1], [0, 0, 0, 1, 1], [0] * 5])
     gait = Gait("legs", tuple(map(tuple, stages.astype(float))), 8.0)
-    found = quasi_static(robot, gait, FELT, 8, 4)
+    theory = quasi_static(robot, gait, FELT, 8, 4)
     walk = simulate(Scene(robot, gait, FELT), Numerics(timestep=0.02, links=4))
-    assert went(walk)[0] == pytest.approx(found.displacement[0], abs=5e-4 * LENGTH)
+    assert went(walk)[0] == pytest.approx(theory.displacement[0], abs=5e-4 * LENGTH)
 
 
 @pytest.mark.parametrize(
@@ -126,10 +126,10 @@ def test_a_heavy_torso_between_four_tips_goes_as_far_as_the_reference():
 )
 def test_on_a_film_alone_a_robot_of_little_mass_goes_as_far_as_the_reference(viscosity, states):
     film = Surface("film", viscosity=viscosity)
-    found = quasi_static(quadruped(), undulation(), film, states, 4)
+    theory = quasi_static(quadruped(), undulation(), film, states, 4)
     light = Scene(quadruped(), ground=film, gravity=98.1)  # its mass is a tenth
     walk = simulate(light, Numerics(links=4))
-    assert went(walk)[0] == pytest.approx(found.displacement[0], rel=0.06)
+    assert went(walk)[0] == pytest.approx(theory.displacement[0], rel=0.06)
 
 
 @pytest.mark.parametrize("angle", [0.5 * np.pi, pytest.param(-2.0, marks=pytest.mark.slow)])

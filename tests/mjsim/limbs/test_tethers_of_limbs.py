@@ -36,9 +36,9 @@ def tied(tether, on="torso", robot=QUADRUPED):
 ])  # fmt: skip
 def test_mujoco_goes_as_far_as_the_reference(tether, on, ground):
     scene = Scene(tied(tether, on), ground=ground)
-    expected, found = reference(scene), measure(simulate(scene))
-    assert found.displacement == pytest.approx(expected.displacement[0], abs=0.003)
-    assert np.degrees(found.heading) == pytest.approx(np.degrees(expected.turn), abs=0.4)
+    expected, numbers = reference(scene), measure(simulate(scene))
+    assert numbers.displacement == pytest.approx(expected.displacement[0], abs=0.003)
+    assert np.degrees(numbers.heading) == pytest.approx(np.degrees(expected.turn), abs=0.4)
 
 
 def test_a_drag_above_all_bounds_stops_it():

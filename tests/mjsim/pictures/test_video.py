@@ -25,14 +25,14 @@ WIDTH, HEIGHT = 640, 360
 @pytest.fixture(scope="module")
 def before_and_after():
     """First and last frame of a cycle on each surface, and the frame at its highest arch."""
-    found = {}
+    frames = {}
     for surface in SURFACES:
         result = walk(surface)
         start = int(np.flatnonzero(result.time <= 0)[-1])
         high = int(np.searchsorted(result.time, 5.0))
         with Camera(result, WIDTH, HEIGHT) as camera:
-            found[surface] = [camera.frame(i).copy() for i in (start, high, len(result.time) - 1)]
-    return found
+            frames[surface] = [camera.frame(i).copy() for i in (start, high, len(result.time) - 1)]
+    return frames
 
 
 def strip_columns(frame, background):
