@@ -1,6 +1,6 @@
-"""From tracked markers to a fitted scene, gaits with error bars and a page for others.
+"""From tracked markers to fitted numbers, gaits with error bars and a page for others.
 
-python examples/from_a_video.py [MARKERS.csv [MM_PER_PIXEL [FOLDER]]]    # docs/from_a_video.md
+python examples/from_a_video.py [MARKERS.csv or TRACKS/ [PIXEL [FOLDER]]]    # docs/from_a_video.md
 """
 
 import json
@@ -9,39 +9,31 @@ from contextlib import redirect_stdout
 from io import StringIO
 from pathlib import Path
 
-import numpy as np
-
 from mjsim.commands import fit, report, run
+from zoo import from_tracks
 
-HERE = Path(__file__).parent
-SCENE = ("--scene", HERE.parent / "zoo/majidi_strip/scene.toml", "--surface", "polyethylene")
-FINE = ("--cycles", 2, "--links", 12, "--timestep", 0.02)
-FREE = ("--free", "robot.modulus,surface.tip_force,surface.shear_strength")
-HEAD = "time [s],left [mm],x@0.5 [mm],right [mm]"
+MARKERS = Path(__file__).with_name("markers.csv")
+SCENE = (f"--scene={from_tracks.HERE}/majidi_strip/scene.toml", "--surface=polyethylene")
+FINE = ("--cycles=2", "--links=12", "--timestep=0.02", "--frame-rate=30")
+FREE = "--free=robot.modulus,surface.tip_force,surface.shear_strength"
 
 
-def said(command, *options):
+def walked(*options):
     with redirect_stdout(StringIO()) as printed:
-        command.main([*map(str, options), "--json"])
+        run.main([*options, "--json"])
     return json.loads(printed.getvalue())
 
 
-def main(markers=HERE / "markers.csv", scale=0.25, folder="from_a_video"):
-    track, known, page = (Path(folder) / name for name in ("track.csv", "fit.json", "page.html"))
-    track.parent.mkdir(exist_ok=True)
-    frame, *x = np.genfromtxt(markers, delimiter=",", skip_header=1).T
-    np.savetxt(track, np.transpose([frame / 30, *(float(scale) * np.array(x))]), "%.4f", ",",
-               header=HEAD, comments="")  # fmt: skip
-    found = said(fit, track, *SCENE, *FINE, *FREE, "--out", track.parent)
-    known.write_text(json.dumps(found))
-    scene = ("--scene", track.with_name("fit.toml"), "--uncertain", known, "--no-video", "--out")
-    walks = [said(run, *scene, track.with_name(gait), "--gait", gait)
-             for gait in ("wave", "full-wave", "pulse")]  # fmt: skip
-    report.main([*(walk["trajectory"] for walk in walks), "--no-video", "--uncertain", str(known),
-                 "--out", str(page)])  # fmt: skip
-    return found["parameters"], walks
+def main(markers=MARKERS, pixel="0.25mm", folder="from_a_video"):
+    if Path(markers).is_dir():  # tracks of four limbs around a hub
+        return from_tracks.main(Path(markers), Path(folder))
+    fit.main([str(markers), f"--pixel={pixel}", *SCENE, *FINE, FREE, f"--out={folder}"])
+    known = (f"--uncertain={folder}/fit.json", "--no-video")
+    scene = (f"--scene={folder}/fit.toml", f"--out={folder}", *known)
+    walks = [walked(f"--gait={gait}", *scene) for gait in ("wave", "full-wave", "pulse")]
+    report.main([*(w["trajectory"] for w in walks), *known, f"--out={folder}/page.html"])
+    return [(walk["gait"], walk["uncertain"]) for walk in walks]
 
 
 if __name__ == "__main__":
-    for walk in main(*sys.argv[1:])[1]:
-        print(walk["gait"], walk["uncertain"]["text"])
+    print(*(f"{gait}: {told['text']}" for gait, told in main(*sys.argv[1:4])), sep="\n")

@@ -27,6 +27,7 @@ from analytic.scene.feet import Foot
 from mjsim.results.measures import measure
 from mjsim.results.prediction import reference
 from mjsim.results.record import record
+from mjsim.results.trajectory import Trajectory
 from mjsim.scene import Numerics, Scene
 from mjsim.simulation.second_walks import doubts
 from mjsim.simulation.simulation import simulate
@@ -164,11 +165,15 @@ def walk(case: Case) -> Outcome:
     damping = values.damping * case.slower
     numerics = Numerics(case.links, case.timestep, damping_time=damping, hop=0.1)
     what = scene(values, case.frequency / case.slower, case.lighter, cycles)
-    walked = simulate(what, numerics)
+    return outcome(simulate(what, numerics))
+
+
+def outcome(walked: Trajectory) -> Outcome:
+    """Outcome of a walk, by the second half of its cycles."""
     numbers = measure(walked)
     if numbers is None:
         return Outcome(str(walked.status), math.nan, math.nan, math.nan)
-    late = np.array(numbers.by_cycle[cycles // 2 :])
+    late = np.array(numbers.by_cycle[len(numbers.by_cycle) // 2 :])
     height = walked.line[walked.start :, :, 2].min(axis=1).max()
     return Outcome("ok", float(late.mean()), float(late.std() / math.sqrt(len(late))),
                    float(height))  # fmt: skip

@@ -235,6 +235,8 @@ def zoo() -> Figure:
         for robot in dict.fromkeys(row[0] for row in here):
             pairs = np.array([[float(row[3]), float(row[5])] for row in here if row[0] == robot])
             axes.plot(*pairs.T, "o", ms=4, label=robot.replace("_", " "))
+        if unit == "cm":  # robots of unlike sizes
+            axes.loglog()
         ends = np.array(axes.axis()).reshape(2, 2)
         low, high = ends[:, 0].min(), ends[:, 1].max()
         axes.plot([low, high], [low, high], color="0.6", lw=0.8, zorder=0)

@@ -1,6 +1,7 @@
 """Every example runs as it stands, and says what its text promises."""
 
 import importlib.util
+import json
 import re
 import sys
 from dataclasses import replace
@@ -268,14 +269,40 @@ def test_gradient_steps_find_a_gait_that_goes_half_as_far_again_in_a_few_walks()
 @pytest.mark.slow
 def test_markers_of_a_camera_give_back_the_strip_and_its_gaits(tmp_path):
     """The markers are of a strip of 2 MPa on tips of 34 mN and sides of 20 Pa, to 0.3 mm."""
-    parameters, walks = example("from_a_video")(folder=tmp_path)
+    walks = example("from_a_video")(folder=tmp_path)
+    parameters = json.loads((tmp_path / "fit.json").read_text())["parameters"]
     for parameter, true in zip(parameters, (2e6, 0.034, 20.0), strict=True):
         assert parameter["low_95"] < true < parameter["high_95"]
     ground = Surface("bench", tip_force=0.034, shear_strength=20.0)
-    for walk in walks:
-        truth = predict(
-            Robot(modulus=2e6), GAITS[walk["gait"]], ground, friction=Friction(tension=1.0)
-        )
+    for gait, interval in walks:
+        truth = predict(Robot(modulus=2e6), GAITS[gait], ground, friction=Friction(tension=1.0))
         told = truth.locomotion.per_cycle / 0.13
-        assert walk["uncertain"]["low_over_L"] < told < walk["uncertain"]["high_over_L"]
+        assert interval["low_over_L"] < told < interval["high_over_L"]
     assert (tmp_path / "page.html").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("text", "pixel", "words"),
+    [
+        (None, "0.25mm", "no such file"),
+        ("", "0.25mm", "is empty"),
+        ("frame,left [px],middle [px]\n", "0.25mm", "has no number to fit"),
+        ("frame,middle [px]\n0,1\n", "0.25mm", "column 'middle' is unknown"),
+        ("frame,left [px],right [px]\n0,0,a\n", "0.25mm", "must be a number, got 'a'"),
+        ("frame,left [px],right [px]\n0,0,520\n9,5,520\n3,5,520\n", "0.25mm", "not go back"),
+        ("frame,left [px],right [px]\n0,520,0\n", "0.25mm", "wrong order"),
+        ("frame,left [px],right [px]\n0,0,520\n", "2.5mm", "look at the unit"),
+        ("frame,left [px],right [px]\n0,0,520\n", "wide", "--pixel must be"),
+        ("frame,left [px],right [px]\n0,0,520\n", "0.25mm", "data must be more than"),
+    ],
+)
+def test_a_film_that_is_none_ends_in_one_line(tmp_path, capsys, text, pixel, words):
+    markers = tmp_path / "markers.csv"
+    if text is not None:
+        markers.write_text(text)
+    with pytest.raises(SystemExit) as end:
+        example("from_a_video")(markers, pixel, tmp_path / "out")
+    said = capsys.readouterr().err
+    assert end.value.code == 2
+    assert words in said
+    assert said.count("\n") == 1

@@ -1,13 +1,14 @@
 """All robots of the zoo beside their measured numbers: `python -m zoo [ROBOT ...] [--draw]`.
 
 Prints one table, measured and predicted with their errors; --draw writes picture.png into each
-robot's folder.
+robot's folder, by the robot's own `model.draw` where it has one.
 """
 
 import argparse
 from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 
 from zoo.comparison import Row, draw, rows, table
 
@@ -15,9 +16,14 @@ HERE = Path(__file__).parent
 ROBOTS = tuple(sorted(path.parent.name for path in HERE.glob("*/measured.csv")))
 
 
+def model(robot: str) -> ModuleType:
+    """Predictor of a robot: the module `model` of its folder."""
+    return import_module(f"zoo.{robot}.model")
+
+
 def walk(robot: str) -> list[Row]:
     """Rows of one robot, from its folder's `model.predicted`."""
-    return rows(HERE / robot, import_module(f"zoo.{robot}.model").predicted())
+    return rows(HERE / robot, model(robot).predicted())
 
 
 def main(argv: Sequence[str] | None = None) -> list[Row]:
@@ -29,14 +35,14 @@ def main(argv: Sequence[str] | None = None) -> list[Row]:
     for robot in options.robots:
         if robot not in ROBOTS:
             parser.error(f"no robot {robot!r}; there are {', '.join(ROBOTS)}")
-    rows = []
+    all_rows: list[Row] = []
     for robot in options.robots or ROBOTS:
         here = walk(robot)
         if options.draw:
-            draw(here, HERE / robot / "picture.png")
-        rows += here
-    print(*table(rows), sep="\n")
-    return rows
+            getattr(model(robot), "draw", draw)(here, HERE / robot / "picture.png")
+        all_rows += here
+    print(*table(all_rows), sep="\n")
+    return all_rows
 
 
 if __name__ == "__main__":

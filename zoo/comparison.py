@@ -7,9 +7,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 import matplotlib as mpl
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from analytic.locomotion import STANDSTILL
 from studies.drawing import FONT, save
+
+CLAIMED = "#66a182"
 
 
 class Predicted(NamedTuple):
@@ -110,3 +114,19 @@ def draw(rows: Sequence[Row], path: Path) -> None:
             axes.set_ylabel(f"[{unit}]")
         panels[0].legend(fontsize=8, frameon=False)
         save(figure, path)
+
+
+def shade(axes: Axes, begin: float, end: float, way: float) -> None:
+    """Shade the distances over L that a claim of a direction allows, of panels whose y is that.
+
+    Args:
+        axes: with its final limits.
+        begin, end: of the claim along x.
+        way: 1 ahead, -1 back, 0 standing still.
+    """
+    low, high = axes.get_ylim()
+    still = STANDSTILL
+    allowed = {1: (still, high), -1: (low, -still), 0: (-still, still)}[int(way)]
+    axes.fill_between([begin, end], *allowed, color=CLAIMED, alpha=0.25, lw=0, zorder=0)
+    axes.axhline(0, color="0.6", lw=0.8, zorder=1)
+    axes.set_ylim(low, high)

@@ -1,12 +1,28 @@
-"""Narrowing of a fit's covariance by one more measurement: its information matrix."""
+"""Narrowing of what is known by one more measurement: the information matrix."""
+
+from typing import NamedTuple
 
 import numpy as np
 
 from studies import Array
 
 
+class Measurement(NamedTuple):
+    """A measurement that could be made.
+
+    Attributes:
+        name: in words, with its accuracy.
+        slope: of what it would show by what is not known, (F,).
+        error: its standard error.
+    """
+
+    name: str
+    slope: Array
+    error: float
+
+
 def narrowed(covariance: Array, slope: Array, error: float) -> Array:
-    """Covariance of fitted numbers after one more measurement.
+    """Covariance of what is not known after one more measurement.
 
     Args:
         covariance: before, (F, F).

@@ -185,7 +185,9 @@ def as_bent(robot: Robot, gait: Gait) -> Gait:
         pneunet.natural_curvature(robot, acting_pressures(robot, robot.peak_pressure * path))[1:]
         for path in (np.concatenate([rest, fractions]), np.concatenate([rest, rest + 1.0]))
     )
-    parts = np.clip(np.round(bends / most, _DIGITS), -1.0, 1.0)
+    # a segment that no pressure bends is at none of it throughout
+    parts = np.divide(bends, most, out=np.zeros_like(bends), where=most != 0)
+    parts = np.clip(np.round(parts, _DIGITS), -1.0, 1.0)
     return Gait(gait.name, tuple(map(tuple, parts.tolist())), 1.0, False)
 
 

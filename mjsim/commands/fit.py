@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 PROGRAM = "undulator fit"
 EXAMPLES = (
     "track.csv --scene my.toml --free robot.modulus,surface.tip_force,surface.shear_strength",
+    "markers.csv --pixel 0.25mm --frame-rate 30 --scene my.toml --free robot.modulus",
     "runs.csv --robot quadruped --free surface.tip_force,robot.modulus --model quasi-static",
     "bench.csv --free robot.actuator --zero angle",
 )
@@ -37,7 +38,8 @@ class Options(SceneOptions):
     """Fit fields of a scene to measurements by least squares, with 95 % intervals.
 
     Data are CSV files, which docs/fitting.md describes. Prints each parameter, and what the data do
-    not determine; writes the fitted scene, fit.toml, and fit.png. Exit code 0: done; 2: bad input;
+    not determine; writes the fitted scene, fit.toml, what --uncertain of other commands reads,
+    fit.json, and fit.png. Exit code 0: done; 2: bad input;
     3: a parameter is not determined or ended at a bound, or the model misses the data so much that
     no interval is sure.
     """
@@ -60,11 +62,15 @@ class Options(SceneOptions):
     zero: Literal["angle", "pressure"] | None = None
     """what a bench's files of pressure and angle may read at rest, one unknown per file: angle, the
     protractor's; pressure, the sensor's, or the one at which the segment begins to bend"""
+    pixel: str = ""
+    """size of a pixel on the robot, of columns in px: 0.25mm"""
+    frame_rate: float | None = None
+    """pictures per second, of a column frame in place of time"""
     model: Literal["mujoco", "quasi-static"] = "mujoco"
     """what walks: MuJoCo, coarse at first and at the end with the scene's own links and time step;
     or the elastica that friction bends, without inertia and with ideal valves"""
     out: Path = Path("fitted")
-    """folder for fit.toml and fit.png, made if need be"""
+    """folder for fit.toml, fit.json and fit.png, made if need be"""
     json: bool = False
     """print one JSON object instead of the table"""
 
@@ -93,14 +99,15 @@ def main(argv: Sequence[str] | None = None) -> int:
         fail(PROGRAM, str(error))
     paths: list[Path] = []
     end: OSError | None = None
+    whole_record = record_of(fit, doubts, notes) | record
     try:
-        for path in _write(options.out, fit, tables, doubts, notes):
+        for path in _write(options.out, fit, tables, doubts, notes, whole_record):
             paths.append(path)
     except OSError as error:
         end = error  # after the numbers, which are not lost
     if options.json:
         files = {"files": [str(path) for path in paths]}
-        say(strict_json(record_of(fit, doubts, notes) | record | files))
+        say(strict_json(whole_record | files))
     else:
         say("\n".join([table(fit, doubts), *zeros(fit), _summary(fit, record), *notes]))
         print(*paths)
@@ -125,7 +132,7 @@ def _of_actuators(options: Options, base: Tables) -> int:
     )
     from mjsim.fitting.actuator_picture import draw
 
-    for name in ("start", "bounds", "prior"):
+    for name in ("start", "bounds", "prior", "pixel", "frame_rate"):
         if getattr(options, name):
             raise ValueError(f"{name} is for fields that are numbers, not for {_ACTUATOR}, got "
                              f"{getattr(options, name)!r}")  # fmt: skip
@@ -146,20 +153,26 @@ def _of_actuators(options: Options, base: Tables) -> int:
 
 
 def _fit(options: Options, base: Tables) -> "tuple[Estimate, dict[str, Any]]":
+    from mjsim.files.units import in_unit
+    from mjsim.fitting.camera import Camera
     from mjsim.fitting.estimate import estimate
+    from mjsim.fitting.markers import check_places
     from mjsim.fitting.observations import read_observations
     from mjsim.fitting.parameters import parameters
     from mjsim.fitting.walks import WALKS, Predictor, coarse, processes
 
     began = time.perf_counter()
     free = parameters(base, options.free, options.start, options.bounds, options.prior)
-    series = read_observations(options.data, options.zero or "")
+    pixel = in_unit("pixel", options.pixel, "m") if options.pixel else None
+    camera = Camera(pixel, options.frame_rate)
+    series = read_observations(options.data, options.zero or "", camera)
     walk, second = WALKS[options.model], next(k for k in WALKS if k != options.model)
+    start = {parameter.name: parameter.start for parameter in free}
+    check_places(series, base, start)
     runs = {run for line in series if line.quantity != "angle" for run in line.runs}
     with processes(len(runs), len(free)) or contextlib.nullcontext() as pool:
         fine = Predictor(base, series, walk, pool=pool)
         rough = fine
-        start = {parameter.name: parameter.start for parameter in free}
         if options.model == "mujoco" and fine.changes(coarse, start):
             rough = Predictor(base, series, walk, coarse, pool=pool)
         fit = estimate(rough, free, refined=fine if rough is not fine else None)
@@ -202,9 +215,10 @@ def _whole(tables: Tables) -> tuple[Tables, list[str]]:
 
 
 def _write(
-    folder: Path, fit: "Estimate", tables: Tables, doubts: "Doubts", notes: list[str]
-) -> Iterator[Path]:
-    """Paths of the scene's file and its picture, each once it is written."""
+    folder: Path, fit: "Estimate", tables: Tables, doubts: "Doubts", notes: list[str],
+    record: dict[str, Any],
+) -> Iterator[Path]:  # fmt: skip
+    """Paths of the scene's file, the record and the picture, each once it is written."""
     from mjsim.fitting.picture import draw
     from mjsim.fitting.report import table, zeros
 
@@ -216,6 +230,9 @@ def _write(
             f"{name} = {fit.values[name]:.6g}" for name in others))  # fmt: skip
     _write_toml(folder / "fit.toml", tables, comments)
     yield folder / "fit.toml"
+    with whole(folder / "fit.json") as part:
+        part.write_text(strict_json(record), "utf-8")
+    yield folder / "fit.json"
     draw(fit, folder / "fit.png")
     yield folder / "fit.png"
 

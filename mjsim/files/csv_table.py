@@ -9,7 +9,9 @@ last of them the heads where numbers follow.
 import csv
 import math
 import re
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -50,11 +52,13 @@ class CsvTable(NamedTuple):
         where: the file, for messages.
         heads: of the columns, as written.
         rows: number of the line, and its cells.
+        units: that this file alone has, in SI, by a head's unit, or its name if it has none.
     """
 
     where: str
     heads: list[str]
     rows: list[tuple[int, list[str]]]
+    units: Mapping[str, float] = MappingProxyType({})
 
     def numbers(
         self, column: int, unit: str, units: str, gaps: bool = False
@@ -95,6 +99,9 @@ class CsvTable(NamedTuple):
 
     def _factor(self, head: str, unit: str, units: str) -> float:
         words = head_of(head).unit
+        stated_unit = self.units.get(words or head.strip().lower())
+        if stated_unit is not None:
+            return stated_unit
         if not words:
             raise ValueError(
                 f"{self.where}: column {head!r} must name its unit, such as {units}, in brackets"

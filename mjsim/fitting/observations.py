@@ -4,7 +4,8 @@ A file is one of three kinds, told by its columns, whose heads name their units:
 
 - `time [s]` and some of `left [mm]`, `right [mm]`, `x@0.25 [mm]`, `z@0.5 [mm]`: places of the ends
   and of points marked at a part of the length, along a walk whose gait begins at time 0. Where the
-  camera's x is 0 does not matter.
+  camera's x is 0 does not matter. With a camera that is known `frame` may stand for time, and
+  places may be in `[px]`.
 - `pressure [kPa]` and `angle [deg]`: of a free segment; `length [mm]` if it is not the robot's. The
   log of a bench may have `time [s]` too; the segment is taken to be at rest at each sample.
 - `displacement [mm]` per cycle, `speed [mm/s]`, `height [mm]` or, of a robot of limbs, `turn [deg]`
@@ -29,6 +30,7 @@ from numpy.typing import NDArray
 
 from analytic.checks import one_of
 from mjsim.files.csv_table import CsvTable, name_of, read_csv
+from mjsim.fitting.camera import FRAME, Camera
 from mjsim.fitting.parameters import unit_of
 
 Array = NDArray[np.float64]
@@ -47,6 +49,7 @@ _ALONG = {
     RUN: "displacement, speed, height, turn",
 }
 SURFACE = "surface"
+_UNKNOWN = Camera()
 
 
 class Run(NamedTuple):
@@ -112,36 +115,47 @@ class Series(NamedTuple):
         return "position" if self.abscissa == _TIME else self.quantity
 
 
-def read_observations(paths: Sequence[Path], zero: str = "") -> list[Series]:
+def read_observations(
+    paths: Sequence[Path], zero: str = "", camera: Camera = _UNKNOWN
+) -> list[Series]:
     """Read the series of all files.
 
     Args:
         paths: of the files.
         zero: angle or pressure, of which each file of bending has a zero that is to be found; or
             empty.
+        camera: of columns in pixels and of numbers of pictures.
 
     Raises:
-        ValueError: a file cannot be read, is of none of the three kinds, or has no number; or
-            there is no file of bending that has a zero.
+        ValueError: a file cannot be read, is of none of the three kinds, or has no number; time
+            goes back; there is no file of bending that has a zero; or the camera is not known.
     """
     if zero:
         one_of("zero", zero, ZEROS)
     offsets = itertools.count()
-    series = [series for path in paths for series in _of_file(path, offsets, zero)]
+    tables = [read_csv(path, "data") for path in paths]
+    camera.check(tables)
+    series = [series for path, table in zip(paths, tables, strict=True)
+              for series in _of_file(path, table, offsets, zero, camera)]  # fmt: skip
     if zero and not any(each.zero for each in series):
         raise ValueError(f"zero is of files of pressure and angle, got {zero!r} and no such file")
     return series
 
 
-def _of_file(path: Path, offsets: Iterator[int], zero: str) -> list[Series]:
-    table = read_csv(path, "data")
+def _of_file(
+    path: Path, table: CsvTable, offsets: Iterator[int], zero: str, camera: Camera
+) -> list[Series]:
     names = [_name(head) for head in table.heads]
+    if not {_TIME, PRESSURE} & {*names}:
+        names = [_TIME if name == FRAME else name for name in names]
     for name in names:
         if names.count(name) > 1:
             raise ValueError(f"{table.where}: column {name!r} stands twice")
     marks = [name for name in names if _is_field(name)]
     abscissa, measured = _columns(table, names, marks)
     used = {abscissa, SURFACE, *marks, *measured}
+    read = [head for head, name in zip(table.heads, names, strict=True) if name in used]
+    table = table._replace(units=camera.units(table.where, read))
     unread = {*names} - used - ({_TIME} if abscissa == PRESSURE else set())
     ignored = tuple(h for h, name in zip(table.heads, names, strict=True) if name in unread)
     cells = {name: _column(table, name, column) for column, name in enumerate(names)
@@ -155,6 +169,8 @@ def _of_file(path: Path, offsets: Iterator[int], zero: str) -> list[Series]:
     for run in [None] if abscissa == RUN else dict.fromkeys(runs):
         rows = np.array([run is None or row_run == run for row_run in runs], dtype=bool)
         offset = next(offsets)
+        if abscissa == _TIME:
+            _check_clock(table, cells[_TIME], np.flatnonzero(rows))
         for name in measured:
             kept = rows & np.isfinite(cells[name])
             if name == _SEGMENT or not kept.any():
@@ -179,6 +195,15 @@ def _of_file(path: Path, offsets: Iterator[int], zero: str) -> list[Series]:
     if not series:
         raise ValueError(f"{table.where}: has no number to fit")
     return series
+
+
+def _check_clock(table: CsvTable, times: Array, rows: NDArray[np.intp]) -> None:
+    """Refuse times of a run that go back."""
+    back = np.flatnonzero(np.diff(times[rows]) < 0)
+    if back.size:
+        before, after = rows[back[0]], rows[back[0] + 1]
+        raise ValueError(f"{table.where}: line {table.rows[after][0]}: time must not go back, got "
+                         f"{times[after]:g} s after {times[before]:g} s")  # fmt: skip
 
 
 def _name(head: str) -> str:

@@ -198,7 +198,7 @@ class _Profile:
         """Point of least cost from a point on, by steps along the axes of the covariance."""
         covariance = self.covariance[: self.count, : self.count]
         values, vectors = np.linalg.eigh(covariance)
-        axes = vectors.T * np.minimum(np.sqrt(values), _LONGEST)[:, None]
+        axes = vectors.T * np.sqrt(np.clip(values, 0.0, _LONGEST**2))[:, None]
         low, high = self.problem.bounds()
         best, step = self._end(0.0, point), _FIRST
         while step > _LAST:

@@ -9,6 +9,7 @@ from mjsim.files.scene_tables.tables import Tables
 from mjsim.files.text_table import Column, text_table
 from mjsim.fitting.determined import Together, at_bounds, together, undetermined, without_limit
 from mjsim.fitting.estimate import Estimate
+from mjsim.fitting.markers import film
 
 _TOGETHER = 0.9  # correlation of parameters beyond which a note says so; chosen
 
@@ -51,6 +52,7 @@ def doubts_of(fit: Estimate, base: Tables) -> Doubts:
             f"neighbouring residuals are alike (correlation {fit.misfit.correlation:.2f}): the "
             "model misses something that may be in the values too, and the intervals are withheld"
         )
+        notes += film(fit.series, fit.model, base, fit.values)
     return Doubts(notes, withheld, combinations, bool(directions or limits))
 
 

@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 
 _INSET, _FRAME = (320, 180), 3  # columns and lines of the view from above; lines around it
 _DOTS = 160  # of a track at most
+_TALL = 0.15  # L, up to which a robot stays below the title; chosen
 _RED, _BLUE = (0.78, 0.12, 0.10, 1.0), (0.10, 0.30, 0.75, 1.0)
 
 
@@ -29,6 +30,8 @@ class LimbCamera(WalkCamera):
     def __init__(self, walk: Trajectory) -> None:
         super().__init__(walk, {CAMERA: (WIDTH, HEIGHT), OVERHEAD: _INSET})
         self._track = _track(walk)
+        tall = float(walk.line[..., 2].max()) - _TALL * walk.scene.robot.length
+        self.look.model.camera(CAMERA).pos[2] += max(tall, 0.0)
 
     def _picture(self, step: int) -> Frame:
         """Both views, the one from above with its border in the lower left corner."""

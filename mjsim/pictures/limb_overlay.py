@@ -11,7 +11,8 @@ from mjsim.pictures.overlay import BLUE, INK, Colour, Overlay, Pen
 from mjsim.results.shades import shade_of_pixels
 
 _BAND, _WHITE = 118, 0.75  # lines behind the words, and how white they are
-_CENTRE, _LENGTH = (520, 62), 190.0  # of the robot from above: its middle, and its L [pixels]
+# of the robot from above: its middle, its L and the most across it [pixels]
+_CENTRE, _LENGTH, _HEIGHT = (520, 62), 190.0, 104.0
 
 
 class LimbOverlay(Overlay):
@@ -39,18 +40,21 @@ class LimbOverlay(Overlay):
         robot, u = limbed(self.walk.scene), self.scale
         trunk = robot.limbs[0].angle
         begins = {name: ends[0] @ rotation(trunk) for name, ends in plan(robot).items()}
-        scale, middle = u * _LENGTH / robot.length, np.mean(list(begins.values()), axis=0)
-        for limb, part in zip(robot.limbs, chambers_by_limb(robot), strict=True):
-            pressure = float(np.abs(self.walk.pressure[step, part]).mean())
-            start = begins[limb.name] - middle
+        corners = []
+        for limb in robot.limbs:
             along = rotation(limb.angle - trunk)[:, 0]
             side = 0.5 * limb.strip.width * np.array([-along[1], along[0]])
+            start = begins[limb.name]
             end = start + along * limb.strip.length
-            pen.polygon(
-                [(_CENTRE[0] * u + scale * x, _CENTRE[1] * u - scale * y)
-                 for x, y in (start + side, end + side, end - side, start - side)],
-                fill=shade_of_pixels(pressure / robot.peak_pressure), outline=INK,
-            )  # fmt: skip
+            corners.append([start + side, end + side, end - side, start - side])
+        places = np.array(corners)
+        low, high = places.min(axis=(0, 1)), places.max(axis=(0, 1))
+        scale = u * min(_LENGTH / robot.length, _HEIGHT / float(high[1] - low[1]))
+        places = scale * (places - 0.5 * (low + high)) * (1.0, -1.0) + u * np.array(_CENTRE)
+        for outline, part in zip(places, chambers_by_limb(robot), strict=True):
+            pressure = float(np.abs(self.walk.pressure[step, part]).mean())
+            pen.polygon(list(map(tuple, outline.tolist())), outline=INK,
+                        fill=shade_of_pixels(pressure / robot.peak_pressure))  # fmt: skip
 
 
 def _told(value: float, unit: str, positive: str, negative: str) -> str:

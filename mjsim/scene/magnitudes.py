@@ -9,6 +9,9 @@ import math
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 
+import numpy as np
+from numpy.typing import NDArray
+
 from analytic.scene import pneunet
 from analytic.scene.feet import drops
 from analytic.scene.limbs import AnyRobot, LimbedRobot, limbs_of
@@ -119,6 +122,17 @@ def _check_measured(strip: Robot, peak_pressure: float, where: str) -> None:
     if peak_pressure > highest * (1 + _ROUNDING):
         raise ValueError(f"{where}peak_pressure must be at most {highest:.6g} Pa, up to which the "
                          f"actuator was measured, got {peak_pressure:g}")  # fmt: skip
+
+
+def fullest(strip: Robot, peak_pressure: float, stages: NDArray[np.float64]) -> float:
+    """Part of a strip that is at the peak, at most, in stages of (N, S) fractions of it [1].
+
+    A segment counts by how much its actuator bends beside the one that bends most.
+    """
+    bends = np.array([float(curve.curvature_at(peak_pressure)) if curve else 1.0
+                      for curve in strip.actuators])  # fmt: skip
+    parts = bends / bends.max() if bends.any() else bends
+    return float((np.abs(stages) @ (parts * np.diff(strip.borders))).max())
 
 
 def check_turn(

@@ -35,7 +35,7 @@ from analytic.scene.quadruped_gaits import for_robot
 from analytic.scene.robot import GRAVITY, Robot
 from analytic.scene.surface import SURFACES, Ground, Way
 from mjsim.scene import registry
-from mjsim.scene.magnitudes import check_robot, check_turn
+from mjsim.scene.magnitudes import check_robot, check_turn, fullest
 from mjsim.scene.numerics import STARTING_STEP, Numerics, Resolved, path_of, short_enough
 from mjsim.scene.surroundings import check_ceiling, check_ground, check_roughness, check_times
 from mjsim.scene.valves import Valves
@@ -174,9 +174,9 @@ class Scene:
 
     def _check_turns(self) -> None:
         """Raise ValueError for a limb that would close into a circle."""
-        stages = np.abs(np.array(self.gait.stages))
+        stages = np.array(self.gait.stages)
         for limb, part in zip(limbs_of(self.robot), chambers_by_limb(self.robot), strict=True):
-            most = float((stages[:, part] @ np.diff(limb.strip.borders)).max())
+            most = fullest(limb.strip, self.robot.peak_pressure, stages[:, part])
             strip = f"limb {limb.name!r}" if self.in_space else "this strip"
             check_turn(limb.strip, self.robot.peak_pressure, most, self.gait.name, strip)
 

@@ -162,7 +162,7 @@ def read_spreads(base: Tables, text: str) -> tuple[Spread, ...]:
     Args:
         base: tables of the scene.
         text: name=part, or name=size in its unit, with commas between; fields with + between are
-            off together; or a file that `undulator fit --json` printed.
+            off together; or fit.json, which `undulator fit` wrote.
 
     Raises:
         ValueError: a name is no field with a number, is there twice, a size is none, or a file is
@@ -222,16 +222,17 @@ def _fitted(path: Path) -> Fitted:
         names = tuple(str(row["name"]) for row in rows)
         errors = [row["relative_error"] for row in rows]
         values = tuple(float(row["value"]) for row in rows)
+        reasons = "".join(f"; {note}" for note in content.get("notes", ()))
     except OSError as error:
         raise ValueError(f"uncertain {str(path)!r}: {missing(path, error)}") from error
     except (ValueError, KeyError, TypeError) as error:
         raise ValueError(
-            f"uncertain {str(path)!r} must be what undulator fit --json printed"
+            f"uncertain {str(path)!r} must be fit.json as undulator fit writes it"
         ) from error
     open_ended = [name for name, error in zip(names, errors, strict=True) if error is None]
     if open_ended:
         raise ValueError(f"uncertain {str(path)!r}: the fit gives no interval of "
-                         f"{', '.join(open_ended)}")  # fmt: skip
+                         f"{', '.join(open_ended)}{reasons}")  # fmt: skip
     lengths, directions = np.linalg.eigh(correlation * np.outer(errors, errors))
     factor = directions * np.sqrt(np.maximum(lengths, 0.0))
     return Fitted(names, values, tuple(map(tuple, factor.tolist())))

@@ -157,15 +157,18 @@ def test_limbs_explain_transitions_and_gaits_within_what_was_asked_of_them(fitte
 
 
 def test_the_scene_of_limbs_goes_as_they_do_by_theory_and_mujoco(fitted):
-    """Gait D; MuJoCo's friction bends limbs, by a hundredth of its distance."""
+    """Gait D; friction, which bends limbs in the reference and in MuJoCo, takes 5 % of it."""
     laid, states = limbs.lay(fitted), hub.gaits()[3].states
     text = scenes.scene(fitted, laid, scenes.stages(fitted, laid, *model.steady(states)), 1)
-    asked = limbs.Walker(fitted).cycle(states)
-    by_theory = scenes.last_cycle(scenes.by_theory(text, 1), len(states))
-    assert by_theory == pytest.approx(asked, abs=0.15)
+    by_theory, by_reference = (
+        scenes.last_cycle(scenes.by_theory(text, 1, bent), len(states)) for bent in (False, True)
+    )
+    assert by_theory == pytest.approx(limbs.Walker(fitted).cycle(states), abs=0.15)
     walked, status = scenes.by_mujoco(text)
     assert status == "ok"
-    assert scenes.last_cycle(walked, len(states)) == pytest.approx(asked, abs=0.3)
+    found = scenes.last_cycle(walked, len(states))
+    assert found[0] == pytest.approx(by_reference[0], abs=0.03)
+    assert found[1] == pytest.approx(by_reference[1], abs=0.3)
 
 
 def test_a_tour_goes_once_through_each_transition():

@@ -1,20 +1,25 @@
 """Each robot of the zoo is met as well as its README says, and the product does not know of it."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from analytic.locomotion import STANDSTILL
+from analytic.scene import pneunet
 from examples import piezo_inchworm as piezo
-from mjsim import Scene, Surface, build, read_tables
+from mjsim import Scene, Surface, build, measure, read_tables, simulate
 from studies import inchworm as dielectric
 from zoo.__main__ import HERE, ROBOTS, main, walk
-from zoo.comparison import Predicted, rows
+from zoo.arcfold import model as arcfold
+from zoo.comparison import Predicted, rows, table
 from zoo.deciding import narrowed
 from zoo.geckobot_actuators import decide as gecko
 from zoo.piezo_inchworm import rigid_links
 from zoo.pneumatic_inchworm import model as pneumatic
+from zoo.pneumatic_inchworm.distances import GAIT, read
 from zoo.ten_wheels import model as wheels
 from zoo.terresoro_iv import best, decide, fit
 from zoo.terresoro_iv import hub as terresoro
@@ -23,12 +28,27 @@ from zoo.terresoro_iv import model as lagged
 SLOW = {"piezo_inchworm", "pneumatic_inchworm"}
 
 
+def cells(lines):
+    return [[cell.strip() for cell in line.split("|")[1:-1]] for line in lines if "|" in line]
+
+
 @pytest.mark.parametrize(
     "robot", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in ROBOTS]
 )
-def test_a_robot_is_met_within_the_misfit_that_it_states(robot):
-    for row in walk(robot):
+def test_a_robot_is_met_within_the_misfit_that_it_states_and_the_page_has_its_rows(robot):
+    page = cells((HERE / "README.md").read_text("utf-8").splitlines())
+    found = walk(robot)
+    for row, cell in zip(found, cells(table(found))[2:], strict=True):
         assert abs(row.difference) <= row.misfit, row
+        assert cell in page
+
+
+@pytest.mark.parametrize("scene", sorted(path.parent.name for path in HERE.glob("*/scene.toml")))
+def test_each_scene_walks(scene):
+    built, numerics = build(read_tables(HERE / scene / "scene.toml"))
+    walk = simulate(replace(built, cycles=1), numerics)
+    assert walk.status == "ok"
+    assert abs(measure(walk).displacement) > STANDSTILL
 
 
 def test_each_robot_has_a_source_for_each_number_a_page_and_a_picture():
@@ -51,6 +71,32 @@ def test_theory_and_product_do_not_import_the_zoo():
             assert not re.search(r"^\s*(from|import) zoo\b", path.read_text("utf-8"), re.M), path
 
 
+def test_the_pneumatic_inchworm_that_walks_is_the_fitted_one():
+    runs = pneumatic.inchworm.read(pneumatic.RUNS)
+    found = pneumatic.inchworm.fit({GAIT: read()}, runs)
+    load, turn, length = np.exp(found.values[:3])
+    at = found.materials.index("Plastic")
+    factor = np.exp(found.values[3 + 2 * at])
+    scene, _ = build(read_tables(HERE / "pneumatic_inchworm" / "scene.toml"))
+    strip = scene.strip
+    rigidity = pneunet.base_rigidity(strip)
+    assert 1e3 * strip.length == pytest.approx(length, rel=0.02)
+    assert strip.weight_per_length * strip.length**3 / rigidity == pytest.approx(load, rel=0.02)
+    assert pneunet.turn_number(strip) == pytest.approx(2 * turn, rel=0.02)  # 200 kPa
+    assert scene.ground.friction == pytest.approx(0.84 * factor, rel=0.02)
+
+
+def test_a_panel_of_arcfold_makes_its_stroke():
+    assert arcfold.stroke(90) == pytest.approx(12 * (1 - 0.5**0.5))
+    assert arcfold.distance() == pytest.approx(arcfold.stroke(90), rel=0.05)  # hinges have a width
+
+
+def test_ten_limbs_of_twice_the_links_go_as_far():
+    (_, _, hub), (_, tips, finer) = wheels.slips(), wheels.slips(2)
+    assert hub[-1] == pytest.approx(finer[-1], rel=0.02)
+    assert sorted(np.sign(np.round(tips[-1], 2))) == [-1] * 4 + [0] * 2 + [1] * 4
+
+
 def test_scenes_are_those_of_the_example_and_of_the_study():
     ground = Surface("plastic", friction=2.5)
     gait = piezo.switched(piezo.STAGES)
@@ -60,6 +106,8 @@ def test_scenes_are_those_of_the_example_and_of_the_study():
         ("dielectric_inchworm", dielectric.scene(dielectric.BASE, 1.0, cycles=8)),
     ):
         assert build(read_tables(HERE / robot / "scene.toml"))[0] == scene
+    feet = read_tables(HERE.parent / "examples" / "directional_feet.toml")
+    assert build(read_tables(HERE / "directional_feet" / "scene.toml"))[0] == build(feet)[0]
 
 
 def test_quantities_that_are_not_measured_are_refused():

@@ -5,27 +5,17 @@ errors of the robot's numbers and of the speeds at pressures that nobody measure
 information matrix. A minute of CPU.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 from scipy.optimize import approx_fprime
 
 from examples import inchworm_speeds as inchworm
 from studies import Array
-from zoo.deciding import errors, narrowed
+from zoo.deciding import Measurement, errors, narrowed
 from zoo.pneumatic_inchworm.distances import GAIT, read
 from zoo.pneumatic_inchworm.model import RUNS
 
 _STEP = 0.02  # of differences, as the fit's
 _BETWEEN = (125.0, 175.0, 225.0)  # kPa, that are predicted, at MIDDLE on all materials
-
-
-class Measurement(NamedTuple):
-    """A measurement: its name, its slope by the fitted numbers, and its error."""
-
-    name: str
-    slope: Array
-    error: float
 
 
 def runs_at(

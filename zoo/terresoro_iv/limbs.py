@@ -31,7 +31,7 @@ LENGTH = 0.13  # m, of a limb on photographs, from where it leaves the hub to it
 WEIGHT, OF_HUB = 3.0, 0.5  # N, chosen; part that the hub has
 RIGIDITY = 0.018  # N m^2, chosen: so soft that all four tips stay on the ground
 TIP_FORCE = 0.005  # N, chosen: bound of a tip, so weak that friction hardly bends limbs
-WIDTH, HUB_WIDTH = 0.02, 0.05  # m, chosen; the hub is in the air
+WIDTH = 0.02  # m, chosen; the hub, in the air, is a square
 HUB_RIGIDITY = 1.0  # N m^2, chosen: stiff
 ELEMENTS, STEPS = 6, 2  # hinges of a limb, steps of a transition
 _BENDS = (1.9, 2.7)  # rad, near those of flat and curled limbs
@@ -113,7 +113,7 @@ def robot(laid: Laid) -> LimbedRobot:
     limb = Robot(length=LENGTH, width=WIDTH, segments=(1.0,), actuator=curve, peak_pressure=PEAK,
                  weight_per_length=(1 - OF_HUB) * WEIGHT / LIMBS / LENGTH)  # fmt: skip
     straight = Actuator((0.0, PEAK), (0.0, 0.0), (HUB_RIGIDITY, HUB_RIGIDITY))
-    hub = Robot(length=2 * corner, width=HUB_WIDTH, segments=(1.0,), actuator=straight,
+    hub = Robot(length=2 * corner, width=2 * corner, segments=(1.0,), actuator=straight,
                 weight_per_length=OF_HUB * WEIGHT / (2 * corner), peak_pressure=PEAK)  # fmt: skip
     limbs = [Limb("hub", hub)]
     for number in range(LIMBS):

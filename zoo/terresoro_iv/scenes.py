@@ -3,7 +3,8 @@
 A limb has two chambers: the first curls it, the second bends nothing and switches a foot at its
 tip, which is damped as a limb is that stays flat, stays curled, curls or uncurls. Each transition
 is a switch and a ramp. Writes scene.toml, gait C, and prints the gaits, and all 240 transitions in
-one tour, by `limbs`, by the product's theory and by MuJoCo.
+one tour, by `limbs`, by the product's theory for weak friction, by the reference, in which friction
+bends limbs, and by MuJoCo.
 """
 
 import tomllib
@@ -33,7 +34,7 @@ from zoo.terresoro_iv.limbs import (
 from zoo.terresoro_iv.model import Lagged, amounts, recut, recut_gaits, remembered, steady
 
 TIP = 0.02  # part of a limb's length that the second chamber has; chosen
-SWITCH, RAMP = 0.1, 2.0  # s, chosen; damping is that of a ramp of 0.45 s, over the time
+SWITCH, RAMP = 0.1, 6.0  # s, chosen; damping is that of a ramp of 0.45 s, over the time
 STATES = 8  # of a change by the peak pressure, by theory
 NUMERICS = Numerics(links=ELEMENTS, timestep=0.01, twists=0)
 _AT_AN_END = 2  # limbs that begin at one end of the hub, which share a tip's bound by their widths
@@ -185,8 +186,8 @@ def main() -> None:
     numbers = Lagged(*remembered()[0])
     laid, walker = lay(numbers), Walker(numbers)
     mean, error = measured_cycles(recut_gaits())
-    print("| gait | measured | limbs | theory | MuJoCo |")
-    print("|---|---|---|---|---|")
+    print("| gait | measured | limbs | theory | reference | MuJoCo |")
+    print("|---|---|---|---|---|---|")
     found = []
     for one, measured in zip(gaits(), mean, strict=True):
         text = scene(numbers, laid, stages(numbers, laid, *steady(one.states)), 2)
@@ -195,11 +196,12 @@ def main() -> None:
         walked, status = by_mujoco(text)
         count = len(one.states)
         found.append([walker.cycle(one.states), last_cycle(by_theory(text), count),
+                      last_cycle(by_theory(text, bent=True), count),
                       last_cycle(walked, count)])  # fmt: skip
         shown = " | ".join(f"{cell[0]:.2f}, {cell[1]:+.1f}" for cell in (measured, *found[-1]))
         print(f"| {one.name} | {shown} | {status}", flush=True)
-    for name, cells in zip(("limbs", "theory", "MuJoCo"), np.array(found).swapaxes(0, 1),
-                           strict=True):  # fmt: skip
+    names = "limbs", "theory", "reference", "MuJoCo"
+    for name, cells in zip(names, np.array(found).swapaxes(0, 1), strict=True):
         off = np.sqrt(((cells - mean) ** 2).mean(axis=0))
         print(name, "rms", off.round(2), "wrong order", wrong_order(cells, mean, error))
     pairs, means = recut()
@@ -211,6 +213,7 @@ def main() -> None:
     for name, motions in (
         ("limbs", walker(past, after)),
         ("theory", motions_of(by_theory(text, 1), laid, len(after))),
+        ("reference", motions_of(by_theory(text, 1, bent=True), laid, len(after))),
         (f"MuJoCo, {status}", motions_of(walked, laid, len(after))),
     ):
         print(name, "R2 of 240 transitions", explained(motions, means[order]).round(2), flush=True)

@@ -64,7 +64,7 @@ def read_series(path: Path, chambers: Sequence[str] = (), columns: Sequence[str]
     """
     table = read_csv(path, "pressures")
     picked = find_columns(table, chambers, columns)
-    where, _, rows = table
+    where, rows = table.where, table.rows
     if len(rows) < 2:
         raise ValueError(f"{where}: needs two samples at least, got {len(rows)}")
     heads = [f"{h.name} [{h.unit}]" if h.unit else o for h, o in zip(picked.heads, table.heads,

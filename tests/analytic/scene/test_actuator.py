@@ -178,3 +178,13 @@ def test_a_gait_is_told_by_how_much_it_bends_not_by_its_pressures():
     for gait in GAITS.values():
         assert as_bent(Robot(actuator=STRAIGHT), gait).between() == gait.between()
         assert as_bent(Robot(actuator=unlike), gait).between() == gait.between()
+
+
+def test_a_segment_that_no_pressure_bends_is_told_as_straight():
+    from analytic import Gait
+
+    straight = Actuator((0, PEAK), (0, 0.0))
+    robot = Robot(actuator=(straight, Actuator((0, PEAK), (0, 20.0)), straight))
+    told = as_bent(robot, Gait("switch", ((0, 0, 0), (1, 0, 1), (1, 1, 1)), 1.0, False)).stages
+    assert {row[0] for row in told} == {row[2] for row in told} == {0.0}
+    assert told[-1] == (0.0, 1.0, 0.0)

@@ -4,14 +4,15 @@ import numpy as np
 import pytest
 
 from mjsim.files.scene_tables.tables import build
+from mjsim.fitting.camera import Camera
 from mjsim.fitting.observations import Run, read_observations
 from mjsim.fitting.parameters import with_values
 
 
-def read(tmp_path, text):
+def read(tmp_path, text, **options):
     path = tmp_path / "data.csv"
     path.write_text(text)
-    return read_observations([path])
+    return read_observations([path], **options)
 
 
 def test_a_track_is_in_metres_and_shares_one_datum_of_x(tmp_path):
@@ -72,6 +73,9 @@ def test_angles_are_of_a_segment_of_given_length(tmp_path):
         ("robot.colour [m],speed [mm/s]\n1,2\n", "key 'colour' of [robot] is unknown"),
         ("ground.colour [m],speed [mm/s]\n1,2\n", "key 'colour' of [ground] is unknown"),
         ("pressure [kPa],angle [deg],length [mm]\n1,2,3\n2,3,4\n", "length must be one above 0"),
+        ("time [s],left [mm]\n0,1\n2,1\n1,3\n", "line 4: time must not go back, got 1 s after 2 s"),
+        ("frame,left [mm]\n0,1\n", "column 'frame' needs --frame-rate"),
+        ("time [s],left [px]\n0,1\n", "column 'left [px]' needs --pixel"),
         ("", "is empty"),
     ],
 )
@@ -80,3 +84,31 @@ def test_what_is_wrong_with_a_file_is_said_in_one_line(tmp_path, text, words):
         read(tmp_path, text)
     assert words in str(error.value)
     assert "\n" not in str(error.value)
+
+
+def test_pixels_and_pictures_become_metres_and_seconds(tmp_path):
+    text = "frame,left [px],z@0.5 [mm]\n0,4,\n15,8,2\n"
+    left, mark = read(tmp_path, text, camera=Camera(0.25e-3, 30))
+    np.testing.assert_allclose(left.at, [0, 0.5])
+    np.testing.assert_allclose(left.value, [1e-3, 2e-3])
+    np.testing.assert_allclose(mark.value, [2e-3])
+
+
+def test_pictures_beside_a_clock_are_not_read(tmp_path):
+    (left,) = read(tmp_path, "frame,time [s],left [mm]\n0,0,1\n99,1,2\n")
+    np.testing.assert_allclose(left.at, [0, 1])
+    assert left.ignored == ("frame",)
+
+
+@pytest.mark.parametrize(
+    ("camera", "words"),
+    [
+        (Camera(pixel=1e-3), "pixel is for columns of px, got time"),
+        (Camera(frame_rate=30), "frame_rate is for columns of frame, got time"),
+        (Camera(pixel=-1e-3), "pixel must be a number above 0, got -0.001"),
+        (Camera(frame_rate=0), "frame_rate must be a number above 0, got 0"),
+    ],
+)
+def test_a_camera_that_no_file_needs_or_that_is_none_is_refused(tmp_path, camera, words):
+    with pytest.raises(ValueError, match=words):
+        read(tmp_path, "time [s],left [mm]\n0,1\n", camera=camera)

@@ -1,5 +1,6 @@
 """Robots of limbs where few contacts resist, or none, and where the trunk points elsewhere."""
 
+from contextlib import nullcontext
 from dataclasses import replace
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 from walks import turned, went
 
 from analytic import Elastica, Friction, predict
+from analytic.scene.actuator import Actuator
 from analytic.scene.gait import GAITS, Gait
 from analytic.scene.limbs import (
     LENGTH,
@@ -177,6 +179,18 @@ def test_a_limb_that_would_close_into_a_circle_is_refused_as_a_strip_is():
     with pytest.raises(ValueError, match="close limb 'solo' into a circle") as limb_s:
         Scene(LimbedRobot((Limb("solo", strip),), 90e3), gait, FELT)
     assert str(limb_s.value).replace("limb 'solo'", "this strip") == str(strip_s.value)
+
+
+def test_a_strip_closes_by_the_segments_that_bend_alone():
+    """A hinge of a twentieth of 0.13 m; 90 degrees of it are no circle, 360 are."""
+    gait = Gait("fold", ((0, 0, 0), (1, 1, 1), (0, 0, 0)), 4.0)
+    stiff = Actuator((0, 90e3), (0, 0))
+    for turn in (0.5 * np.pi, 2 * np.pi):
+        hinge = Actuator((0, 90e3), (0, turn / (0.13 / 20)))
+        strip = Robot(segments=(9.5, 1, 9.5), actuator=(stiff, hinge, stiff), mass=0.018,
+                      peak_pressure=90e3)  # fmt: skip
+        with pytest.raises(ValueError, match="into a circle") if turn > 6 else nullcontext():
+            Scene(strip, gait)
 
 
 @pytest.mark.parametrize("about", [4, 5])  # pitch, roll
