@@ -178,11 +178,11 @@ def main(folder: Path, out: Path) -> list[tuple[str, dict[str, Any]]]:
         rows = beside(folder, values, left_out)
     except (ValueError, KeyError, OSError) as error:
         fail("from_tracks", str(error))
-    fitted = numbers(values, left_out)
+    shown = numbers(values, left_out)
     print(*(f"{words}: {value} ({between}) {unit}".rstrip() for words, value, between, unit
-            in fitted), sep="\n")  # fmt: skip
+            in shown), sep="\n")  # fmt: skip
     draw(rows, out / "gaits.png")
-    told = page(fitted, rows, deciding(values, left_out), (out / "gaits.png").read_bytes())
+    told = page(shown, rows, deciding(values, left_out), (out / "gaits.png").read_bytes())
     files = {"page.html": told, **scenes(Lagged(*values))}
     for name, text in files.items():
         with whole(out / name) as part:

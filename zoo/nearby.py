@@ -1,4 +1,4 @@
-"""Measurements that would decide on a robot that nobody fitted: walks of scenes near the one that is known.
+"""Measurements that decide on a robot that nobody fitted: walks of scenes near the one known.
 
 Logarithms of inputs are spread by their errors, those that a source states or, where it states
 none, assumed ones. Straight lines through what walks show (least squares) are the slopes over that

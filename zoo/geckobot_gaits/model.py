@@ -78,8 +78,10 @@ def cycle(grip: Array, step: Array, steering: Array) -> Cycle:
 def measured() -> Array:
     """Mean turns to the side that is steered to, (step lengths, steering) [deg]."""
     with TURNS.open(encoding="utf-8") as file:
-        mean_turns = {(float(row["step [deg]"]), float(row["steering"])): float(row["turn [deg]"])
-                 for row in csv.DictReader(file)}  # fmt: skip
+        mean_turns = {
+            (float(row["step [deg]"]), float(row["steering"])): float(row["turn [deg]"])
+            for row in csv.DictReader(file)
+        }
     return np.array(
         [[0.5 * (mean_turns[q1, -q2] - mean_turns[q1, q2]) for q2 in STEERING] for q1 in STEPS]
     )
