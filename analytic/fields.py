@@ -102,7 +102,20 @@ def _record(kind: type[Kind], noun: str, given: Kind | Mapping[str, Any]) -> Kin
     for field in every:
         if field.default is MISSING and field.name not in given:
             raise ValueError(f"{field.name} of a {noun} is missing, got {dict(given)!r}")
+    check_keys(kind, given)
     return kind(**given)
+
+
+def check_keys(kind: type[Any], given: Mapping[str, Any], where: str = "") -> None:
+    """Let a dataclass with a `check_keys` refuse the keys of a table by ValueError.
+
+    Args:
+        kind, given: the dataclass and the table of its fields.
+        where: beginning of the message.
+    """
+    check = getattr(kind, "check_keys", None)
+    if check:
+        check(given, where)
 
 
 def _plural(noun: str) -> str:

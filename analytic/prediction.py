@@ -102,7 +102,7 @@ def predict(
         solver = SOLVERS[solver]()
     whole("states per ramp", states_per_ramp, 1)
     whole("cycles", cycles, 1)
-    own = path is None
+    by_gait = path is None
     if path is None:
         if depends_on_speed(ground):  # which may creep while a pressure is constant
             fractions = gait.pressures(states_per_ramp, cycles)
@@ -123,7 +123,7 @@ def predict(
     walked = walk.on([ground], path, clock)[0]
     if not gradient:
         return walked
-    if not own:
+    if not by_gait:
         raise ValueError("gradient must be of a gait, not of a path that is given")
     from analytic.gradient.gradient import gradient as differentiate
 

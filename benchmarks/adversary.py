@@ -166,12 +166,12 @@ def searched(ground: str, search: str, seed: int, tries: int, before: list[Row])
     return [row_of(judge, fine, (ground, seed, search, word)) for word in best]
 
 
-def row_of(judge: Judge, fine: Judge, found: tuple[str, int, str, str]) -> Row:
+def row_of(judge: Judge, fine: Judge, key: tuple[str, int, str, str]) -> Row:
     """Row of a cycle by both models, from its ground, seed, search and words."""
-    cycle = read(found[-1])
+    cycle = read(key[-1])
     earned, status, sinking = judge(cycle)
     finer, finer_status, _ = fine(cycle)
-    return Row(*found, round(earned, 5), round(finer, 5), status, finer_status, round(sinking, 5))
+    return Row(*key, round(earned, 5), round(finer, 5), status, finer_status, round(sinking, 5))
 
 
 def stored() -> list[Row]:

@@ -1,4 +1,4 @@
-"""What body auto rests on, and whether it keeps its word.
+"""Benchmark behind body auto, and check that it keeps its word.
 
     python benchmarks/auto.py design [count]   what the levels of mjsim/scene/auto.csv are worth
     python benchmarks/auto.py check [count]    on scenes that it knows nothing of: `make auto`
@@ -103,17 +103,17 @@ def check_rows(seed: int) -> list[list]:
     checked.simulate = once
     rows = []
     for tolerance in TOLERANCES:
-        found = checked.walk_checked(scene, tolerance)
-        spent = [walk for walk in walks.values() if walk.numerics in found.tried]
+        check = checked.walk_checked(scene, tolerance)
+        spent = [walk for walk in walks.values() if walk.numerics in check.tried]
         rows.append([seed, "all" if scene.between else "ends", tolerance, exact, status,
-                     distance(found.walk), str(found.walk.status), found.agreed, len(found.tried),
-                     speed([found.walk]), speed(spent),
-                     simulated(found.walk) / sum(cost[used] for used in found.tried)])  # fmt: skip
+                     distance(check.walk), str(check.walk.status), check.agreed, len(check.tried),
+                     speed([check.walk]), speed(spent),
+                     simulated(check.walk) / sum(cost[used] for used in check.tried)])  # fmt: skip
     return rows
 
 
-def right(found: float, exact: float, tolerance: float) -> bool:
-    return abs(found - exact) <= checked.allowed(exact, tolerance)
+def right(displacement: float, exact: float, tolerance: float) -> bool:
+    return abs(displacement - exact) <= checked.allowed(exact, tolerance)
 
 
 def speed(walks: list[Trajectory]) -> float:
@@ -135,9 +135,9 @@ def measured(work, name: str, count: int, only: set[int] | None = None) -> list[
     with ProcessPoolExecutor(2) as pool, path.open("a") as file:
         seeds = range(count) if only is None else sorted(only)
         todo = [pool.submit(work, seed) for seed in seeds if seed not in done]
-        for found in as_completed(todo):
-            rows += found.result()
-            file.writelines(json.dumps(row) + "\n" for row in found.result())
+        for future in as_completed(todo):
+            rows += future.result()
+            file.writelines(json.dumps(row) + "\n" for row in future.result())
             file.flush()
     return [row for row in rows if row[0] < count and (only is None or row[0] in only)]
 
@@ -151,8 +151,8 @@ def design(count: int) -> None:
               f"{np.median([row[7] for row in here]):.2g} times real time,",
               sum(row[6] != "ok" for row in here), "fail")  # fmt: skip
     for contacts, tolerance in itertools.product(LADDER, TOLERANCES):
-        found = [rule(here, tolerance) for here in by_scene(rows, contacts)]
-        ok, realtime = zip(*found, strict=True)
+        outcomes = [rule(here, tolerance) for here in by_scene(rows, contacts)]
+        ok, realtime = zip(*outcomes, strict=True)
         print(f"{contacts}, {tolerance:.1%}: two that agree are right in {np.mean(ok):.0%}, "
               f"{np.median(realtime):.0f} times real time")  # fmt: skip
 
@@ -163,7 +163,7 @@ def by_scene(rows: list[list], contacts: str) -> list[list[list]]:
 
 
 def rule(rows: list[list], tolerance: float) -> tuple[bool, float]:
-    """Whether the first answer of two walks that agree is right, and its speed."""
+    """Tell whether the first answer of two walks that agree is right, and its speed."""
     before, spent = math.nan, 0.0
     for row in rows:
         spent += 1 / row[7]

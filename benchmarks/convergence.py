@@ -41,8 +41,8 @@ def walk(surface: Surface, changes: dict[str, float]) -> Trajectory:
         ground = replace(surface, tip_force=factor * surface.tip_force,
                          shear_strength=factor * surface.shear_strength)  # fmt: skip
         scene = replace(scene, ground=ground)
-    own = {name: settings.pop(name) for name in SCENE_PARAMETERS & settings.keys()}
-    return simulate(replace(scene, **own), replace(Numerics(), **settings))  # type: ignore[arg-type]
+    scene_settings = {name: settings.pop(name) for name in SCENE_PARAMETERS & settings.keys()}
+    return simulate(replace(scene, **scene_settings), replace(Numerics(), **settings))  # type: ignore[arg-type]
 
 
 def displacement(surface: Surface, changes: dict[str, float]) -> float:
@@ -81,14 +81,14 @@ def budget() -> None:
 
 
 def line(label: str, **changes: float) -> None:
-    cells, found, speed = [], {}, []
+    cells, shifts, speed = [], {}, []
     for name, surface in SURFACES.items():
         result = walk(surface, changes)
         numbers = measure(result)
-        found[name] = numbers.displacement if numbers else float("nan")
-        cells.append(f"{found[name]:>+14.4f}" if numbers else f"{result.status:>14}")
+        shifts[name] = numbers.displacement if numbers else float("nan")
+        cells.append(f"{shifts[name]:>+14.4f}" if numbers else f"{result.status:>14}")
         speed.append(len(result.time) * result.numerics.timestep / result.wall_time)
-    odd = (found["felt"] + found["gelatin"]) / found["felt"]
+    odd = (shifts["felt"] + shifts["gelatin"]) / shifts["felt"]
     print(f"{label:<28}{''.join(cells)}{100 * odd:>+9.1f} %{max(speed):>9.0f} x", flush=True)
 
 

@@ -50,7 +50,7 @@ class Row(NamedTuple):
 
     @property
     def converged(self) -> bool:
-        """Whether the two finest walks agree within half of what a distance may be off by."""
+        """Tell whether the two finest walks agree within half of what a distance may be off by."""
         return near(self.finer, self.finest, 0.5)
 
     @property
@@ -85,8 +85,8 @@ def scene_of(seed: int) -> Scene:
 
 
 def distance(walk: Trajectory) -> float:
-    found = measure(walk)
-    return found.displacement if found else math.nan
+    measures = measure(walk)
+    return measures.displacement if measures else math.nan
 
 
 def row_of(seed: int) -> Row:

@@ -79,7 +79,7 @@ def located(inputs: Inputs) -> float:
 
 
 def off(inputs: Inputs, number: Number, exact: float, goal: float) -> float:
-    """By how much a derivative by a number's logarithm is off its differences, inf if unknown."""
+    """Error of a derivative by a number's logarithm against its differences, inf if unknown."""
     weights = ((-1, -0.5), (1, 0.5))
     if number.way:
         weights = ((0, -1.5 * number.way), (number.way, 2.0 * number.way),
@@ -107,11 +107,11 @@ def compared(friction: str, seed: int) -> Row:
     numbers = {name: inputs.numbers(name) for name in FIELDS}
     exact = {number: float(walk.gradient[name].value[number.place]) * (abs(number.value) or 1.0)
              for name in FIELDS for number in numbers[name]}  # fmt: skip
-    known = [value for value in exact.values() if np.isfinite(value)]
+    finite = [value for value in exact.values() if np.isfinite(value)]
     reasons = {each.reason for each in walk.gradient.values() if not np.isfinite(each.value).all()}
-    if not known:
+    if not finite:
         return Row(friction, seed, travel, 0, np.nan, "", "; ".join(sorted(reasons)))
-    largest = max(map(abs, known))
+    largest = max(map(abs, finite))
     rng = np.random.default_rng(seed)
     worst, field, count = 0.0, "", 0
     for name in [*rng.choice(FIELDS[:-1], NUMBERS, replace=False).tolist(), FIELDS[-1]]:

@@ -81,9 +81,9 @@ def track(
 
 def fits(seed: int) -> list[Row]:
     """Three parameters fitted to a track."""
-    found = estimate(Predictor(BASE, track(seed=seed), numerics=coarse),
+    fit = estimate(Predictor(BASE, track(seed=seed), numerics=coarse),
                      parameters(BASE, ",".join(TRUTH)))  # fmt: skip
-    return _of_fit("fit", seed, found, TRUTH)
+    return _of_fit("fit", seed, fit, TRUTH)
 
 
 def coulomb_fits(seed: int) -> list[Row]:
@@ -101,16 +101,16 @@ def coulomb_fits(seed: int) -> list[Row]:
         kept[rng.choice(len(kept), 2, replace=False)] = False
         series[0].value[rng.choice(np.flatnonzero(kept))] += JUMP
         series = [each._replace(at=each.at[kept], value=each.value[kept]) for each in series]
-        found = estimate(Predictor(base, series), parameters(base, ",".join(SOFT_TRUTH)))
-        rows += _of_fit(f"fit under coulomb{name}", seed, found, SOFT_TRUTH)
+        fit = estimate(Predictor(base, series), parameters(base, ",".join(SOFT_TRUTH)))
+        rows += _of_fit(f"fit under coulomb{name}", seed, fit, SOFT_TRUTH)
     return rows
 
 
-def _of_fit(claim: str, seed: int, found: Estimate, truths: dict[str, float]) -> list[Row]:
+def _of_fit(claim: str, seed: int, fit: Estimate, truths: dict[str, float]) -> list[Row]:
     """A row per parameter: it holds where the truth is in the interval."""
     truth = np.array(list(truths.values()))
-    off, half = np.abs(found.value / truth - 1), 0.5 * (found.high - found.low) / truth
-    held = (found.low <= truth) & (truth <= found.high)
+    off, half = np.abs(fit.value / truth - 1), 0.5 * (fit.high - fit.low) / truth
+    held = (fit.low <= truth) & (truth <= fit.high)
     return [Row(f"{claim} {name}", seed, *map(float, (off[i], half[i])), bool(held[i]))
             for i, name in enumerate(truths)]  # fmt: skip
 
@@ -151,14 +151,14 @@ def lifted(seed: int) -> list[Row]:
 
 def _bounded(solver: str, exact: str, seed: int, scene: Any, states: int) -> list[Row]:
     """A row where the solver says a bound, and the exact one has an answer."""
-    found = predict(*scene, solver, states)
-    bound, length = modes_error(found), scene[0].length
+    walk = predict(*scene, solver, states)
+    bound, length = modes_error(walk), scene[0].length
     if math.isinf(bound):
         return []
     shift = predict(*scene, exact, states).locomotion.per_cycle
     if math.isnan(shift):
         return []
-    error = abs(found.locomotion.per_cycle - shift)
+    error = abs(walk.locomotion.per_cycle - shift)
     slack = FINE[solver] * length if solver == "modes" else max(
         0.01 * abs(shift), FINE[solver] * length)  # fmt: skip
     return [Row(solver, seed, error / length, bound / length, bool(error <= bound + slack))]
@@ -183,18 +183,18 @@ def rows() -> Iterator[Row]:
 
 
 def main() -> None:
-    found = list(rows())
+    all_rows = list(rows())
     with ROWS.open("w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(Row._fields)
-        for row in found:
+        for row in all_rows:
             writer.writerow([row.claim, row.seed, f"{row.error:.3e}", f"{row.bound:.3e}",
                              int(row.holds)])  # fmt: skip
-    for claim in dict.fromkeys(row.claim for row in found):
-        own = [row for row in found if row.claim == claim]
-        error, holds = np.array([(row.error, row.holds) for row in own]).T
+    for claim in dict.fromkeys(row.claim for row in all_rows):
+        claimed = [row for row in all_rows if row.claim == claim]
+        error, holds = np.array([(row.error, row.holds) for row in claimed]).T
         print(
-            f"{claim:<26}{holds.sum():>5.0f} of {len(own)} hold, median error "
+            f"{claim:<26}{holds.sum():>5.0f} of {len(claimed)} hold, median error "
             f"{np.median(error):.2e}, worst {error.max():.2e}"
         )
 

@@ -29,11 +29,11 @@ def by_evolution(objective: Objective, evaluations: int, seed: int) -> float:
         worth = objective(SPACE.gait(point))
         return -worth if np.isfinite(worth) else _WORTHLESS
 
-    found = differential_evolution(
+    minimum = differential_evolution(
         cost, [(0, 1)] * SPACE.size, rng=seed, popsize=2, polish=False, tol=0,
         maxiter=max(1, evaluations // (2 * SPACE.size) - 1), x0=SPACE.middle(),
     )  # fmt: skip
-    return -float(found.fun)
+    return -float(minimum.fun)
 
 
 def by_chance(objective: Objective, evaluations: int, seed: int) -> float:
@@ -52,11 +52,11 @@ def one(job: tuple[str, str, int, int]) -> float:
 def main(evaluations: int = 480, seeds: int = 4) -> None:
     jobs = [(m, a, evaluations, s) for a in AIMS for m in METHODS for s in range(seeds)]
     with ProcessPoolExecutor() as pool:
-        found = dict(zip(jobs, pool.map(one, jobs), strict=True))
+        bests = dict(zip(jobs, pool.map(one, jobs), strict=True))
     print(f"best worth [L a cycle] after {evaluations} evaluations, generations of {POPULATION}")
     for aim in AIMS:
         for method in METHODS:
-            values = sorted(v for (m, a, *_), v in found.items() if (m, a) == (method, aim))
+            values = sorted(v for (m, a, *_), v in bests.items() if (m, a) == (method, aim))
             print(f"{aim:<10} {method:<24} " + " ".join(f"{v:+.4f}" for v in values))
 
 

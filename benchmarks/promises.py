@@ -1,4 +1,4 @@
-"""Whether what stands beside a distance holds on random scenes: `make promises`.
+"""Tests on random scenes of what stands beside a distance: `make promises`.
 
     python benchmarks/promises.py [count]
 
@@ -46,16 +46,16 @@ def row(seed: int) -> list[list]:
     """Seed, ramp, contacts, status, displacement, prediction, its bar, finer, unexplained."""
     scene, numerics, ramp = scene_of(seed)
     walk = simulate(scene, numerics)
-    found = record(walk)
+    fields = record(walk)
     names = ("displacement_over_L", "predicted_displacement_over_L",
              "prediction_uncertainty_over_L", "unexplained_over_L", "prediction_notes")  # fmt: skip
-    found["prediction_notes"] += doubts(walk, found)
-    moved, predicted, bar, unexplained, notes = (found[name] for name in names)
+    fields["prediction_notes"] += doubts(walk, fields)
+    moved, predicted, bar, unexplained, notes = (fields[name] for name in names)
     finer = math.nan
     if predicted is not None:
         finer = float(reference(walk, 2).displacement[0])
-    return [[seed, ramp, "all" if scene.between else "ends", found["status"], moved, predicted, bar,
-             finer, unexplained, notes]]  # fmt: skip
+    return [[seed, ramp, "all" if scene.between else "ends", fields["status"], moved, predicted,
+             bar, finer, unexplained, notes]]  # fmt: skip
 
 
 def main() -> None:

@@ -44,7 +44,7 @@ class Outcome(NamedTuple):
     real_time: float
 
     def agrees(self) -> tuple[bool, bool]:
-        """In displacement and in turn."""
+        """Agreement in displacement and in turn."""
         off = np.hypot(*(self.walked - self.predicted)[:2])
         far = np.hypot(*self.predicted[:2])
         turned = abs(self.walked[2] - self.predicted[2])
@@ -103,23 +103,23 @@ def compare(seed: int, twists: int | None = None) -> Outcome:
 def main(count: int, twists: int | None = None) -> None:
     """Print the table."""
     with ProcessPoolExecutor(2) as pool:
-        found = []
+        comparisons = []
         for one in pool.map(partial(compare, twists=twists), range(count)):
-            found.append(one)
+            comparisons.append(one)
             good = "".join("." if ok else "X" for ok in one.agrees())
             print(one.name, *(np.array2string(v, precision=4, suppress_small=True, sign="+")
                               for v in (one.walked, one.predicted, one.unsure, one.finer)),
                   one.status, f"{one.real_time:.0f}x", good, flush=True)  # fmt: skip
-    both = np.array([one.agrees() for one in found])
+    both = np.array([one.agrees() for one in comparisons])
     print(f"displacement {both[:, 0].mean():.0%}, turn {both[:, 1].mean():.0%}, "
           f"both {both.all(axis=1).mean():.0%} of {count}")  # fmt: skip
-    changed = np.array([np.hypot(*(one.finer - one.walked)[:2]) for one in found])
-    far = np.array([np.hypot(*one.walked[:2]) for one in found])
+    changed = np.array([np.hypot(*(one.finer - one.walked)[:2]) for one in comparisons])
+    far = np.array([np.hypot(*one.walked[:2]) for one in comparisons])
     print(
         f"finer: within 3 % or 0.002 L in {np.mean(changed <= np.maximum(0.03 * far, 0.002)):.0%}"
     )
     wrong = sum(one.walked[0] * one.predicted[0] < 0 and min(abs(one.walked[0]),
-                abs(one.predicted[0])) > 0.005 for one in found)  # fmt: skip
+                abs(one.predicted[0])) > 0.005 for one in comparisons)  # fmt: skip
     print(f"wrong direction: {wrong}")
 
 

@@ -30,7 +30,7 @@ class Result(NamedTuple):
     phi: float
     theory: float
     flags: list[str]
-    found: float
+    mujoco: float
     status: str
 
 
@@ -93,8 +93,8 @@ def walked(seed: int) -> Result:
         return Result(scene, phi, exact, flags, math.nan, "no prediction")
     walk = simulate(scene, Numerics(links=links))
     numbers = measure(walk)
-    found = numbers.displacement if numbers else math.nan
-    return Result(scene, phi, exact, flags, found, str(walk.status))
+    shift = numbers.displacement if numbers else math.nan
+    return Result(scene, phi, exact, flags, shift, str(walk.status))
 
 
 def describe(result: Result) -> str:
@@ -104,7 +104,7 @@ def describe(result: Result) -> str:
     return (
         f"  {len(scene.robot.segments):2d} segments, {scene.gait.ramps} ramps, "
         f"Phi {result.phi:5.1f} {scene.friction:<9}{ground:<14}{where:<8}"
-        f"elastica {result.theory:+.4f}  MuJoCo {result.found:+.4f}  {result.status} "
+        f"elastica {result.theory:+.4f}  MuJoCo {result.mujoco:+.4f}  {result.status} "
         f"{' '.join(result.flags).lower()}"
     )
 
@@ -116,17 +116,17 @@ def main() -> None:
     kept = [result for result in results if not math.isnan(result.theory)][:count]
     refused = [result for result in results if math.isnan(result.theory)]
     print(f"{len(refused)} of {len(results)} have no prediction")
-    failed = [result for result in kept if math.isnan(result.found)]
+    failed = [result for result in kept if math.isnan(result.mujoco)]
     print(f"{len(failed)} of {len(kept)} end otherwise in MuJoCo:")
     for result in failed:
         print(describe(result))
-    both = [result for result in kept if not math.isnan(result.found)]
+    both = [result for result in kept if not math.isnan(result.mujoco)]
     plain = [r for r in both if Flag.JUMPED.name not in r.flags]
     far = [r for r in both if abs(r.theory) > FAR]
     for name, chosen in (("all", both), ("without a jump", plain), (f"beyond {FAR} L", far)):
-        error = np.array([abs(r.found - r.theory) for r in chosen])
+        error = np.array([abs(r.mujoco - r.theory) for r in chosen])
         over = error / np.abs([r.theory for r in chosen])
-        wrong = [r for r in chosen if r.found * r.theory < 0 and abs(r.theory) > 0.005]
+        wrong = [r for r in chosen if r.mujoco * r.theory < 0 and abs(r.theory) > 0.005]
         beyond = (over > 0.06) & (error > 0.002)
         print(
             f"{name}: {len(chosen)} scenes, error over |distance| median {np.median(over):.1%}, "
@@ -134,7 +134,7 @@ def main() -> None:
             f"{np.quantile(error, 0.95):.4f}; beyond 6 % and 0.002 L {int(beyond.sum())}, "
             f"wrong way {len(wrong)}"
         )
-    for result in sorted(both, key=lambda r: -abs(r.found - r.theory))[:WORST]:
+    for result in sorted(both, key=lambda r: -abs(r.mujoco - r.theory))[:WORST]:
         print(describe(result))
 
 

@@ -40,8 +40,8 @@ def reference(robot: Robot, gait: Gait, surface: Surface) -> float:
 
 def cases(seed: int = SEED, count: int = COUNT, sensitive: bool = True) -> list[Case]:
     rng = np.random.default_rng(seed)
-    found: list[Case] = []
-    while len(found) < count:
+    drawn: list[Case] = []
+    while len(drawn) < count:
         gamma = float(np.exp(rng.uniform(np.log(4), np.log(40))))
         gait = GAITS[str(rng.choice(list(GAITS)))]
         gait = gait.reversed() if rng.random() < 0.5 else gait
@@ -62,8 +62,8 @@ def cases(seed: int = SEED, count: int = COUNT, sensitive: bool = True) -> list[
         if sensitive:
             nearby = (from_ratios("any", f * tip, 1.0) for f in (0.95, 1.05))
             sensitivity = max(abs(reference(robot, gait, g) - exact) for g in nearby)
-        found.append(Case(robot, gait, ground, gamma, height, exact, sensitivity))
-    return found
+        drawn.append(Case(robot, gait, ground, gamma, height, exact, sensitivity))
+    return drawn
 
 
 def spread(error: np.ndarray) -> tuple[float, float]:
@@ -78,9 +78,11 @@ def report(all_cases: list[Case], ramp: float, numerics: Numerics) -> np.ndarray
         gait = Gait(case.gait.name, case.gait.stages, ramp)
         scene = Scene(case.robot, gait, case.surface)
         chosen = resolved(scene, numerics)
-        found = measure(simulate(scene, chosen))
-        shift = found.displacement if found else float("nan")
-        rows.append((abs(shift - case.reference), shift, found.unexplained if found else 0.0, case))
+        measures = measure(simulate(scene, chosen))
+        shift = measures.displacement if measures else float("nan")
+        rows.append(
+            (abs(shift - case.reference), shift, measures.unexplained if measures else 0.0, case)
+        )
     error = np.array([row[0] for row in rows])
     part = error / np.abs([case.reference for case in all_cases])
     middle, high = spread(part)

@@ -47,7 +47,7 @@ def test_one_cycle_loop_without_assembly(benchmark, links):
 
 @pytest.mark.parametrize("links", [12, 24, 48])
 def test_bare_steps_of_the_same_model(benchmark, links):
-    """As many mj_step as a cycle has, on a strip lying flat."""
+    """Time of as many mj_step as a cycle has, on a strip lying flat."""
     model = compile_model(Scene(), Numerics(links=links).resolved("chain", "constant"))
     data = mujoco.MjData(model)
 

@@ -131,7 +131,7 @@ def row_of(seed: int) -> Row:
 
 
 def apart(one: Array, other: Array) -> Array:
-    """How far apart two moves are, over L and in degrees, (2,)."""
+    """Distance between two moves, over L and in degrees, (2,)."""
     return np.array([np.hypot(*(one - other)[:2]), abs(one[2] - other[2])])
 
 

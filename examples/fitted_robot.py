@@ -49,8 +49,8 @@ def main(folder=None):
         (folder / "my.toml").write_text(SCENE, encoding="utf-8")
         fit.main([str(folder / "track.csv"), "--scene", str(folder / "my.toml"), "--free",
                   ",".join(TRUE), "--out", str(folder / "fitted")])  # fmt: skip
-        found = tomllib.loads((folder / "fitted" / "fit.toml").read_text(encoding="utf-8"))
-    values = {**found["robot"], **found["ground"]}
+        fitted = tomllib.loads((folder / "fitted" / "fit.toml").read_text(encoding="utf-8"))
+    values = {**fitted["robot"], **fitted["ground"]}
     return {name: values[name.split(".")[1]] / true - 1 for name, true in TRUE.items()}
 
 

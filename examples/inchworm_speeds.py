@@ -50,7 +50,7 @@ class Runs(NamedTuple):
 
 
 class Fit(NamedTuple):
-    """What was fitted.
+    """Result of a fit.
 
     Attributes:
         gait: the one with the least misfit.
@@ -82,26 +82,26 @@ def read(path):
 def distances(job):
     """Distances per cycle over L of one gait, load and friction, by turn."""
     gait, load, friction = job
-    surface, found = Surface("any", friction=friction, tip_friction=friction), [0.0]
+    surface, shifts = Surface("any", friction=friction, tip_friction=friction), [0.0]
     for turn in TURNS[1:]:
         robot = Robot(peak_pressure=Robot().peak_pressure * turn / pneunet.turn_number(Robot()))
         walk = predict(pneunet.with_load(robot, load), GAITS[gait], surface, Elastica(24), 15,
                        Friction("coulomb", 1.0))  # fmt: skip
         far = -walk.locomotion.per_cycle / robot.length  # as the mirrored gait goes
-        found.append(far if np.isfinite(far) else found[-1])  # past the end of the branch
-    return found
+        shifts.append(far if np.isfinite(far) else shifts[-1])  # past the end of the branch
+    return shifts
 
 
 def tables(gaits, workers=2):
     """An interpolator of distance per cycle over L in log load, turn, log friction, by gait."""
     jobs = [(gait, load, friction) for gait in gaits for load in LOADS for friction in FRICTIONS]
     with ProcessPoolExecutor(workers) as pool:
-        found = np.array(list(pool.map(distances, jobs)))
+        shifts = np.array(list(pool.map(distances, jobs)))
     shape = (len(gaits), len(LOADS), len(FRICTIONS), len(TURNS))
     axes = np.log(LOADS), TURNS, np.log(FRICTIONS)
     return {
         gait: RegularGridInterpolator(axes, table.transpose(0, 2, 1), "linear", False, None)
-        for gait, table in zip(gaits, found.reshape(shape), strict=True)
+        for gait, table in zip(gaits, shifts.reshape(shape), strict=True)
     }
 
 
@@ -156,13 +156,13 @@ def _slope(table, materials, values, runs):
     return optimize.approx_fprime(values, lambda v: speeds(table, materials, v, runs), 0.02)
 
 
-def predictions(table_by_gait, found, runs):
+def predictions(table_by_gait, fitted, runs):
     """Speeds and the half-widths of their 95 % intervals [mm/s]."""
-    table = table_by_gait[found.gait]
-    slope = _slope(table, found.materials, found.values, runs)
-    spread = np.sqrt(found.noise**2 + np.einsum("ij,jk,ik->i", slope, found.covariance, slope))
-    value = speeds(table, found.materials, found.values, runs)
-    return value, stats.t.ppf(0.975, found.free) * spread
+    table = table_by_gait[fitted.gait]
+    slope = _slope(table, fitted.materials, fitted.values, runs)
+    spread = np.sqrt(fitted.noise**2 + np.einsum("ij,jk,ik->i", slope, fitted.covariance, slope))
+    value = speeds(table, fitted.materials, fitted.values, runs)
+    return value, stats.t.ppf(0.975, fitted.free) * spread
 
 
 def held_out(table_by_gait, runs, column):
@@ -170,8 +170,8 @@ def held_out(table_by_gait, runs, column):
     value, wide = np.empty(len(runs.speed)), np.empty(len(runs.speed))
     for one in np.unique(getattr(runs, column)):
         here = getattr(runs, column) == one
-        found = fit(table_by_gait, runs.of(~here), np.unique(runs.material))
-        value[here], wide[here] = predictions(table_by_gait, found, runs.of(here))
+        fitted = fit(table_by_gait, runs.of(~here), np.unique(runs.material))
+        value[here], wide[here] = predictions(table_by_gait, fitted, runs.of(here))
     return value, wide
 
 
@@ -180,17 +180,17 @@ def rms(left):
 
 
 def report(name, table_by_gait, runs, materials=None):
-    found = fit(table_by_gait, runs, materials)
+    fitted = fit(table_by_gait, runs, materials)
     print(f"{name}: {len(runs.speed)} runs of spread {np.std(runs.speed):.2f} mm/s, "
-          f"gait {found.gait}, misfit {found.noise:.2f} mm/s")  # fmt: skip
-    labels = [*ROBOT, *(f"{of}, {label}" for of in found.materials for label in GROUND)]
-    wide = 1.96 * np.sqrt(np.diag(found.covariance))
-    for label, value, half in zip(labels, found.values, wide, strict=True):
+          f"gait {fitted.gait}, misfit {fitted.noise:.2f} mm/s")  # fmt: skip
+    labels = [*ROBOT, *(f"{of}, {label}" for of in fitted.materials for label in GROUND)]
+    wide = 1.96 * np.sqrt(np.diag(fitted.covariance))
+    for label, value, half in zip(labels, fitted.values, wide, strict=True):
         low, high = value - half, value + half
         if label.startswith("log ") or ", log " in label:
             label, value, low, high = label.replace("log ", ""), *np.exp([value, low, high])
         print(f"    {label:<36}{value:9.3g}   ({low:.3g} .. {high:.3g})")
-    return found
+    return fitted
 
 
 def draw(path, table_by_gait, together, apart, runs):
@@ -207,8 +207,8 @@ def draw(path, table_by_gait, together, apart, runs):
                       label=f"{pressure:.0f} kPa")  # fmt: skip
             line = Runs(np.full(40, pressure), fine, fine, np.full(40, name),
                         np.full(40, here.friction[0]))  # fmt: skip
-            for found, style in ((together, "-"), (apart[name], ":")):
-                far = speeds(table_by_gait[found.gait], found.materials, found.values, line)
+            for fitted, style in ((together, "-"), (apart[name], ":")):
+                far = speeds(table_by_gait[fitted.gait], fitted.materials, fitted.values, line)
                 axes.plot(fine, far, style, lw=1.2, color=f"C{number}")
         axes.set_title(f"{name}, mu = {here.friction[0]:g}")
         axes.set_xlabel("frequency [Hz]")

@@ -38,7 +38,7 @@ def walked(gait: Gait, surface: str) -> tuple[float, float]:
 
 def crawls() -> list[Gait]:
     """One leg after the other, in every order but for mirror images; the torso with some."""
-    legs, found = ORDER[1:], []
+    legs, gaits = ORDER[1:], []
     for order in permutations(legs):
         if not order[0].endswith("left"):
             continue
@@ -52,8 +52,8 @@ def crawls() -> list[Gait]:
                 if place < 3 and torso[place]:
                     rows.append([1.0, *row[1:]])
             rows.append([0.0] * 5)
-            found.append(Gait("crawl", tuple(map(tuple, rows)), RAMP))
-    return found
+            gaits.append(Gait("crawl", tuple(map(tuple, rows)), RAMP))
+    return gaits
 
 
 def spins() -> list[Gait]:
@@ -63,7 +63,7 @@ def spins() -> list[Gait]:
 
 def main(surfaces: tuple[str, ...] = tuple(SURFACES), most: int | None = None):
     """Print and return the gaits that go farthest and turn most, with what they do."""
-    found = {}
+    best_gaits = {}
     for surface in surfaces:
         for kind, gaits in (("crawls", crawls()[:most]), ("turns", spins()[:most])):
             went = np.array([walked(gait, surface) for gait in gaits])
@@ -72,8 +72,8 @@ def main(surfaces: tuple[str, ...] = tuple(SURFACES), most: int | None = None):
             ahead, turn = went[best]
             print(f"{surface}: {kind}, {ahead:+.4f} L ahead and {turn:+.2f} degrees, by "
                   f"{gaits[best].name}", *gaits[best].stages, sep="\n  ", flush=True)  # fmt: skip
-            found[surface, kind] = gaits[best], ahead, turn
-    return found
+            best_gaits[surface, kind] = gaits[best], ahead, turn
+    return best_gaits
 
 
 if __name__ == "__main__":

@@ -12,11 +12,13 @@ from analytic.scene import pneunet
 from mjsim import GAITS, SURFACES, Friction, Robot, Scene, measure, predict, simulate
 
 
-def main(folder: Path | None = None, count: int = 5) -> list[tuple[float, float, float]]:
+def main(
+    folder: Path | None = None, count: int = 5, strongest: float = 100.0
+) -> list[tuple[float, float, float]]:
     robot, gait = Robot(), replace(GAITS["wave"], ramp_time=8.0)
     unit = friction_number(SURFACES["polyethylene"], robot, pneunet.base_rigidity(robot))
     rows = []
-    for number in np.geomspace(0.1, 100.0, count).tolist():
+    for number in np.geomspace(0.1, strongest, count).tolist():
         ground = SURFACES["polyethylene"].scaled(number / unit)
         theory = predict(robot, gait, ground, friction=Friction(tension=1.0)).locomotion.per_cycle
         numbers = measure(simulate(Scene(robot, gait, ground)))

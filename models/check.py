@@ -1,4 +1,4 @@
-"""Whether all files of this folder load, and the strip's and the scripts walk as they say.
+"""Checks that all files of this folder load, and that the strip's and the scripts walk as they say.
 
 Needs mujoco and numpy alone, so that any version of MuJoCo can be asked: python models/check.py
 """
@@ -45,8 +45,8 @@ def main() -> int:
     pairs += [(f"walk_strip {name}", walk_strip.walk(name), x) for name, x in BY_BOUNDS.items()]
     pairs.append(("walk_quadruped gelatin", walk_quadruped.walk("gelatin"), -0.0466))
     off = [pair for pair in pairs if not abs(pair[1] - pair[2]) < 0.002]
-    for name, found, expected in pairs:
-        print(f"{name}: {found:+.4f} L, expected {expected:+.4f}")
+    for name, shift, expected in pairs:
+        print(f"{name}: {shift:+.4f} L, expected {expected:+.4f}")
     print(f"mujoco {mujoco.__version__}: {len(off)} of {len(pairs)} are off")
     return 1 if off else 0
 

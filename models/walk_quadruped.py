@@ -117,7 +117,7 @@ class Quadruped:
         forces = [pushes[limb.pads].sum(axis=0) for limb in self.limbs]
         heights = [data.geom_xpos[limb.pads, 2].min(axis=0) - RADIUS for limb in self.limbs]
         least = 1e-6 * self.mass * GRAVITY  # a node that pushes less hovers
-        torso, found = self.limbs[0], []
+        torso, contacts = self.limbs[0], []
         passed, reached = {True: 0.0, False: 0.0}, set()  # what legs leave to the torso, by its end
         for i in range(4, 0, -1):
             leg, joint = self.limbs[i], 0 if self.limbs[i].rear else -1
@@ -125,7 +125,7 @@ class Quadruped:
             force = forces[i] * down
             total, moment = force.sum(), force @ (leg.length - leg.places)
             if total > least and not flat[i]:
-                found.append((i, 0.0, (leg.length,)))
+                contacts.append((i, 0.0, (leg.length,)))
             elif total > least:
                 near = heights[0][:3] if leg.rear else heights[0][-3:]
                 whole = down.all() and near.max() <= torso.ripple
@@ -134,13 +134,13 @@ class Quadruped:
                     moment += 0.5 * forces[0][joint] * leg.length
                 flat_part = leg.length if whole else flat_length(leg.weight, total, moment)
                 length = min(flat_part, leg.length)
-                found.append((i, length, sides(leg.length, length, -1)))
+                contacts.append((i, length, sides(leg.length, length, -1)))
                 if length >= leg.length - leg.near:
                     reached.add(leg.rear)
                 if length >= leg.length * (1 - 1e-9):
                     passed[leg.rear] += total - leg.weight * length
             else:
-                found += underside(i, leg, forces[i], least, leg.near, leg.length + 1)
+                contacts += underside(i, leg, forces[i], least, leg.near, leg.length + 1)
         low, high, taken = -1.0, torso.length + 1, 0.0
         for rear in (True, False):
             if not passed[rear]:
@@ -155,14 +155,14 @@ class Quadruped:
             if taken and length > torso.length - taken:
                 continue
             taken = length
-            found.append((0, length, sides(torso.length, length, order)))
+            contacts.append((0, length, sides(torso.length, length, order)))
             if rear:
                 low = length + torso.near
             else:
                 high = torso.length - length - torso.near
         low = max(low, torso.near) if True in reached else low
         high = min(high, torso.length - torso.near) if False in reached else high
-        return found + underside(0, torso, forces[0], least, low, high)
+        return contacts + underside(0, torso, forces[0], least, low, high)
 
     def step(self, pressure: np.ndarray) -> None:
         """One time step, at whose end the chambers are at a pressure (5,) [Pa]."""

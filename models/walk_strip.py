@@ -74,8 +74,8 @@ class Strip:
         pitch = data.qpos[2]
         slopes = pitch, -(pitch + data.qpos[3:].sum())
         bounds = []
-        for end, slope, own in ((0, slopes[0], pressure[0]), (1, slopes[1], pressure[-1])):
-            flat = own <= PASSIVE * PEAK and slope <= FLAT
+        for end, slope, inflation in ((0, slopes[0], pressure[0]), (1, slopes[1], pressure[-1])):
+            flat = inflation <= PASSIVE * PEAK and slope <= FLAT
             bounds.append(self.side * self.side_contact(end) if flat else self.tip)
             pad, dt = self.pads[-end], model.opt.timestep
             model.geom_solref[pad, 0] = 2 * dt if slope > STEEP else dt / 2

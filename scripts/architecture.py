@@ -50,9 +50,9 @@ def imports() -> set[tuple[str, str]]:
         for node in ast.walk(tree):
             if isinstance(node, ast.ImportFrom) and node.module:
                 names = [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
-                known = [name for name in names if (TOP / name.replace(".", "/")).is_dir()
+                modules = [name for name in names if (TOP / name.replace(".", "/")).is_dir()
                          or (TOP / (name.replace(".", "/") + ".py")).is_file()]  # fmt: skip
-                targets = known[-1:] or names[:1]
+                targets = modules[-1:] or names[:1]
                 pairs |= {(module, t) for t in targets if t.split(".")[0] in PACKAGES}
     return pairs
 
@@ -68,7 +68,7 @@ def arrows() -> set[tuple[str, str]]:
 
 
 def layers(pairs: set[tuple[str, str]]) -> dict[str, int]:
-    """How many packages at most lie below each."""
+    """Greatest number of packages below each."""
     below: dict[str, set[str]] = {}
     for one, two in pairs:
         below.setdefault(one, set()).add(two)
@@ -94,7 +94,7 @@ def direct(pairs: set[tuple[str, str]]) -> set[tuple[str, str]]:
 
 
 def draw() -> Figure:
-    """What each package builds on, left of it; what follows from other arrows is left out."""
+    """Packages that each one builds on, left of it; what follows from other arrows is left out."""
     pairs = arrows()
     depth = layers(pairs)
     place = {name: (1.5 * column, -_ROWS.get(name, 3.0)) for name, column in depth.items()}

@@ -10,7 +10,7 @@ LOADED = {"img": "src", "script": "src", "link": "href", "video": "src", "source
 
 
 class _Page(HTMLParser):
-    """What a page links to, what it loads, and the places in it that can be linked to."""
+    """Links of a page, files it loads, and the places in it that can be linked to."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -36,10 +36,10 @@ def _page(path: Path) -> _Page:
 
 def faults(folder: Path) -> list[str]:
     """One line for each link that leads nowhere, and for each file loaded from another host."""
-    found = []
+    lines = []
     for path in sorted(folder.rglob("*.html")):
         page, name = _page(path.resolve()), path.relative_to(folder)
-        found += [f"{name} loads {url}" for url in page.loaded
+        lines += [f"{name} loads {url}" for url in page.loaded
                   if urlsplit(url).netloc or urlsplit(url).scheme in ("http", "https")]  # fmt: skip
         for url in {*page.links, *page.loaded}:
             parts = urlsplit(url)
@@ -48,7 +48,7 @@ def faults(folder: Path) -> list[str]:
             target = path.parent / unquote(parts.path) if parts.path else path
             target = (target / "index.html" if target.is_dir() else target).resolve()
             if not target.is_file():
-                found.append(f"{name} links to {url}, which is not there")
+                lines.append(f"{name} links to {url}, which is not there")
             elif target.suffix == ".html" and unquote(parts.fragment) not in _page(target).places:
-                found.append(f"{name} links to {url}, which has no such place")
-    return found
+                lines.append(f"{name} links to {url}, which has no such place")
+    return lines

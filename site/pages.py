@@ -54,8 +54,8 @@ def _title(path: Path) -> str:
     text = path.read_text("utf-8")
     if path.suffix == ".ipynb":
         return re.sub(r"^#+ ", "", json.loads(text)["cells"][0]["source"][0]).strip()
-    found = re.match(r'"""(.*?)[.:\n"]', text) or re.match(r"# *(.*?)[.:\n]", text)
-    return found[1] if found else path.name
+    title = re.match(r'"""(.*?)[.:\n"]', text) or re.match(r"# *(.*?)[.:\n]", text)
+    return title[1] if title else path.name
 
 
 def _write(stage: Path, name: str, text: str) -> None:
@@ -69,7 +69,7 @@ def _write(stage: Path, name: str, text: str) -> None:
 
 
 def _link(stage: Path, page: str, link: re.Match[str]) -> str:
-    """The same link where all pages are gathered; its target is written too."""
+    """Link where all pages are gathered; its target is written too."""
     mark, words, target, anchor = link[1], link[2], link[3], link[4] or ""
     path = posixpath.normpath(posixpath.join(posixpath.dirname(page), target))
     source = TOP / path

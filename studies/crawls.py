@@ -82,10 +82,10 @@ def moved(
     """Displacement per cycle over L and speed [mm/s] of a gait; NaN where it fell or rocked."""
     scene = Scene(quadruped(), replace(gait, ramp_time=ramp), surface, friction=law, cycles=cycles)
     walk = simulate(scene, numerics)
-    found = measure(walk)
-    if found is None or walk.contacts[walk.start :].min() < _FEET:
+    measures = measure(walk)
+    if measures is None or walk.contacts[walk.start :].min() < _FEET:
         return float("nan"), float("nan")
-    return found.displacement, 1e3 * found.speed
+    return measures.displacement, 1e3 * measures.speed
 
 
 def main() -> None:
@@ -100,8 +100,8 @@ def main() -> None:
     columns = f"reference | {RAMPS[0]:g} s, finer | {heads}"
     print(f"| ground | gait | {columns} |\n|---|---" + "|---" * (2 + len(RAMPS)) + "|")
     for surface, law in GROUNDS:
-        found = {gait: abs(moved(gait, surface, law, 1.0, _SEARCH, 1)[0]) for gait in crawls()}
-        best = max(found, key=lambda gait: np.nan_to_num(found[gait]))
+        shifts = {gait: abs(moved(gait, surface, law, 1.0, _SEARCH, 1)[0]) for gait in crawls()}
+        best = max(shifts, key=lambda gait: np.nan_to_num(shifts[gait]))
         for gait in (best, undulation("wave")):
             print(row(gait, surface, law), flush=True)
 

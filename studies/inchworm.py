@@ -42,7 +42,7 @@ SPOKEN = (1, 6, 9, 10, 11)  # Hz, at which the run's own words are printed
 
 @dataclass(frozen=True)
 class Values:
-    """What is not published.
+    """Values that are not published.
 
     Attributes:
         rigidity: [N m^2].
@@ -110,7 +110,7 @@ class Case(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """How it went.
+    """Outcome of a walk.
 
     Attributes:
         status: of the walk.
@@ -169,7 +169,7 @@ def walk(case: Case) -> Outcome:
 
 
 def outcome(walked: Trajectory) -> Outcome:
-    """How a walk went, by the second half of its cycles."""
+    """Outcome of a walk, by the second half of its cycles."""
     numbers = measure(walked)
     if numbers is None:
         return Outcome(str(walked.status), math.nan, math.nan, math.nan)
@@ -181,23 +181,25 @@ def outcome(walked: Trajectory) -> Outcome:
 
 def rows(path: Path) -> dict[Case, Outcome]:
     """Outcomes of all cases, those of the table first; each is written there as it comes."""
-    known: dict[Case, Outcome] = {}
+    outcomes: dict[Case, Outcome] = {}
     if path.exists():
         with path.open(newline="", encoding="utf-8") as file:
             for row in csv.DictReader(file):
                 value, frequency, links, *more = (float(row[key]) for key in Case._fields[1:])
                 case = Case(row["varied"], value, frequency, int(links), *more)
-                known[case] = Outcome(row["status"], *(float(row[k]) for k in Outcome._fields[1:]))
-    left = [case for case in cases() if case not in known]
+                outcomes[case] = Outcome(
+                    row["status"], *(float(row[k]) for k in Outcome._fields[1:])
+                )
+    left = [case for case in cases() if case not in outcomes]
     with path.open("a", newline="", encoding="utf-8") as file, ProcessPoolExecutor() as pool:
         writer = csv.writer(file)
-        if not known:
+        if not outcomes:
             writer.writerow([*Case._fields, *Outcome._fields])
         for case, outcome in zip(left, pool.map(walk, left), strict=True):
-            known[case] = outcome
+            outcomes[case] = outcome
             writer.writerow([*case, *outcome])
             file.flush()
-    return known
+    return outcomes
 
 
 def turn(by_frequency: dict[float, Outcome]) -> tuple[float, float] | None:
@@ -212,19 +214,19 @@ def turn(by_frequency: dict[float, Outcome]) -> tuple[float, float] | None:
     return None
 
 
-def table(known: dict[Case, Outcome]) -> list[str]:
+def table(outcomes: dict[Case, Outcome]) -> list[str]:
     """A line per set of values: distances per cycle over L, and where it turns."""
     lines = ["| | " + " | ".join(f"{f:g} Hz" for f in FREQUENCIES) + " | turns at |",
              "|---" * (len(FREQUENCIES) + 2) + "|"]  # fmt: skip
-    for words, chosen in _sets(known).items():
+    for words, chosen in _sets(outcomes).items():
         cells = [_cell(chosen.get(frequency)) for frequency in FREQUENCIES]
-        found = turn(chosen)
-        at = f"{found[0]:g} to {found[1]:g} Hz" if found else "-"
+        range_of_turn = turn(chosen)
+        at = f"{range_of_turn[0]:g} to {range_of_turn[1]:g} Hz" if range_of_turn else "-"
         lines.append(f"| {words} | " + " | ".join(cells) + f" | {at} |")
     return lines
 
 
-def _sets(known: dict[Case, Outcome]) -> dict[str, dict[float, Outcome]]:
+def _sets(outcomes: dict[Case, Outcome]) -> dict[str, dict[float, Outcome]]:
     """Outcomes by frequency, under the words of what differs from the base."""
     sets: dict[str, dict[float, Outcome]] = {}
     for case in cases():
@@ -234,7 +236,7 @@ def _sets(known: dict[Case, Outcome]) -> dict[str, dict[float, Outcome]]:
             words = f"inertia over {case.lighter * case.slower**2:g}"
         else:
             words = f"{case.varied} {case.value:g}" if case.varied in VARIED else "base"
-        sets.setdefault(words, {})[case.frequency] = known[case]
+        sets.setdefault(words, {})[case.frequency] = outcomes[case]
     return sets
 
 
@@ -245,7 +247,7 @@ def _cell(outcome: Outcome | None) -> str:
 
 
 def said(frequency: float) -> str:
-    """What a run of the base says of itself, hops as low as runs allow by default."""
+    """Notes of a run of the base, hops as low as runs allow by default."""
     numerics = Numerics(12, 5e-4, damping_time=BASE.damping)
     walked = simulate(scene(BASE, frequency, cycles=max(8, math.ceil(1.5 * frequency))), numerics)
     row = record(walked)
@@ -255,12 +257,12 @@ def said(frequency: float) -> str:
     return f"{frequency:g} Hz: {numbers}{row['status']} ({'; '.join(notes)})"
 
 
-def draw(known: dict[Case, Outcome], theory: float, path: Path) -> None:
+def draw(outcomes: dict[Case, Outcome], theory: float, path: Path) -> None:
     """Distance over frequency: the base, less inertia, finer numerics, and other values."""
     plt.rcParams.update(FONT)
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.8), sharey=True,
                                          layout="constrained")  # fmt: skip
-    sets = _sets(known)
+    sets = _sets(outcomes)
     base = sorted(sets["base"].items())
     for axes in (left, right):
         axes.errorbar([f for f, _ in base], [o.distance for _, o in base],
@@ -295,11 +297,11 @@ def _line(axes: Axes, outcomes: dict[float, Outcome], words: str, color: str, ma
 
 def main() -> None:
     """Walk all, print a table and a run's words, and draw."""
-    known = rows(Path(sys.argv[2]))
+    outcomes = rows(Path(sys.argv[2]))
     theory = float(reference(scene(BASE, 1.0)).displacement[0])
-    print(*table(known), sep="\n")
+    print(*table(outcomes), sep="\n")
     print(f"quasi-static {theory:+.4f}")
-    draw(known, theory, Path(sys.argv[1]))
+    draw(outcomes, theory, Path(sys.argv[1]))
     for frequency in SPOKEN:
         print(said(frequency), flush=True)
 

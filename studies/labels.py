@@ -54,7 +54,7 @@ def _filled(corners: Array) -> Array:
 
 
 def _hidden(box: Bbox, marks: Array, taken: list[Bbox], inside: Bbox) -> float:
-    """How much a name in a box would hide: marks, names, and what lies outside the panel."""
+    """Amount that a name in a box would hide: marks, names, and what lies outside the panel."""
     if not (inside.contains(box.x0, box.y0) and inside.contains(box.x1, box.y1)):
         return np.inf
     near = box.padded(_NEAR)

@@ -79,7 +79,7 @@ def loop(width: float, share: float, seed: int) -> tuple[Array, Array]:
 
 
 def lines() -> Iterator[str]:
-    """What docs/muscles.md says."""
+    """Sentences of docs/muscles.md."""
     for law in LAWS:
         errors = np.array([without_top_third(*points, law)[1] for points in layouts().values()])
         counts = " / ".join(f"{(errors <= limit).sum()}" for limit in WITHIN)
@@ -100,8 +100,8 @@ def lines() -> Iterator[str]:
            f"and by {np.abs(bends - bends.mean(axis=0)).max():.1f} from their mean")  # fmt: skip
     for size, width, share in LOOPS:
         loops = [Bench("loop", *loop(width, share, seed), "1") for seed in range(_SEEDS)]
-        found = [fit_actuator([bench]) for bench in loops]
-        one = [fit for fit in found if len(fit.play) == 1]
+        loop_fits = [fit_actuator([bench]) for bench in loops]
+        one = [fit for fit in loop_fits if len(fit.play) == 1]
         inside = [all(number.interval[0] <= true <= number.interval[1]
                       for number, true in ((fit.numbers[2], width), (fit.numbers[3], share))
                       if number.interval) for fit in one]  # fmt: skip

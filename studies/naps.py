@@ -60,9 +60,9 @@ def neutral(surface: Surface, distance: object) -> float | None:
     ends = [distance(surface, ratio) for ratio in (RATIOS[0], RATIOS[-1])]
     if ends[0] * ends[1] > 0:
         return None
-    found = brentq(lambda log: distance(surface, np.exp(log)), np.log(RATIOS[0]),
+    log_ratio = brentq(lambda log: distance(surface, np.exp(log)), np.log(RATIOS[0]),
                    np.log(RATIOS[-1]), xtol=1e-3)  # fmt: skip
-    return float(np.exp(found))
+    return float(np.exp(log_ratio))
 
 
 def main() -> None:

@@ -88,7 +88,7 @@ def scene() -> Figure:
 
 
 def columns() -> Figure:
-    """What the columns of a run measure on the strip."""
+    """Sketch of what the columns of a run measure on the strip."""
     walk = simulate(Scene(ground=SURFACES["felt"]))
     figure, (axes,) = _figure(8, 2.4, 1)
     begin = _shape(axes, walk, 0.0)
@@ -207,11 +207,11 @@ def unsure() -> Figure:
 def gaits() -> Figure:
     """The wave and a gait that was found for gelatin, and how far each goes."""
     path = TOP / "examples" / "gaits" / "gelatin_forward.toml"
-    found = build({"gait": {"file": str(path)}})[0].gait
+    best = build({"gait": {"file": str(path)}})[0].gait
     figure, (wave, other, far) = _figure(10, 2.4, 3)
     far.axhline(0, color="0.6", lw=0.8)
     for place, (axes, gait, title) in enumerate(((wave, GAITS["wave"], "wave"),
-                                                 (other, found, "found for gelatin"))):  # fmt: skip
+                                                 (other, best, "found for gelatin"))):  # fmt: skip
         _pressures(axes, gait, ("left", "middle", "right"))
         axes.set_title(title)
         for row, (name, surface) in enumerate(SURFACES.items()):

@@ -24,9 +24,9 @@ os.environ[gl.VARIABLE] = BACKEND or gl.NONE
 
 @pytest.fixture
 def forgets(monkeypatch):
-    """What a test registers is forgotten after it."""
-    for known in (LAWS, registry.BODIES):
-        monkeypatch.setattr(known, "_registered", known.registered)
+    """Forget after a test what it registers."""
+    for names in (LAWS, registry.BODIES):
+        monkeypatch.setattr(names, "_registered", names.registered)
 
 
 @pytest.fixture

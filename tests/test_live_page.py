@@ -41,9 +41,9 @@ def test_the_models_of_the_page_are_those_that_mjsim_steps(robot, law):
                  "tendon_invweight0", "tendon_solref_fri", "tendon_solimp_fri"):  # fmt: skip
         np.testing.assert_array_equal(getattr(model, name), getattr(expected, name), err_msg=name)
     pads = written["pads"]  # on a strip there are things to look at besides
-    own = [expected.geom(model.geom(pad).name).id for pad in pads]
+    geoms = [expected.geom(model.geom(pad).name).id for pad in pads]
     for name in ("geom_size", "geom_pos", "geom_solref", "geom_solimp", "geom_condim"):
-        ours, theirs = getattr(model, name)[pads], getattr(expected, name)[own]
+        ours, theirs = getattr(model, name)[pads], getattr(expected, name)[geoms]
         np.testing.assert_array_equal(ours, theirs, err_msg=name)
     for name in ("timestep", "tolerance", "integrator", "cone", "impratio", "disableflags"):
         assert getattr(model.opt, name) == getattr(expected.opt, name), name

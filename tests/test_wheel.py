@@ -1,6 +1,7 @@
 """What is installed from the wheel is whole: the models ship inside."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -12,10 +13,13 @@ TOP = Path(__file__).resolve().parent.parent
 
 @pytest.mark.slow
 def test_the_wheel_installs_in_a_clean_environment_and_runs_elsewhere(tmp_path):
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+
     def call(*words, **options):
         return subprocess.run(
-            [str(word) for word in words], check=True, capture_output=True, text=True, **options
-        )
+            [str(word) for word in words], check=True, capture_output=True, text=True,
+            env=environment, **options,
+        )  # fmt: skip
 
     call(sys.executable, "-m", "build", "--wheel", "--outdir", tmp_path / "dist", TOP)
     (wheel,) = (tmp_path / "dist").glob("*.whl")

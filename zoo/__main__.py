@@ -17,7 +17,7 @@ ROBOTS = tuple(sorted(path.parent.name for path in HERE.glob("*/measured.csv")))
 
 
 def model(robot: str) -> ModuleType:
-    """What predicts a robot: the module `model` of its folder."""
+    """Predictor of a robot: the module `model` of its folder."""
     return import_module(f"zoo.{robot}.model")
 
 
@@ -35,14 +35,14 @@ def main(argv: Sequence[str] | None = None) -> list[Row]:
     for robot in options.robots:
         if robot not in ROBOTS:
             parser.error(f"no robot {robot!r}; there are {', '.join(ROBOTS)}")
-    found = []
+    all_rows: list[Row] = []
     for robot in options.robots or ROBOTS:
         here = walk(robot)
         if options.draw:
             getattr(model(robot), "draw", draw)(here, HERE / robot / "picture.png")
-        found += here
-    print(*table(found), sep="\n")
-    return found
+        all_rows += here
+    print(*table(all_rows), sep="\n")
+    return all_rows
 
 
 if __name__ == "__main__":

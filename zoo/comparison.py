@@ -1,4 +1,4 @@
-"""What was measured of a robot beside what is predicted: rows, a table and a picture."""
+"""Measurements of a robot beside predictions: rows, a table and a picture."""
 
 import csv
 import math
@@ -72,12 +72,12 @@ def rows(folder: Path, predicted: Mapping[str, Predicted]) -> list[Row]:
                 row["source"]) for row in measured]  # fmt: skip
 
 
-def table(found: Sequence[Row]) -> list[str]:
+def table(rows: Sequence[Row]) -> list[str]:
     """Lines of a table for people, in Markdown."""
     head = ("robot", "quantity", "unit", "measured", "±", "predicted", "±", "difference")
     cells = [(row.robot, row.quantity, row.unit, f"{row.measured:.3g}",
               _error(row.measured_error), f"{row.predicted:.3g}", _error(row.predicted_error),
-              f"{row.difference:+.2g}") for row in found]  # fmt: skip
+              f"{row.difference:+.2g}") for row in rows]  # fmt: skip
     wide = [max(len(line[k]) for line in (head, *cells)) for k in range(len(head))]
     lines = [" | ".join(cell.ljust(w) for cell, w in zip(line, wide, strict=True))
              for line in (head, *cells)]  # fmt: skip
@@ -89,17 +89,17 @@ def _error(value: float) -> str:
     return "" if math.isnan(value) else f"{value:.2g}"
 
 
-def draw(found: Sequence[Row], path: Path) -> None:
+def draw(rows: Sequence[Row], path: Path) -> None:
     """Draw the rows of a robot, measured beside predicted with both error bars, a panel a unit."""
-    units = list(dict.fromkeys(row.unit for row in found))
+    units = list(dict.fromkeys(row.unit for row in rows))
     with mpl.rc_context(FONT):
-        figure = Figure(figsize=(max(4.5, 2.2 + 0.55 * len(found)), 3.6), layout="constrained",
+        figure = Figure(figsize=(max(4.5, 2.2 + 0.55 * len(rows)), 3.6), layout="constrained",
                         dpi=110)  # fmt: skip
-        counts = [sum(row.unit == unit for row in found) for unit in units]
+        counts = [sum(row.unit == unit for row in rows) for unit in units]
         panels = figure.subplots(1, len(units), squeeze=False,
                                  gridspec_kw={"width_ratios": counts})[0]  # fmt: skip
         for axes, unit in zip(panels, units, strict=True):
-            here = [row for row in found if row.unit == unit]
+            here = [row for row in rows if row.unit == unit]
             for shift, name, marker in ((-0.12, "measured", "s"), (0.12, "predicted", "o")):
                 errors = [getattr(row, f"{name}_error") for row in here]
                 axes.errorbar(

@@ -1,4 +1,4 @@
-"""By how much one more measurement narrows what is known: the information matrix."""
+"""Narrowing of what is known by one more measurement: the information matrix."""
 
 from typing import NamedTuple
 

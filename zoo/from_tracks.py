@@ -40,7 +40,7 @@ _WIDE = float(stats.t.ppf(0.975, FOLDS - 1))  # standard errors of a 95 % interv
 
 
 class Shown(NamedTuple):
-    """How a fitted number is shown: in words, with a unit, as a function of it."""
+    """Words for a fitted number, with a unit, as a function of it."""
 
     words: str
     unit: str
@@ -60,19 +60,19 @@ NUMBERS = (
 
 def fitted(folder: Path) -> tuple[Array, Array]:
     """Numbers fitted to all transitions of the tours, (7,), and with parts left out, (8, 7)."""
-    found = runs(folder)
-    fold = folds_of(found)
-    values = fit(FORM, found, np.arange(len(fold)), np.array(START))
-    return values, np.array([fit(FORM, found, np.flatnonzero(fold != k), values)
+    tours = runs(folder)
+    fold = folds_of(tours)
+    values = fit(FORM, tours, np.arange(len(fold)), np.array(START))
+    return values, np.array([fit(FORM, tours, np.flatnonzero(fold != k), values)
                              for k in range(FOLDS)])  # fmt: skip
 
 
 def beside(folder: Path, values: Array, left_out: Array) -> list[Row]:
     """Distance and turn of each gait, predicted by the numbers, beside what its track shows."""
     walked = []
-    for known in gaits():
-        motion = gait(folder, known.name)
-        walked.append(Gait(known.name, known.states, len(motion), motion.mean(axis=0),
+    for gait_of_hub in gaits():
+        motion = gait(folder, gait_of_hub.name)
+        walked.append(Gait(gait_of_hub.name, gait_of_hub.states, len(motion), motion.mean(axis=0),
                            motion.std(axis=0, ddof=1)))  # fmt: skip
     rows, asked = [], (("distance", "cm"), ("turn", "deg"))
     for one, mean, error in zip(walked, *measured_cycles(walked), strict=True):
@@ -111,12 +111,12 @@ def deciding(values: Array, left_out: Array) -> list[tuple[str, str]]:
     after = {one.name: error(narrowed(spread, decide.slopes(one.value, at), one.error))
              for one in decide.MEASUREMENTS}  # fmt: skip
     best = sorted(after, key=lambda name: after[name])[:_BEST]
-    return [(name, f"{found:.3f} cm") for name, found in
+    return [(name, f"{left_error:.3f} cm") for name, left_error in
             (("none", error(spread)), *((name, after[name]) for name in best))]  # fmt: skip
 
 
 def page(
-    known: Sequence[tuple[str, ...]], rows: Sequence[Row], next_: Sequence[tuple[str, str]],
+    fitted: Sequence[tuple[str, ...]], rows: Sequence[Row], next_: Sequence[tuple[str, str]],
     picture: bytes,
 ) -> str:  # fmt: skip
     """HTML that needs nothing beside it."""
@@ -127,7 +127,7 @@ def page(
         "<meta name='viewport' content='width=device-width, initial-scale=1'>",
         f"<title>Four limbs around a hub</title><style>{_STYLE.read_text('utf-8')}</style></head>",
         "<body><h1>Four limbs around a hub</h1>", f"<p class='note'>{escape(SOURCE)}</p>",
-        "<h2>Fitted to single transitions</h2>", _table(("", "value", "95 %", "unit"), known),
+        "<h2>Fitted to single transitions</h2>", _table(("", "value", "95 %", "unit"), fitted),
         "<h2>Gaits that the fit has not seen</h2>",
         _table(("a cycle", "predicted", "measured", "unit"), walked),
         "<p class='note'>Both ± are 95 %. Those of predictions hold what the fit does not know, "
@@ -178,11 +178,11 @@ def main(folder: Path, out: Path) -> list[tuple[str, dict[str, Any]]]:
         rows = beside(folder, values, left_out)
     except (ValueError, KeyError, OSError) as error:
         fail("from_tracks", str(error))
-    known = numbers(values, left_out)
+    shown = numbers(values, left_out)
     print(*(f"{words}: {value} ({between}) {unit}".rstrip() for words, value, between, unit
-            in known), sep="\n")  # fmt: skip
+            in shown), sep="\n")  # fmt: skip
     draw(rows, out / "gaits.png")
-    told = page(known, rows, deciding(values, left_out), (out / "gaits.png").read_bytes())
+    told = page(shown, rows, deciding(values, left_out), (out / "gaits.png").read_bytes())
     files = {"page.html": told, **scenes(Lagged(*values))}
     for name, text in files.items():
         with whole(out / name) as part:

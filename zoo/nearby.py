@@ -1,4 +1,4 @@
-"""What would decide on a robot that nobody fitted: walks of scenes near the one that is known.
+"""Measurements that decide on a robot that nobody fitted: walks of scenes near the one known.
 
 Logarithms of inputs are spread by their errors, those that a source states or, where it states
 none, assumed ones. Straight lines through what walks show (least squares) are the slopes over that
@@ -96,12 +96,12 @@ def walk(study: Study, count: int) -> None:
     """Walk scenes near the known one, and write the table."""
     inputs = spread(study, count)
     with ProcessPoolExecutor() as pool:
-        found = list(pool.map(study.walk, np.exp(inputs)))
+        walks = list(pool.map(study.walk, np.exp(inputs)))
     with study.table.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow([*(one.name for one in study.inputs), *(q.name for q in study.quantities)])
         writer.writerows([[f"{x:.5g}" for x in (*np.exp(row), *shown)]
-                          for row, shown in zip(inputs, found, strict=True)])  # fmt: skip
+                          for row, shown in zip(inputs, walks, strict=True)])  # fmt: skip
 
 
 def walked(study: Study) -> tuple[Array, Array]:
@@ -115,35 +115,37 @@ def walked(study: Study) -> tuple[Array, Array]:
 def lines(inputs: Array, quantities: Array) -> Lines:
     """Straight lines through quantities (N, K) over inputs (N, F), by least squares."""
     columns = np.column_stack([np.ones(len(inputs)), inputs])
-    found, *_ = np.linalg.lstsq(columns, quantities, rcond=None)
-    beside = quantities - columns @ found
+    coefficients, *_ = np.linalg.lstsq(columns, quantities, rcond=None)
+    beside = quantities - columns @ coefficients
     missed = beside.T @ beside / (len(inputs) - columns.shape[1])
-    return Lines(found[0], np.column_stack([found[1:].T, np.eye(len(missed))]), missed)
+    return Lines(
+        coefficients[0], np.column_stack([coefficients[1:].T, np.eye(len(missed))]), missed
+    )
 
 
-def measurements(study: Study, found: Lines) -> list[Measurement]:
-    """What could be measured: each input, and each quantity that has an accuracy."""
-    unit = np.eye(found.slope.shape[1])
+def measurements(study: Study, near: Lines) -> list[Measurement]:
+    """Quantities that could be measured: each input, and each quantity that has an accuracy."""
+    unit = np.eye(near.slope.shape[1])
     ones = [Measurement(f"{one.name}, ± {one.accuracy:.0%}", unit[k], one.accuracy)
             for k, one in enumerate(study.inputs)]  # fmt: skip
     return ones + [
         Measurement(f"{one.name}, ± {one.accuracy:g} {one.unit}", slope, one.accuracy)
-        for one, slope in zip(study.quantities, found.slope, strict=True)
+        for one, slope in zip(study.quantities, near.slope, strict=True)
         if one.accuracy is not None
     ]
 
 
-def known(study: Study, found: Lines) -> Array:
+def known(study: Study, near: Lines) -> Array:
     """Covariance of logarithms of inputs and of what lines miss, (F + K, F + K)."""
-    return block_diag(np.diag([one.error**2 for one in study.inputs]), found.missed)
+    return block_diag(np.diag([one.error**2 for one in study.inputs]), near.missed)
 
 
-def left(study: Study, found: Lines, measured: Sequence[Measurement] = ()) -> Array:
+def left(study: Study, near: Lines, measured: Sequence[Measurement] = ()) -> Array:
     """Standard errors of the predicted quantities after measurements, (P,)."""
-    covariance = known(study, found)
+    covariance = known(study, near)
     for one in measured:
         covariance = narrowed(covariance, one.slope, one.error)
-    return errors(covariance, found.slope[[one.predicted for one in study.quantities]])
+    return errors(covariance, near.slope[[one.predicted for one in study.quantities]])
 
 
 def tell(study: Study, others: Mapping[str, float]) -> None:
@@ -153,20 +155,20 @@ def tell(study: Study, others: Mapping[str, float]) -> None:
         study: walks near a scene.
         others: what another model or a source says, by name of the quantity.
     """
-    found = lines(*walked(study))
+    near = lines(*walked(study))
     asked = [k for k, one in enumerate(study.quantities) if one.predicted]
-    before = left(study, found)
+    before = left(study, near)
     print("| measurement | " + " | ".join(study.quantities[k].name for k in asked) + " |")
     print("|---" * (len(asked) + 1) + "|")
     rows = [("none", before), *sorted(
-        ((one.name, left(study, found, [one])) for one in measurements(study, found)),
+        ((one.name, left(study, near, [one])) for one in measurements(study, near)),
         key=lambda row: float(np.mean(row[1] / before)))]  # fmt: skip
-    rows.append(("all inputs, exactly", np.sqrt(np.diag(found.missed))[asked]))
+    rows.append(("all inputs, exactly", np.sqrt(np.diag(near.missed))[asked]))
     for name, after in rows:
         cells = (f"{x:.2g} {study.quantities[k].unit}" for x, k in zip(after, asked, strict=True))
         print(f"| {name} | " + " | ".join(cells) + " |")
-    unsure = errors(known(study, found), found.slope)
-    for one, value, error in zip(study.quantities, found.value, unsure, strict=True):
+    unsure = errors(known(study, near), near.slope)
+    for one, value, error in zip(study.quantities, near.value, unsure, strict=True):
         if one.name in others:
             other = others[one.name]
             print(f"{one.name}: {value:.3g} ± {error:.2g} {one.unit} for {other:.3g}, "

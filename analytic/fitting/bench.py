@@ -14,7 +14,7 @@ _FEW = 8  # samples whose differences do not tell of noise
 
 
 class Bench(NamedTuple):
-    """What a bench measured, in order of time.
+    """Readings of a bench, in order of time.
 
     Attributes:
         name: of the file, for messages.

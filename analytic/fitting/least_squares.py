@@ -79,9 +79,9 @@ class Data(NamedTuple):
         step = float(parts[1])
         least = float(parts[np.argmin([criterion(part) for part in parts.tolist()])])
         around = max(least - step, 0.0), least + step
-        found = optimize.minimize_scalar(criterion, bounds=around, method="bounded")
-        start = float(found.x) * self.highest
-        return self._replace(start=start) if criterion(0.0) - found.fun > BETTER else self
+        minimum = optimize.minimize_scalar(criterion, bounds=around, method="bounded")
+        start = float(minimum.x) * self.highest
+        return self._replace(start=start) if criterion(0.0) - minimum.fun > BETTER else self
 
     def with_plays(self, law: LawName, plays: int | None) -> Solution:
         """The best fit with so many plays, or as many as the data need."""
@@ -132,10 +132,10 @@ class Data(NamedTuple):
                 lambda point: self.model(law, plays, point) - target, begin, bounds=(low, high),
                 x_scale="jac", diff_step=1e-5,
             )  # fmt: skip
-            found = Solution(law, plays, solution.x, solution.jac, solution.fun,
+            candidate = Solution(law, plays, solution.x, solution.jac, solution.fun,
                               solution.active_mask == 0)  # fmt: skip
-            if best is None or found.criterion < best.criterion:
-                best = found
+            if best is None or candidate.criterion < best.criterion:
+                best = candidate
         assert best is not None
         return best
 

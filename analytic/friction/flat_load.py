@@ -95,7 +95,7 @@ class FlatLoad:
     """
 
     def __init__(self, strip: Robot, press: float = 0.0, normal: float = 1.0) -> None:
-        self._length, own = strip.length, normal * strip.weight_per_length + press
+        self._length, line_load = strip.length, normal * strip.weight_per_length + press
         stretches, self._points = [], []
         for payload in strip.carried:
             begin, end = (part * strip.length for part in payload.stretch)
@@ -107,7 +107,7 @@ class FlatLoad:
         edges = sorted({0.0, *(s for s, _ in self._points), *(s for part in stretches
                                                              for s in part[:2])})  # fmt: skip
         self.weights = [
-            (edge, own + sum(w for begin, end, w in stretches if begin <= edge < end))
+            (edge, line_load + sum(w for begin, end, w in stretches if begin <= edge < end))
             for edge in edges if edge < strip.length
         ]  # fmt: skip
         self.from_begin, self.from_end = self._from(0.0, 1), self._from(strip.length, -1)

@@ -1,6 +1,6 @@
 """Feet: stretches of a strip or limb that resist otherwise than its skin does."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from itertools import pairwise
 from typing import Any
@@ -8,6 +8,8 @@ from typing import Any
 from analytic.checks import is_number, not_negative, one_of
 from analytic.fields import in_si, records
 from analytic.scene.surface import Way, by_way
+
+_PLACE = ("begin", "end", "chamber")  # keys of a foot that tell where and when it acts
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,16 @@ class Foot:
     chamber: str | None = None
     """name of a chamber that switches it on: by its pressure over the peak it is between bare skin
     and foot; always on if not given"""
+
+    @classmethod
+    def check_keys(cls, keys: Collection[str], where: str = "") -> None:
+        """Raise ValueError for the keys of a table that names nothing that a foot does."""
+        does = [field.name for field in fields(cls) if field.name not in _PLACE]
+        if not set(does) & set(keys):
+            raise ValueError(
+                f"{where}a foot must say what it does: give {', '.join(does[:-1])} or {does[-1]}, "
+                f"got {', '.join(keys)} alone"
+            )
 
     def __post_init__(self) -> None:
         in_si(self)

@@ -88,13 +88,13 @@ class Gait:
         return math.fsum(self.ramp_times)
 
     def reversed(self) -> "Gait":
-        """The same stages in reverse order."""
+        """Gait of the same stages in reverse order."""
         times = self.ramp_time
         backward = times[::-1] if isinstance(times, tuple) else times
         return Gait(f"{self.name}-reversed", self.stages[::-1], backward, self.repeats)
 
     def dips(self) -> bool:
-        """Whether a segment is ever inflated less than one on either side of it.
+        """Tell whether a segment is ever inflated less than one on either side of it.
 
         Then the strip may come down to the ground between its ends.
         """
@@ -104,7 +104,7 @@ class Gait:
         return bool((fractions[:, 1:-1] < np.minimum(before, after)).any())
 
     def lingers(self) -> bool:
-        """Whether an end stays hardly inflated while another segment changes by half the peak.
+        """Tell whether an end stays nearly empty while another segment changes by half the peak.
 
         Then the strip may lie flat behind that end.
         """
@@ -118,7 +118,7 @@ class Gait:
         return False
 
     def between(self) -> bool:
-        """Whether the strip may touch the ground between its ends, as its gait has it."""
+        """Tell whether the gait may bring the strip to the ground between its ends."""
         return self.dips() or self.lingers()
 
     def pressures(self, states_per_ramp: int, cycles: int = 1) -> Array:

@@ -113,7 +113,7 @@ class LimbedRobot:
         return outline(self)[0]
 
     def place(self, name: str) -> int:
-        """Of a limb among them."""
+        """Index of a limb among them."""
         one_of("limb", name, self.names)
         return self.names.index(name)
 
@@ -125,12 +125,12 @@ class LimbedRobot:
 
     @property
     def weight(self) -> float:
-        """Of all limbs and what they carry [N]."""
+        """Weight of all limbs and what they carry [N]."""
         return sum(limb.strip.weight for limb in self.limbs)
 
     @property
     def payload_mass(self) -> float:
-        """Of all that its limbs carry [kg]."""
+        """Mass of all that its limbs carry [kg]."""
         return sum(limb.strip.payload_mass for limb in self.limbs)
 
 
@@ -202,7 +202,7 @@ def depth_first(robot: LimbedRobot, name: str | None = None) -> list[str]:
 
 
 def plan(robot: LimbedRobot) -> dict[str, tuple[Array, Array]]:
-    """Where the middle line of each limb begins and ends, lying flat, by its name, (2,) [m]."""
+    """Both ends of the middle line of each limb, lying flat, by its name, (2,) [m]."""
     ends: dict[str, tuple[Array, Array]] = {}
     for limb in robot.limbs:
         begin = np.zeros(2)

@@ -56,7 +56,7 @@ class Payload:
 
     @property
     def stretch(self) -> tuple[float, float]:
-        """Where it begins and ends [1]; the same of a point."""
+        """Begin and end over the length [1]; a point's are the same."""
         return self.begin, self.begin if self.end is None else self.end
 
 

@@ -163,7 +163,7 @@ class Robot:
 
     @property
     def borders(self) -> tuple[float, ...]:
-        """Where segments begin and end, both ends of the strip included, over its length [1]."""
+        """Borders of segments, both ends of the strip included, over its length [1]."""
         total = sum(self.segments)
         inner = accumulate(self.segments[:-1])
         return (0.0, *(end / total for end in inner), 1.0)
@@ -181,7 +181,7 @@ class Robot:
 
     @property
     def weight(self) -> float:
-        """Of the whole robot and what it carries [N]."""
+        """Weight of the robot and what it carries [N]."""
         return self.weight_per_length * self.length + GRAVITY * self.payload_mass
 
     @property
@@ -193,5 +193,5 @@ class Robot:
 
     @property
     def payload_mass(self) -> float:
-        """Of all that it carries [kg]."""
+        """Mass of all that it carries [kg]."""
         return sum(payload.mass for payload in self.carried)

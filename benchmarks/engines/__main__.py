@@ -34,7 +34,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     tasks = list(TASKS) if options.task == "all" else [options.task]
     names = {"all": list(ENGINES), "none": []}.get(options.engine, [options.engine])
     for name in names:
-        measure(name, tasks, options.rows, {known.key for known in rows})
+        measure(name, tasks, options.rows, {row.key for row in rows})
     rows = read(options.rows)
     for task in tasks:
         print(f"\n{table(rows, task)}")
@@ -47,7 +47,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     return 0
 
 
-def measure(name: str, tasks: Sequence[str], path: Path, known: set) -> None:
+def measure(name: str, tasks: Sequence[str], path: Path, measured_keys: set) -> None:
     """Append the rows of an engine that a table lacks, or say how to install it."""
     engine = ENGINES[name]
     try:
@@ -57,7 +57,7 @@ def measure(name: str, tasks: Sequence[str], path: Path, known: set) -> None:
         return
     for task in (TASKS[task] for task in tasks):
         for links, timestep, worlds in engine.ladder(task):
-            if (task.name, name, links, timestep, worlds) in known:
+            if (task.name, name, links, timestep, worlds) in measured_keys:
                 continue
             made = row(task, name, engine.package, links, timestep, worlds,
                        walk(task, links, timestep, worlds))  # fmt: skip

@@ -89,8 +89,8 @@ def _built(task: Task, elements: int, timestep: float):
             upright = RigidTransform(RollPitchYaw(np.pi / 2, 0, 0), [0, 0, PAD])  # x, z and pitch
             ground = plant.AddFrame(FixedOffsetFrame("plane", plant.world_frame(), upright))
             turned = RigidTransform(RollPitchYaw(np.pi / 2, 0, 0), np.zeros(3))
-            own = plant.AddFrame(FixedOffsetFrame("turned", body.body_frame(), turned))
-            plant.AddJoint(PlanarJoint("free", ground, own, [0, 0, 0]))
+            plane = plant.AddFrame(FixedOffsetFrame("turned", body.body_frame(), turned))
+            plant.AddJoint(PlanarJoint("free", ground, plane, [0, 0, 0]))
         else:
             plant.SetDefaultFloatingBaseBodyPose(body, RigidTransform([0, 0, PAD]))
         for k, (x, y, grip) in enumerate(link.pads):

@@ -18,7 +18,7 @@ LOOKS = 2000  # steps between looks at whether it diverged
 
 
 class System(ea.BaseSystemCollection, ea.Constraints, ea.Forcing, ea.Damping):
-    """What acts on a rod."""
+    """Forces on a rod."""
 
 
 @njit

@@ -15,8 +15,8 @@ def table(rows: list[Row], task: str) -> str:
     bounds = [bound for bound in BOUNDS if bound >= TASKS[task].doubt]  # as the answer is known
     heads = [f"within {100 * bound:g} %" for bound in bounds]
     lines = [f"| {task} | worlds | {' | '.join(heads)} |", "|---|---|" + "---|" * len(heads)]
-    known = [*ENGINES, *dict.fromkeys(row.engine for row in rows if row.engine not in ENGINES)]
-    for engine in known:
+    engines = [*ENGINES, *dict.fromkeys(row.engine for row in rows if row.engine not in ENGINES)]
+    for engine in engines:
         among = [row for row in rows if (row.task, row.engine) == (task, engine)]
         for worlds in sorted({row.worlds for row in among}):
             cells = [_cell(best(among, task, engine, worlds, bound)) for bound in bounds]

@@ -51,7 +51,7 @@ class Row:
 
     @property
     def key(self) -> tuple[str, str, int, float, int]:
-        """What tells a setting from others."""
+        """Key that tells a setting from others."""
         return self.task, self.engine, self.links, self.timestep, self.worlds
 
     @property

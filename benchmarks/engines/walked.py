@@ -1,4 +1,4 @@
-"""What an engine's function gives back, and its stopwatch."""
+"""Result of an engine's function, and its stopwatch."""
 
 import time
 from collections.abc import Callable

@@ -106,7 +106,7 @@ class Chain:
         x, y = (self.strip.length * place for place in self.places(state.q))
         gaps = [0.0, *(y[a + 1 : b].max(initial=0.0) for a, b in pairwise(pushed))]
         runs = np.split(pushed, np.flatnonzero(np.array(gaps) > self.strip.roughness))
-        found = []
+        contacts = []
         for run in runs:
             push = state.force[run]
             share = push / push.sum()
@@ -126,11 +126,11 @@ class Chain:
             if run[0] == 0 or run[-1] == self.links:
                 start = 0.0 if run[0] == 0 else 1.0 - part
             bounds = self.strip.shod(bound, start, start + part, self.pressure) / self.unit
-            found.append(Contact(run, share, length, bounds[0], self.strip.back * bounds[1]))
-        return found
+            contacts.append(Contact(run, share, length, bounds[0], self.strip.back * bounds[1]))
+        return contacts
 
     def _passive(self, run: NDArray[np.int_]) -> bool:
-        """Whether a run is of an end that does not arch between its nodes, for lack of pressure."""
+        """Tell whether a run is of an end too little inflated to arch between its nodes."""
         return bool((run[0] == 0 and self.rest[0] == 0) or
                     (run[-1] == self.links and self.rest[-1] == 0))  # fmt: skip
 
@@ -234,10 +234,10 @@ class Chain:
                 return None
             free, response = solution[:, 0], solution[:, 1:]
             gap = share @ x - at + shift @ free[place]
-            found = friction(gap, shift @ response[place], bound, slips, ratio)
-            if found is None:
+            balance = friction(gap, shift @ response[place], bound, slips, ratio)
+            if balance is None:
                 return None
-            pull, whole, slips = found
+            pull, whole, slips = balance
             move = free - response @ pull
             if not np.abs(move[place]).max() < 1.5:
                 return None

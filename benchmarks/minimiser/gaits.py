@@ -157,17 +157,17 @@ def theory(scene: dict[str, Any]) -> tuple[float, float, str]:
 def row(seed: int) -> Row:
     scene = tables(seed)
     ahead, bar, flags = theory(scene)
-    found = [math.nan, math.nan]
+    distances = [math.nan, math.nan]
     try:
         for i, links in enumerate((COARSE, LINKS) if seed >= NAP else (LINKS, FINER)):
-            found[i] = by_minimiser(
+            distances[i] = by_minimiser(
                 scene, links, 2 * links // 3 if seed >= NAP else STATES
             ).by_cycle[-1]
-            if alike(ahead, found[i]):
+            if alike(ahead, distances[i]):
                 break
     except NoMinimumError:
         pass
-    return Row(seed, ahead, bar, *found, flags)
+    return Row(seed, ahead, bar, *distances, flags)
 
 
 def read() -> dict[int, Row]:
@@ -180,13 +180,13 @@ def read() -> dict[int, Row]:
         }
 
 
-def write(found: Row) -> None:
+def write(result: Row) -> None:
     new = not ROWS.is_file()
     with ROWS.open("a", newline="") as file:
         writer = csv.writer(file)
         if new:
             writer.writerow(Row._fields)
-        writer.writerow([found.seed, *(f"{value:.6f}" for value in found[1:5]), found.flags])
+        writer.writerow([result.seed, *(f"{value:.6f}" for value in result[1:5]), result.flags])
 
 
 def main(words: list[str]) -> None:
@@ -198,8 +198,8 @@ def main(words: list[str]) -> None:
             ahead, bar, flags = theory(tables(seed))
             rows[seed] = old._replace(theory=ahead, bar=bar, flags=flags)
         ROWS.unlink()
-        for found in rows.values():
-            write(found)
+        for result in rows.values():
+            write(result)
     for seed in seeds:
         if seed in rows:
             continue
@@ -208,14 +208,14 @@ def main(words: list[str]) -> None:
         write(rows[seed])
         print(f"{rows[seed]} {time.time() - begin:.0f} s", flush=True)
     chosen = [rows[seed] for seed in seeds]
-    at_once = [found for found in chosen if alike(found.theory, found.minimiser)]
-    off = [found for found in chosen if not found.agrees]
+    at_once = [result for result in chosen if alike(result.theory, result.minimiser)]
+    off = [result for result in chosen if not result.agrees]
     agree = len(seeds) - len(off)
     print(f"{len(at_once)} of {len(seeds)} agree with {LINKS} links, {agree} in all")
-    for found in off:
+    for result in off:
         print(
-            f"  seed {found.seed}: {found.theory:+.5f} ± {found.bar:.5f}, minimiser "
-            f"{found.minimiser:+.5f}, with finer links {found.finer:+.5f} {found.flags}"
+            f"  seed {result.seed}: {result.theory:+.5f} ± {result.bar:.5f}, minimiser "
+            f"{result.minimiser:+.5f}, with finer links {result.finer:+.5f} {result.flags}"
         )
 
 

@@ -28,15 +28,15 @@ def both(payload: tuple[Payload, ...], ground: str, states: int = 40) -> tuple[f
     )  # fmt: skip
     least = walk(strip, np.array(gait.stages), robot.peak_pressure, states, 1, 48)
     friction = Friction(tension=1.0, contacts="all")
-    found = predict(robot, gait, surface, Elastica(60), friction=friction)
-    return float(least.by_cycle[0]), found.locomotion.per_cycle / robot.length
+    theory = predict(robot, gait, surface, Elastica(60), friction=friction)
+    return float(least.by_cycle[0]), theory.locomotion.per_cycle / robot.length
 
 
 def main() -> None:
     for name, payload in PAYLOADS.items():
         for ground in SURFACES:
-            least, found = both(payload, ground)
-            print(f"{name:36} {ground:14} minimiser {least:+.4f}, elastica {found:+.4f}")
+            least, theory = both(payload, ground)
+            print(f"{name:36} {ground:14} minimiser {least:+.4f}, elastica {theory:+.4f}")
 
 
 if __name__ == "__main__":

@@ -142,5 +142,5 @@ def walk(scene, links, timestep):
         height = max(abs(left[2] - HALF), abs(right[2] - HALF)) / robot.length
         return Walked(moved if step == steps - 1 else np.nan, height, took)
 
-    found, timing = repeated(go, scene.duration, lambda walked: walked.spent)
-    return found, timing
+    walked_strip, timing = repeated(go, scene.duration, lambda walked: walked.spent)
+    return walked_strip, timing

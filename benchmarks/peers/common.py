@@ -1,4 +1,4 @@
-"""What the peers' runners share: the cases, the rest of the gait at its knots, the way to time."""
+"""Parts that the peers' runners share: cases, rest angles at the gait's knots, the stopwatch."""
 
 from typing import NamedTuple
 

@@ -20,7 +20,7 @@ LOOKS = 2000  # steps between looks at whether it diverged
 
 
 class System(ea.BaseSystemCollection, ea.Constraints, ea.Forcing, ea.Damping):
-    """What acts on a rod."""
+    """Forces on a rod."""
 
 
 def _rod(robot, n, length, start):
@@ -125,5 +125,5 @@ def walk(scene, links, timestep):
         ends = np.abs(place[2, [0, -1]]).max() / robot.length
         return Walked((place[0, 0] - begin) / robot.length, ends, took)
 
-    found, timing = repeated(go, scene.duration, lambda walked: walked.spent)
-    return found, timing
+    walked_strip, timing = repeated(go, scene.duration, lambda walked: walked.spent)
+    return walked_strip, timing

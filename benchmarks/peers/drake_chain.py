@@ -56,7 +56,7 @@ def settle(links, timestep):
     spring = pneunet.base_rigidity(robot) / h
     builder, plant = new_plant(timestep)
     world = plant.world_frame()
-    last, _ = _chain(plant, robot, [h] * links, [spring] * (links - 1), DAMPING,
+    tip_body, _ = _chain(plant, robot, [h] * links, [spring] * (links - 1), DAMPING,
                      lambda body: plant.WeldFrames(
                          world, body.body_frame(), RigidTransform([-h / 2, 0, 0])))  # fmt: skip
     finalize(plant)
@@ -67,7 +67,7 @@ def settle(links, timestep):
         simulator, mine = start(diagram, plant)
         spent = stopwatch()
         simulator.AdvanceTo(DURATION)
-        return plant.EvalBodyPoseInWorld(mine, last).multiply([h, 0, 0]), spent()
+        return plant.EvalBodyPoseInWorld(mine, tip_body).multiply([h, 0, 0]), spent()
 
     (tip, _), timing = repeated(go, DURATION, lambda result: result[1])
     return (tip[0] / robot.length, tip[2] / robot.length), timing
@@ -89,12 +89,12 @@ def walk(scene, links, timestep):
         )
         plant.AddJoint(PlanarJoint("base", at, end))
 
-    last, bodies = _chain(plant, robot, lengths, springs[0], Numerics.damping_time, free)
+    tip_body, bodies = _chain(plant, robot, lengths, springs[0], Numerics.damping_time, free)
     tip, side = scene.ground.tip_friction, scene.ground.friction
     add_ground(plant, max(tip, side), timestep)
     for i, body in enumerate(bodies):
         add_pad(plant, body, 0.0, tip if i == 0 else side, timestep)
-    add_pad(plant, last, lengths[-1], tip, timestep)
+    add_pad(plant, tip_body, lengths[-1], tip, timestep)
     finalize(plant)
     times, rest = knots(scene, lambda p: joint_springs(robot, links, p, scene.chamber)[1])
     diagram = follow(builder, plant, times, rest)
@@ -107,11 +107,11 @@ def walk(scene, links, timestep):
         simulator.AdvanceTo(scene.duration)
         took = spent()
         x, z = plant.GetPositions(mine)[:2]
-        right = plant.EvalBodyPoseInWorld(mine, last).multiply([lengths[-1], 0, 0])
+        right = plant.EvalBodyPoseInWorld(mine, tip_body).multiply([lengths[-1], 0, 0])
         return Walked((x - begin) / robot.length, max(abs(z), abs(right[2])) / robot.length, took)
 
-    found, timing = repeated(go, scene.duration, lambda walked: walked.spent)
-    return found, timing
+    walked_strip, timing = repeated(go, scene.duration, lambda walked: walked.spent)
+    return walked_strip, timing
 
 
 def new_plant(timestep):

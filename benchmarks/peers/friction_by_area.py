@@ -101,7 +101,7 @@ class Model(Mechanics):
         return np.r_[scale * loaded / np.maximum(count, 1), np.zeros(len(bound) - vertices)]
 
     def patches(self, nodes: Array, a: float) -> Array:
-        """Of edges (2 V, ...) the middles of vertices and then of links, at a part of the width."""
+        """Middles of vertices and then of links, of edges (2 V, ...), at a part of the width."""
         half = len(nodes) // 2
         line = (1 - a) * nodes[:half] + a * nodes[half:]
         limbs = line.reshape(len(self.limbs), self.elements + 2, *line.shape[1:])

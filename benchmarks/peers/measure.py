@@ -48,12 +48,12 @@ def rows(seen):
                     setting = Setting(NAMES[name], n, timestep, peer.INTEGRATOR)
                     if (case, scene, setting) in seen:
                         continue
-                    found = run(peer, setting)
-                    print(case, found.method, n, timestep, f"{found.value:.4g}",
-                          f"{found.error:.2g}", f"{found.cost:.3g}", found.status,
+                    row = run(peer, setting)
+                    print(case, row.method, n, timestep, f"{row.value:.4g}",
+                          f"{row.error:.2g}", f"{row.cost:.3g}", row.status,
                           flush=True)  # fmt: skip
                     commit = origin()["commit"] or ""
-                    yield replace(found, machine=machine(), versions=made, commit=commit)
+                    yield replace(row, machine=machine(), versions=made, commit=commit)
 
 
 def settled(peer, setting):
@@ -68,12 +68,12 @@ def settled(peer, setting):
 def walked(peer, setting):
     """A strip that is nowhere, or has an end in the air, does not walk."""
     scene = benchmark_cases.scene_of(benchmark_cases.COULOMB, GROUND)
-    found, timing = peer.walk(scene, setting.links, setting.timestep)
-    status = "ok" if found.height < FAR else "toppled"
-    if not (math.isfinite(found.displacement) and math.isfinite(found.height)):
+    walk, timing = peer.walk(scene, setting.links, setting.timestep)
+    status = "ok" if walk.height < FAR else "toppled"
+    if not (math.isfinite(walk.displacement) and math.isfinite(walk.height)):
         status = "diverged"
     return benchmark_cases.walked(
-        benchmark_cases.COULOMB, GROUND, setting, found.displacement, timing, status
+        benchmark_cases.COULOMB, GROUND, setting, walk.displacement, timing, status
     )
 
 
@@ -81,5 +81,5 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rows", type=Path, default=MEASURED, help="the chart's table")
     path = parser.parse_args().rows
-    for _ in append(rows({known.key for known in read(path)}), path):
+    for _ in append(rows({row.key for row in read(path)}), path):
         pass

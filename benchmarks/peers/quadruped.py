@@ -115,8 +115,8 @@ def main():
         for left in (1.0, 0.7):
             gait = replace(undulation("wave", left=left), ramp_time=RAMP)
             for timestep in STEPS:
-                found = walked(gait, ELEMENTS, timestep)
-                row = [left, ELEMENTS, timestep, *(f"{value:.4g}" for value in found)]
+                moves = walked(gait, ELEMENTS, timestep)
+                row = [left, ELEMENTS, timestep, *(f"{value:.4g}" for value in moves)]
                 table.writerow(row)
                 file.flush()
                 print(*row, flush=True)

@@ -180,10 +180,10 @@ def main(words: list[str]) -> int:
     record = words[:1] == ["--record"]
     words = words[1:] if record else words
     numbers = json.loads(NUMBERS.read_text()) if NUMBERS.is_file() else {}
-    lines, count, known = [], 0, set()
+    lines, count, names = [], 0, set()
     for cases, result in FAMILIES.values():
         for name, case in cases():
-            known.add(name)
+            names.add(name)
             named = any(word in name for word in words)
             if record and (named or name not in numbers):
                 numbers[name] = recorded(result, case)
@@ -196,12 +196,12 @@ def main(words: list[str]) -> int:
                     rows = before.get(kind, {}), now.get(kind, {})
                     lines += differences(f"{name}, {kind}", *rows, bound)
     if not record:
-        lost = [name for name in numbers if name not in known]
-        new = [name for name in known if name not in numbers]
+        lost = [name for name in numbers if name not in names]
+        new = [name for name in names if name not in numbers]
         lines += [f"{name}: recorded, but no scene" for name in lost]
         lines += [f"{name}: a scene, but not recorded" for name in new]
         lines += [f"no scene has {word!r} in its name" for word in words
-                  if not any(word in name for name in known)]  # fmt: skip
+                  if not any(word in name for name in names)]  # fmt: skip
     if record:
         NUMBERS.write_text(json.dumps(numbers, indent=1) + "\n")
     print(*lines, f"{count} scenes, {len(lines)} differences", sep="\n")

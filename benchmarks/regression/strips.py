@@ -40,14 +40,14 @@ def case(
     """One scene; the ground is {V_t, tau} over V0 = phi D0 / L^2, as the paper gives it."""
     backward = gait.endswith("-reversed")
     stages = [[float(c) for c in stage] for stage in STAGES[gait.removesuffix("-reversed")]]
-    own = {**ROBOT, **(robot or {})}
-    d0 = own["modulus"] * own["width"] * own["thickness"] ** 3 / 12
-    v0 = phi * d0 / own["length"] ** 2
+    dimensions = {**ROBOT, **(robot or {})}
+    d0 = dimensions["modulus"] * dimensions["width"] * dimensions["thickness"] ** 3 / 12
+    v0 = phi * d0 / dimensions["length"] ** 2
     tip, side = GROUNDS[ground] if isinstance(ground, str) else ground
-    area = own["width"] * own["length"] / len(own["segments"])
-    mu0 = v0 / (0.5 * own["weight_per_length"] * own["length"])
+    area = dimensions["width"] * dimensions["length"] / len(dimensions["segments"])
+    mu0 = v0 / (0.5 * dimensions["weight_per_length"] * dimensions["length"])
     return {
-        "model": model, "robot": own, "phi": phi, "friction": friction, "chamber": chamber,
+        "model": model, "robot": dimensions, "phi": phi, "friction": friction, "chamber": chamber,
         "stages": stages[::-1] if backward else stages, "ramp": ramp, "actuation": actuation,
         "ground": {"tip_force": tip * v0, "shear_strength": side * v0 / area,
                    "tip_friction": tip * mu0, "friction": side * mu0},

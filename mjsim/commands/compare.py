@@ -244,8 +244,8 @@ def _tables(options: Options) -> list[Tables]:
     return [merged(base, layer) for layer in layers]
 
 
-def _choice(option: str, text: str, known: Iterable[str], own: bool, key: str) -> list[Table]:
+def _choice(option: str, text: str, valid: Iterable[str], stated: bool, key: str) -> list[Table]:
     """Tables of what is named; for all of it, the scene's own alone if it has one."""
-    if text == ALL and (own or not known):
+    if text == ALL and (stated or not valid):
         return [{}]
-    return [{key: name} for name in choose(option, text, known)]
+    return [{key: name} for name in choose(option, text, valid)]

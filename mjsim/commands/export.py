@@ -67,7 +67,7 @@ def _named(tables: Tables) -> tuple[str, Scene, Numerics]:
 
 
 def _left_out(scene: Scene) -> Iterator[str]:
-    """What a scene has and its file has not."""
+    """Features that a scene has and its file has not."""
     if scene.valves != Valves():
         yield "chambers follow their commands at once, without the scene's valves"
 

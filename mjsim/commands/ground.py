@@ -85,22 +85,24 @@ def main(argv: Sequence[str] | None = None) -> int:
         shared = {name: getattr(options, name) or "" for name in (*SHARED, "way", "state")}
         tests = read_tests(options.data, shared, {"angle": options.angle, "force": options.force})
         tested = samples(tests.readings)
-        found = quantities(tested)
-        ground = report.ground_of(tested, found, options.name, options.nap, options.state or "")
+        coefficients = quantities(tested)
+        ground = report.ground_of(
+            tested, coefficients, options.name, options.nap, options.state or ""
+        )
         tables, strip = _scene(options.scene, ground)
         check_folder(options.out.parent)
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
-    lines = report.notes(tested, found, ground)
+    lines = report.notes(tested, coefficients, ground)
     if strip is not None:
         lines += report.loads(strip, ground)
     if tests.ignored:
         lines.append(f"columns that are not read: {', '.join(tests.ignored)}")
     law = tables["numerics"].get("friction", Scene.friction)
     film = report.film_command(ground, options.out, law)
-    rows = report.table(found)
+    rows = report.table(coefficients)
     if options.json:
-        record = report.record_of(tested, found)
+        record = report.record_of(tested, coefficients)
         told = {"law": ground.law or None, "ground": ground.fields, "notes": lines, "film": film}
         say(strict_json(record | told | {"file": str(options.out)}))
     else:

@@ -91,7 +91,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _unknown(walk: "Trajectory", text: str) -> "tuple[Spread, ...]":
-    """What is not known of a walk's scene."""
+    """Unknown fields of a walk's scene."""
     if not text:
         return ()
     from mjsim.files.scene_tables.written import as_tables

@@ -4,11 +4,13 @@ import math
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Optional
 
 from mjsim.files.command_line.cli import (
     FAILED,
+    LongWork,
     bar,
     fail,
     parse,
@@ -79,7 +81,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     walks: list[Trajectory] = []
     joint, end = None, None
     try:
-        _walk(options, tables, records, walks)
+        with LongWork(PROGRAM) as work:
+            _walk(options, tables, records, walks, work)
     except (ValueError, OSError, KeyboardInterrupt) as error:
         end = error  # of what was not done yet; what was done is printed first
     if records and not options.json:
@@ -108,9 +111,10 @@ def _smallest(options: Options, tables: list[Tables], tolerance: float) -> int:
     if options.uncertain:
         raise ValueError("uncertain is for runs without tolerance, got both")
     cases, rows = [build(table) for table in tables], []
-    with bar("asking models", len(cases)) as advance:
+    with bar("asking models", len(cases)) as advance, LongWork(PROGRAM) as work:
         for scene, numerics in cases:
-            rows.append(record(scene, smallest_sure(scene, tolerance, numerics)))
+            asks = partial(work.does, f"{scene.ground.name}, by")
+            rows.append(record(scene, smallest_sure(scene, tolerance, numerics, asks)))
             advance(1)
     if options.json:
         say(strict_json({"runs": rows} if len(rows) > 1 else rows[0]))
@@ -163,7 +167,7 @@ def _bodies(tables: list[Tables], tolerance: float | None) -> tuple[list[Tables]
 
 def _walk(
     options: Options, tables: list[Tables], records: list[dict[str, Any]],
-    walks: "list[Trajectory]",
+    walks: "list[Trajectory]", work: LongWork,
 ) -> None:  # fmt: skip
     """Simulate each scene and save its walk; add both to lists, that outlive an error.
 
@@ -183,6 +187,8 @@ def _walk(
     from mjsim.results.provenance import provenance
 
     for table, (scene, numerics), spreads in zip(tables, cases, unknown, strict=True):
+        if tolerance is not None:
+            work.does(f"simulating {scene.ground.name} ever finer until two walks agree")
         try:
             walk, note = _simulate(scene, numerics, tolerance)
         except KeyboardInterrupt as error:
@@ -198,6 +204,8 @@ def _walk(
                 walk.save(path, origin)
         except OSError as error:
             end = error
+        if tolerance is not None:
+            work.does(f"solving for the reference on {scene.ground.name}")
         row, stopped = _recorded(walk)
         if stopped:
             end = end or KeyboardInterrupt(f"the reference on {scene.ground.name} was stopped")
@@ -282,7 +290,7 @@ def _film(walks: "list[Trajectory]", records: list[dict[str, Any]], out: Path) -
 
 
 def _of_film(error: OSError | KeyboardInterrupt) -> OSError | KeyboardInterrupt:
-    """What ended the videos, in words."""
+    """Words on what ended the videos."""
     if isinstance(error, OSError):
         return OSError(f"a video cannot be written: {error}; --no-video makes none")
     return KeyboardInterrupt("undulator replay makes the video of a walk that is saved")

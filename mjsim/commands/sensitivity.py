@@ -1,4 +1,4 @@
-"""What a per cent of each field does to the distance: `undulator sensitivity`."""
+"""Effect of a per cent of each field on the distance: `undulator sensitivity`."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -54,7 +54,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     from mjsim.uncertainty.sensitivity import sensitivity, usual
 
     names = [name.strip() for name in options.fields.split(",") if name.strip()]
-    found: dict[str, Effects] = {}
+    by_surface: dict[str, Effects] = {}
     try:
         if options.out is not None:
             if options.out.suffix not in KINDS:
@@ -64,17 +64,17 @@ def main(argv: Sequence[str] | None = None) -> int:
         total = sum(len(names or usual(scene)) for scene, _ in scenes)
         with bar("comparing", total) as advance:
             for scene, numerics in scenes:
-                found[scene.ground.name] = sensitivity(scene, numerics, names, advance)
+                by_surface[scene.ground.name] = sensitivity(scene, numerics, names, advance)
         if options.out is not None:
             from mjsim.uncertainty.picture import draw
 
-            draw(found, options.out)
+            draw(by_surface, options.out)
     except (ValueError, OSError) as error:
         fail(PROGRAM, str(error))
     coast = {scene.ground.name: coasting(scene) for scene, _ in scenes}
     records = [{"surface": name, "distance_mm": 1e3 * effects.distance, "rows": _rows(effects),
                 "notes": [at.note] if (at := coast[name]) else []}
-               for name, effects in found.items()]  # fmt: skip
+               for name, effects in by_surface.items()]  # fmt: skip
     if options.json:
         say(strict_json({"scenes": records}))
     else:

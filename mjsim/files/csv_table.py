@@ -61,7 +61,7 @@ class CsvTable(NamedTuple):
     units: Mapping[str, float] = MappingProxyType({})
 
     def numbers(
-        self, column: int, unit: str, known: str, gaps: bool = False
+        self, column: int, unit: str, units: str, gaps: bool = False
     ) -> NDArray[np.float64]:
         """Numbers of a column in a unit, (n,).
 
@@ -86,7 +86,7 @@ class CsvTable(NamedTuple):
                 math.nan if gaps and cell.lower() in _EMPTY else self._number(line, head, cell)
                 for (line, _), cell in zip(self.rows, cells, strict=True)
             ])  # fmt: skip
-        return values * (1.0 if unit == "1" else self._factor(head, unit, known))
+        return values * (1.0 if unit == "1" else self._factor(head, unit, units))
 
     def _number(self, line: int, head: str, cell: str) -> float:
         try:
@@ -97,20 +97,20 @@ class CsvTable(NamedTuple):
             raise ValueError(f"{self.where}: line {line}: {head} must be a number, got {cell!r}")
         return value
 
-    def _factor(self, head: str, unit: str, known: str) -> float:
+    def _factor(self, head: str, unit: str, units: str) -> float:
         words = head_of(head).unit
-        own = self.units.get(words or head.strip().lower())
-        if own is not None:
-            return own
+        stated_unit = self.units.get(words or head.strip().lower())
+        if stated_unit is not None:
+            return stated_unit
         if not words:
             raise ValueError(
-                f"{self.where}: column {head!r} must name its unit, such as {known}, in brackets"
+                f"{self.where}: column {head!r} must name its unit, such as {units}, in brackets"
             )
         try:
             return in_unit(head, f"1 {words}", unit)
         except ValueError:
             raise ValueError(
-                f"{self.where}: column {head!r} must have a unit such as {known}"
+                f"{self.where}: column {head!r} must have a unit such as {units}"
             ) from None
 
 

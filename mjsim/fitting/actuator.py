@@ -59,7 +59,7 @@ class Fitted(NamedTuple):
 
     @property
     def scales(self) -> list[float]:
-        """How much more each file bends than the curve of all, as a factor."""
+        """Factor by which each file bends more than the curve of all."""
         at = np.linspace(0.0, min(fit.reached for fit in self.each), _GRID)
         curve = self.fit.bend(at)
         return [float(fit.bend(at) @ curve / (curve @ curve)) for fit in self.each]
@@ -104,18 +104,20 @@ def _lengths(robot: Robot | LimbedRobot) -> list[float | None]:
             for begin, end in zip(robot.borders, robot.borders[1:], strict=False)]  # fmt: skip
 
 
-def _fitted(name: str, files: Sequence[BenchFile], zero: Zero, own: float | None) -> Fitted:
-    lengths = {(file.length or own) if file.angle else None for file in files}
+def _fitted(
+    name: str, files: Sequence[BenchFile], zero: Zero, stated_length: float | None
+) -> Fitted:
+    lengths = {(file.length or stated_length) if file.angle else None for file in files}
     alike = len(lengths) == 1
     (length, *_) = lengths
     benches = tuple(
         Bench(file.path.name, file.pressure, *(
-            (file.bend, file.unit) if alike else (file.curvature(own), "1/m")
+            (file.bend, file.unit) if alike else (file.curvature(stated_length), "1/m")
         ))
         for file in files
     )  # fmt: skip
     if alike and files[0].angle:
-        files[0].curvature(own)  # refuses angles of no length
+        files[0].curvature(stated_length)  # refuses angles of no length
     fit = fit_actuator(benches, zero)
     each = tuple(
         fit_actuator([bench], zero, len(fit.play), fit.law)

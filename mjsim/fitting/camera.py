@@ -10,7 +10,7 @@ FRAME, PIXEL = "frame", "px"
 
 
 class Camera(NamedTuple):
-    """What turns pixels and numbers of pictures into metres and seconds.
+    """Scales that turn pixels and numbers of pictures into metres and seconds.
 
     Attributes:
         pixel: size of a pixel on the robot [m]; None if it is not known.
@@ -40,15 +40,15 @@ class Camera(NamedTuple):
         Raises:
             ValueError: a column is of pixels or of pictures, and what one is is not known.
         """
-        found = {}
+        sizes = {}
         for head in heads:
             if _unit(head) == PIXEL:
-                found[PIXEL] = _known(self.pixel, f"{where}: column {head!r} needs --pixel, the "
+                sizes[PIXEL] = _known(self.pixel, f"{where}: column {head!r} needs --pixel, the "
                                       "size of a pixel, as 0.25mm")  # fmt: skip
             elif _unit(head) == FRAME:
-                found[FRAME] = 1 / _known(self.frame_rate, f"{where}: column {head!r} needs "
+                sizes[FRAME] = 1 / _known(self.frame_rate, f"{where}: column {head!r} needs "
                                           "--frame-rate, pictures per second, as 30")  # fmt: skip
-        return found
+        return sizes
 
 
 def _unit(head: str) -> str:

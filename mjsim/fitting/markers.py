@@ -43,7 +43,7 @@ class Chord(NamedTuple):
 
     @property
     def names(self) -> str:
-        """Of the file and of both markers."""
+        """Names of the file and of both markers."""
         return f"{self.first.name} and {self.second.name.partition(': ')[2]}"
 
 
@@ -101,7 +101,7 @@ def _scene(base: Tables, values: Mapping[str, float], chord: Chord) -> Scene:
 def film(
     series: Sequence[Series], model: Sequence[Array], base: Tables, values: Mapping[str, float]
 ) -> list[str]:
-    """What would be wrong with a film that a model cannot follow: its scale, or its clock.
+    """Notes on what may be wrong with a film that a model cannot follow: its scale, or its clock.
 
     Args:
         series: measurements.
@@ -114,21 +114,21 @@ def film(
     for chord in chords(series):
         walks.setdefault(chord.first.offset, []).append(chord)
     lines = []
-    for found in walks.values():
-        name = found[0].first.name.partition(":")[0]
-        period = _scene(base, values, found[0]).gait.period
-        seen = 1e3 * sum(chord.ahead[0] for chord in found)
+    for pairs in walks.values():
+        name = pairs[0].first.name.partition(":")[0]
+        period = _scene(base, values, pairs[0]).gait.period
+        seen = 1e3 * sum(chord.ahead[0] for chord in pairs)
         expected = 1e3 * sum(
             modelled[id(chord.second)][chord.rows[1][0]]
             - modelled[id(chord.first)][chord.rows[0][0]]
-            for chord in found
+            for chord in pairs
         )
         if seen > 0 and abs(expected / seen - 1) > _OFF:
             lines.append(
                 f"{name}: the outer markers begin {seen:.4g} mm apart, and the model's "
                 f"{expected:.4g} mm: is a pixel {expected / seen:.3g} times as large?"
             )
-        again = _repeats(found)
+        again = _repeats(pairs)
         if again and abs(again / period - 1) > _UNLIKE:
             lines.append(
                 f"{name}: the markers' distances repeat after {again:.2g} s, and the gait after "
@@ -137,11 +137,11 @@ def film(
     return lines
 
 
-def _repeats(found: Sequence[Chord]) -> float | None:
+def _repeats(pairs: Sequence[Chord]) -> float | None:
     """Time after which distances of markers are as they were [s]; None if none is clear."""
-    begin, end = max(c.time[0] for c in found), min(c.time[-1] for c in found)
+    begin, end = max(c.time[0] for c in pairs), min(c.time[-1] for c in pairs)
     time = np.linspace(begin, end, _SAMPLES)
-    each = [np.interp(time, chord.time, chord.ahead) for chord in found]
+    each = [np.interp(time, chord.time, chord.ahead) for chord in pairs]
     lags = np.arange(1, int(_LONGEST * _SAMPLES))
     alike = np.array([np.mean([_alike(one[lag:], one[:-lag]) for one in each]) for lag in lags])
     apart = np.flatnonzero(alike < 0)

@@ -1,4 +1,4 @@
-"""What the residuals of a fit say about its model: errors that are alike are not noise alone.
+"""Statements of the residuals of a fit about its model: errors that are alike are not noise alone.
 
 Least squares takes errors as independent. Where neighbours are alike, n numbers tell as much as
 n / (1 + 2 (r_1 + r_2 + ...)), with r_k the correlation of residuals k apart (Bayley and Hammersley

@@ -227,9 +227,9 @@ def _columns(table: CsvTable, names: list[str], marks: list[str]) -> tuple[str, 
     heads = _ALONG[abscissa]
     others = [name for name in names if name not in (abscissa, SURFACE, *marks)]
     places = {name: _PLACE.fullmatch(name) if abscissa == _TIME else None for name in others}
-    known = [name for name in others if places[name] or name in heads.split(", ")]
-    if not {*known} - {_SEGMENT}:
-        unknown = next((name for name in others if name not in known), "")
+    columns = [name for name in others if places[name] or name in heads.split(", ")]
+    if not {*columns} - {_SEGMENT}:
+        unknown = next((name for name in others if name not in columns), "")
         beside = "" if abscissa == RUN else f"beside {abscissa} "
         raise ValueError(
             f"{table.where}: column {unknown!r} is unknown; known {beside}are {heads}, surface, "
@@ -244,7 +244,7 @@ def _columns(table: CsvTable, names: list[str], marks: list[str]) -> tuple[str, 
     for name, place in places.items():
         if place and float(place.group(2)) > 1:
             raise ValueError(f"{table.where}: {name}: a place must be a part of the length, 0 to 1")
-    return abscissa, known
+    return abscissa, columns
 
 
 def _column(table: CsvTable, name: str, column: int) -> Any:

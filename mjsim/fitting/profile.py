@@ -71,13 +71,13 @@ def profiled(problem: Problem, point: Array, sensitivity: Array) -> Profiled:
         point: of a fit.
         sensitivity: of the model there.
     """
-    for last in [*[False] * _RESTARTS, True]:
+    for at_the_end in [*[False] * _RESTARTS, True]:
         errors = problem.errors_alone(sensitivity)
         if errors.max() > STEP:
             sensitivity = problem.sensitivity(point, errors)
         profile = _Profile(problem, point, sensitivity)
         try:
-            below, above = profile.sides(stop=not last)
+            below, above = profile.sides(stop=not at_the_end)
             break
         except _LowerCostError as lower:
             point, sensitivity = _anew(problem, profile.lowest(lower.point))

@@ -57,7 +57,7 @@ def doubts_of(fit: Estimate, base: Tables) -> Doubts:
 
 
 def remarks(fit: Estimate, doubts: Doubts) -> list[str]:
-    """What is worth knowing of numbers that are sure."""
+    """Notes on numbers that are sure."""
     lines = []
     if not doubts.open:
         pairs = pairs_of(enumerate(p.name for p in fit.parameters), 2)

@@ -142,7 +142,7 @@ def _load(quantity: Quantity) -> str:
 
 
 def notes(tested: Sequence[Sample], quantities: Sequence[Quantity], ground: Ground) -> list[str]:
-    """What the numbers do not say by themselves, a sentence each."""
+    """Notes on what the numbers do not say by themselves, a sentence each."""
     lines = [line for sample in tested for line in _verdict(sample)]
     if not any(sample.verdict for sample in tested):
         lines.append(

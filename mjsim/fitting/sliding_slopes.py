@@ -53,13 +53,13 @@ def slopes(columns: Array, values: Array) -> tuple[list[Estimate], float]:
     Returns:
         Estimates of k slopes, and the sum of squared residuals.
     """
-    found, *_ = np.linalg.lstsq(columns, values, rcond=None)
+    estimates, *_ = np.linalg.lstsq(columns, values, rcond=None)
     freedom = len(values) - columns.shape[1]
-    rest = float(np.sum((values - columns @ found) ** 2))
+    rest = float(np.sum((values - columns @ estimates) ** 2))
     variance = rest / freedom if freedom else math.nan
     inverse = np.linalg.inv(columns.T @ columns)
     errors = np.sqrt(variance * np.diag(inverse))
-    pairs = zip(found.tolist(), errors.tolist(), strict=True)
+    pairs = zip(estimates.tolist(), errors.tolist(), strict=True)
     return [Estimate(value, error, freedom) for value, error in pairs], rest
 
 
@@ -94,8 +94,8 @@ def scatters(columns: Array, values: Array) -> list[Array]:
         return [alike]
     grown = alike
     for _ in range(_ROUNDS):
-        found, _ = slopes(columns / grown[:, None], values / grown)
-        fitted = columns @ [slope.value for slope in found]
+        estimates, _ = slopes(columns / grown[:, None], values / grown)
+        fitted = columns @ [slope.value for slope in estimates]
         grown = np.maximum(fitted, _FLOOR * float(np.abs(fitted).max()))
 
     def unlikely(size: Array) -> float:

@@ -112,7 +112,7 @@ def read_tests(
 
 
 def _rows(table: CsvTable) -> tuple[list[dict[str, Any]], list[str]]:
-    """What each row says, without empty cells, and heads that are not read."""
+    """Content of each row, without empty cells, and heads that are not read."""
     rows: list[dict[str, Any]] = [{} for _ in table.rows]
     ignored: list[str] = []
     columns: list[str] = []

@@ -209,16 +209,18 @@ class Predictor:
         Args:
             values: of parameters, by name.
         """
-        known = all(series.quantity in ("displacement", "speed") for series in self.series)
-        if self.walk is not quasi_static or not known:
+        distances_alone = all(
+            series.quantity in ("displacement", "speed") for series in self.series
+        )
+        if self.walk is not quasi_static or not distances_alone:
             return None
         slopes: dict[Run, Array] = {}
         for run in self._runs():
             _, tables = self._tables(values, run)
-            found = distance_slopes(tables, list(values), run.surface, _STATES)
-            if found is None:
+            derivatives = distance_slopes(tables, list(values), run.surface, _STATES)
+            if derivatives is None:
                 return None
-            slopes[run] = np.array([*found.values(), build(tables)[0].gait.period])
+            slopes[run] = np.array([*derivatives.values(), build(tables)[0].gait.period])
             self.walks += 1
         return np.array([
             slopes[run][:-1] / (slopes[run][-1] if series.quantity == "speed" else 1.0)

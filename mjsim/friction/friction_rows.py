@@ -67,7 +67,7 @@ class FrictionRows:
     ) -> None:  # fmt: skip
         self._model, self._data, self._dt = model, data, model.opt.timestep
         self._tendons = [Tendons.of(model, *named) for named in zip(names, joints, strict=True)]
-        every = np.array([own.rows for own in self._tendons])
+        every = np.array([tendons.rows for tendons in self._tendons])
         self._qvel, self._applied = data.qvel, data.qfrc_applied
         self._origins, self._frames = data.xpos.reshape(-1), data.xmat.reshape(-1)  # of links
         self._frictionloss, self._damping = model.tendon_frictionloss, model.tendon_damping

@@ -99,7 +99,7 @@ class LimbFooting:
         self._look()
 
     def prepare(self, pressures: Array) -> list[tuple[list[list[int]], list[float]]]:
-        """How the ends of each limb bend at each step by its pressures, and these [Pa]."""
+        """Bends of the ends of each limb at each step by its pressures, and these [Pa]."""
         bends: list[list[list[int]]] = self._finder.bends(pressures).tolist()
         return list(zip(bends, pressures.tolist(), strict=True))
 

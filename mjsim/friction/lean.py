@@ -1,4 +1,4 @@
-"""By how much more contacts resist motion back than motion ahead, in MuJoCo.
+"""Excess of the resistance to motion back over that to motion ahead, in MuJoCo.
 
 MuJoCo's dry friction resists alike both ways. A contact that resists by V_a ahead and by V_b back
 is one that resists by their mean, and a constant force towards +x of half their difference: it

@@ -37,7 +37,7 @@ class Tendons(NamedTuple):
 
 
 class Layout(NamedTuple):
-    """Where the numbers of the points that touch are written and read.
+    """Places where the numbers of the points that touch are written and read.
 
     Attributes:
         kinds: of the points.
@@ -67,10 +67,10 @@ class Layout(NamedTuple):
     @classmethod
     def of(cls, kinds: list[Kind], tendons: list[Tendons], nv: int) -> "Layout":
         """The places for points that touch, by the tendons of all points."""
-        own = [tendons[number] for number, *_ in kinds]
+        touching = [tendons[number] for number, *_ in kinds]
         counts = [(bound or drag) * (ROWS if radius else ROWS - 1)
                   for _, bound, drag, radius in kinds]  # fmt: skip
-        rows = [mine.rows[:count] for mine, count in zip(own, counts, strict=True)]
+        rows = [mine.rows[:count] for mine, count in zip(touching, counts, strict=True)]
         across = _joined([each[1:] for each in rows])
         every = np.repeat(np.arange(len(kinds)), np.array(counts, dtype=int))  # of the rows
         in_order = sorted(
@@ -82,10 +82,12 @@ class Layout(NamedTuple):
         first = np.cumsum([0, *counts])
         return cls(
             kinds, _joined(rows),
-            _joined([mine.coefficients[:count] for mine, count in zip(own, counts, strict=True)]),
+            _joined([
+                mine.coefficients[:count] for mine, count in zip(touching, counts, strict=True)
+            ]),
             _joined([
                 nv * (begin + np.arange(count))[:, None] + mine.dofs
-                for mine, begin, count in zip(own, first, counts, strict=False)
+                for mine, begin, count in zip(touching, first, counts, strict=False)
             ]),
             np.concatenate([every, np.arange(len(kinds))]), mujoco.mjNREF * across,
             np.concatenate([mujoco.mjNIMP * across + end for end in (0, 1)]),

@@ -267,8 +267,8 @@ class ContactFriction(StripFriction):
         """Set how much more each node resists back than ahead, by its load in the step before."""
         assert self._lean
         force, _ = self._forces.by_node()
-        last = len(force) - 1
-        on_side = {0: sides[0], last: sides[1]}
+        right_node = len(force) - 1
+        on_side = {0: sides[0], right_node: sides[1]}
         for node, (push, tendon) in enumerate(zip(force, self._node_tendons, strict=True)):
             half = 0.0
             if push > 0.0:

@@ -187,7 +187,7 @@ class Objective:
     def sure_at(
         self, contacts: Contacts, robot: AnyRobot, gait: Gait, surfaces: Sequence[Surface]
     ) -> list[float]:
-        """As `sure`, with friction at some contacts."""
+        """Sure displacements, see `sure`, with friction at some contacts."""
         try:
             scene = replace(self.scene, robot=robot, gait=gait, contacts=contacts)
         except ValueError:  # a gait at which the strip would close into a circle

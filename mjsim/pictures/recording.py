@@ -59,7 +59,7 @@ def film(
         bands = [Path(folder) / f"{i}.mp4" if joint else None for i in range(len(walks))]
         # their files are this process's, which removes them if it ends the others
         each = [unfinished.enter_context(ExitStack()) for _ in paths]
-        parts = [own.enter_context(whole(path)) for own, path in zip(each, paths, strict=True)]
+        parts = [files.enter_context(whole(path)) for files, path in zip(each, paths, strict=True)]
         played = gaits or [None] * len(walks)
         jobs = list(zip(walks, parts, bands, [until] * len(walks), played, strict=True))
         # never in this process, which may have imported mujoco without OpenGL
@@ -68,9 +68,9 @@ def film(
         with Pool(workers, context) as pool:
             futures = [pool.submit(_draw, *job) for job in jobs]
             try:
-                for future, own in zip(futures, each, strict=True):
+                for future, files in zip(futures, each, strict=True):
                     future.result()
-                    own.close()
+                    files.close()
             except BrokenProcessPool as error:
                 raise OSError("the process that drew it was killed") from error
         if joint:

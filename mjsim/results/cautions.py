@@ -137,8 +137,8 @@ def between_ends(scene: Scene) -> list[str]:
 
 def _coasting(scene: Scene) -> list[str]:
     """A note where nothing stops what a ramp has set moving, however slow."""
-    found = coasting(scene)
-    return [found.note] if found else []
+    coast = coasting(scene)
+    return [coast.note] if coast else []
 
 
 def _rough(scene: Scene, prediction: Prediction) -> list[str]:

@@ -1,4 +1,4 @@
-"""Whether anything brakes what slides one way: nothing does where contacts resist the other alone.
+"""Robots that nothing brakes: they slide one way, and contacts resist the other way alone.
 
 What a ramp has set moving is then not stopped, however slow the ramp.
 """
@@ -28,7 +28,7 @@ class Coasting(NamedTuple):
 
     @property
     def note(self) -> str:
-        """What is said of it beside a number."""
+        """Note beside a number."""
         if self.contacts == "tips":
             return f"nothing brakes tips that slide {self.way}: it coasts, at any speed"
         return (f"nothing brakes sides that slide {self.way}, nor tips: it coasts or stands still, "

@@ -23,7 +23,8 @@ def file_name(scene: Scene, numerics: Numerics) -> str:
     words += [w for w, d in ((scene.gait.name, gait.name), (scene.body, Scene.body),
                              (scene.friction, Scene.friction)) if w != d]  # fmt: skip
     named = [
-        for_robot(known, scene.robot) for known in (*GAITS.values(), *QUADRUPED_GAITS.values())
+        for_robot(named_gait, scene.robot)
+        for named_gait in (*GAITS.values(), *QUADRUPED_GAITS.values())
     ]
     usual = Scene(
         robot=quadruped() if scene.in_space else Robot(),

@@ -89,12 +89,12 @@ def reference(
     """
     if isinstance(scene.robot, LimbedRobot):
         numerics = resolved(scene, numerics)
-        found = _of_limbs(scene, scene.robot, numerics, finer, bent, path, times)
+        theory = _of_limbs(scene, scene.robot, numerics, finer, bent, path, times)
     else:
-        found = _of_strip(scene, finer, bent, path, times)
-    if clears(scene, found.height):
-        return found
-    return found._replace(displacement=np.full(2, math.nan), flags=(*found.flags, CEILING))
+        theory = _of_strip(scene, finer, bent, path, times)
+    if clears(scene, theory.height):
+        return theory
+    return theory._replace(displacement=np.full(2, math.nan), flags=(*theory.flags, CEILING))
 
 
 def clears(scene: Scene, height: float) -> bool:

@@ -162,7 +162,7 @@ class Trajectory:
         )
 
     def to_pandas(self) -> "pd.DataFrame":
-        """What has one number per time step, or one per chamber, as a table along time [s].
+        """Table along time [s] of what has one number per time step, or one per chamber.
 
         Columns are those of `dataset` without those along the body; pressures are named by their
         chambers, as pressure_left, and the units are in the attribute `units` of the table's attrs.

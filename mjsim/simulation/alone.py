@@ -67,7 +67,7 @@ def _follow(
 
 
 def measured(scene: Scene, numerics: Numerics | None = None) -> str:
-    """What a file of the scene goes in a cycle, in one line.
+    """Line on how far a file of the scene goes in a cycle.
 
     At RAMP_TIMES where the gait has ramps of one duration, else at its own times. Beside constant
     bounds that shoes carry stands what the bounds themselves give, since shoes know contact lengths

@@ -42,7 +42,7 @@ _DEGREE = 0.005  # of L, that a turn by a degree counts as; chosen
 
 
 class Moved(NamedTuple):
-    """How a robot moved in a cycle: ahead and aside over L, and its turn [degrees]."""
+    """Motion of a robot in a cycle: ahead and aside over L, and its turn [degrees]."""
 
     ahead: float
     aside: float
@@ -181,7 +181,7 @@ def _of_numerics(walk: Trajectory, moved: Moved, fine: Moved, finer: Resolved) -
 
 
 def _walked(scene: Scene, numerics: Resolved) -> Moved | Status | None:
-    """How it moved, or how it failed; None if the scene cannot be walked so."""
+    """Motion of a walk, or how it failed; None if the scene cannot be walked so."""
     walk = _simulated(scene, numerics)
     return _outcome(walk) if walk else None
 
@@ -228,8 +228,8 @@ def by_part(walk: Trajectory) -> tuple[Array, Array]:
 
 
 def _moved(walk: Trajectory) -> Moved | None:
-    found = measure(walk)
-    return found and Moved(found.displacement, found.aside, math.degrees(found.turn))
+    measures = measure(walk)
+    return measures and Moved(measures.displacement, measures.aside, math.degrees(measures.turn))
 
 
 def _words(numerics: Resolved) -> str:

@@ -67,7 +67,7 @@ class Tried(NamedTuple):
 
 @dataclass(frozen=True)
 class Answer:
-    """What was tried, the last one sure if any is.
+    """Models that were tried, the last one sure if any is.
 
     Attributes:
         tried: answers of the models, cheapest first.
@@ -78,13 +78,17 @@ class Answer:
     sure: bool
 
 
-def smallest_sure(scene: Scene, tolerance: float, numerics: Numerics | None = None) -> Answer:
+def smallest_sure(
+    scene: Scene, tolerance: float, numerics: Numerics | None = None,
+    asks: Callable[[str], None] | None = None,
+) -> Answer:  # fmt: skip
     """Answer of the smallest model that is sure.
 
     Args:
         scene: what walks.
         tolerance: of its displacement per cycle, relative, or 0.001 L.
         numerics: whose links a reference of limbs takes.
+        asks: called with the name of each model before that is asked.
 
     Raises:
         ValueError: no tolerance that was measured.
@@ -92,6 +96,8 @@ def smallest_sure(scene: Scene, tolerance: float, numerics: Numerics | None = No
     check_tolerance(tolerance)
     tried: list[Tried] = []
     for model, ask in _models(scene, tolerance, numerics):
+        if asks:
+            asks(model)
         began = time.perf_counter()
         try:
             shift, error, why = ask()
@@ -172,14 +178,14 @@ def _mujoco(scene: Scene, tolerance: float, numerics: Numerics | None) -> tuple[
 
 def record(scene: Scene, answer: Answer) -> dict[str, Any]:
     """Plain data of an answer; what does not exist is None."""
-    last = answer.tried[-1]
-    finite = math.isfinite(last.displacement)
+    final = answer.tried[-1]
+    finite = math.isfinite(final.displacement)
     return {
         "surface": scene.ground.name, "gait": scene.gait.name,
-        "direction": direction(last.displacement, 1.0, last.error) if answer.sure else None,
-        "displacement_over_L": last.displacement if finite else None,
-        "uncertainty_over_L": last.error if math.isfinite(last.error) else None,
-        "model": last.model, "sure": answer.sure, "why": last.why,
+        "direction": direction(final.displacement, 1.0, final.error) if answer.sure else None,
+        "displacement_over_L": final.displacement if finite else None,
+        "uncertainty_over_L": final.error if math.isfinite(final.error) else None,
+        "model": final.model, "sure": answer.sure, "why": final.why,
         "seconds": sum(tried.seconds for tried in answer.tried),
         "passed_over": [
             {"model": tried.model, "uncertainty_over_L": tried.error

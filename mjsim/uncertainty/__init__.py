@@ -1,1 +1,1 @@
-"""What is not known of a scene, and how sure its distance is for that."""
+"""Unknown fields of a scene, and the interval of its distance for that."""

@@ -47,7 +47,7 @@ class Spread(ABC):
     @property
     @abstractmethod
     def known(self) -> str:
-        """How well the fields are known, in words."""
+        """Words on how well the fields are known."""
 
     @abstractmethod
     def coordinates(self, chance: Array) -> Array:
@@ -88,7 +88,7 @@ class Within(Spread):
 
     @property
     def known(self) -> str:
-        """How well they are known, in words."""
+        """Words on how well they are known."""
         return f"{self.name} within {100 * self.part:.3g} %"
 
     def coordinates(self, chance: Array) -> Array:
@@ -134,7 +134,7 @@ class Fitted(Spread):
 
     @property
     def known(self) -> str:
-        """How well they are known, in words."""
+        """Words on how well they are known."""
         errors = np.linalg.norm(np.array(self.factor), axis=1)
         return ", ".join(f"{name} by a standard error of {100 * error:.3g} %"
                          for name, error in zip(self.names, errors, strict=True))  # fmt: skip

@@ -66,8 +66,8 @@ class Interval:
 
 def by_reference(tables: Tables, numerics: Numerics | None = None) -> float:
     """Distance over L of a scene by the reference at half its links and states."""
-    scene, own = build(tables)
-    return float(reference(scene, numerics or own, HALF).displacement[0])
+    scene, stated = build(tables)
+    return float(reference(scene, numerics or stated, HALF).displacement[0])
 
 
 def walks_for(spreads: Sequence[Spread]) -> int:
@@ -108,13 +108,13 @@ def distance_interval(
     distance = distance or by_reference
     chance = qmc.LatinHypercube(_axes(spreads), rng=np.random.default_rng(seed))
     places = _coordinates(spreads, chance.random(walks_for(spreads)))
-    own = distance(base) if centre is not None else 0.0
+    base_distance = distance(base) if centre is not None else 0.0
     walked = np.full(len(places), math.nan)
     for number, place in enumerate(places):
         with contextlib.suppress(ValueError):  # such a robot does not walk the gait
             walked[number] = distance(with_values(base, values_at(spreads, place)))
         advance(1)
-    return interval_of(spreads, places, walked + ((centre or 0.0) - own))
+    return interval_of(spreads, places, walked + ((centre or 0.0) - base_distance))
 
 
 def _straight(base: Tables, spreads: Sequence[Spread], centre: float | None) -> Interval | None:
@@ -127,10 +127,10 @@ def _straight(base: Tables, spreads: Sequence[Spread], centre: float | None) -> 
         walk = prediction(scene, gradient=names)
     except ValueError:  # a field that was turned into another one
         return None
-    own, length = displacement(scene, walk), scene.strip.length
+    shift, length = displacement(scene, walk), scene.strip.length
     by_field = {name: float(walk.gradient[name].value) / length for name in names}
     if _LENGTH in by_field:
-        by_field[_LENGTH] -= own / length
+        by_field[_LENGTH] -= shift / length
     slopes = np.concatenate([spread.slopes(by_field) for spread in spreads])
     if not np.isfinite(slopes).all():
         return None
@@ -145,7 +145,7 @@ def _straight(base: Tables, spreads: Sequence[Spread], centre: float | None) -> 
     errors = np.array([away[0] - away[1] - reach, 0.0, away[2] - away[1] + reach])
     if not np.abs(errors).max() <= max(_BENT * reach, _ROUNDING):
         return None
-    coefficients = np.concatenate([[own if centre is None else centre], slopes])
+    coefficients = np.concatenate([[shift if centre is None else centre], slopes])
     return _interval(spreads, coefficients, errors, None, 4, 0)
 
 

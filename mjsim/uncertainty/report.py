@@ -39,12 +39,12 @@ def record(interval: Interval) -> dict[str, Any]:
 
 
 def known(spreads: Sequence[Spread]) -> str:
-    """How well the fields are known, in one line."""
+    """Line on how well the fields are known."""
     return "Known: " + ", ".join(spread.known for spread in spreads) + "."
 
 
 def sentence(interval: Interval) -> str:
-    """What an interval says, in one line."""
+    """Line on an interval."""
     if not math.isfinite(interval.low):
         return f"none of {interval.walks} walks has a distance"
     words = [f"{interval.low:+.4f} to {interval.high:+.4f} L (95 %)"]

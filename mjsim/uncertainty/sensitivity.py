@@ -38,7 +38,7 @@ _GROUND = {
 
 
 class Effect(NamedTuple):
-    """What one per cent of a field does.
+    """Effect of one per cent of a field.
 
     Attributes:
         field: its name; of a stage its number and the chamber too.
@@ -120,10 +120,10 @@ def _differentiated(scene: Scene, names: Sequence[str]) -> tuple[Prediction | No
     if scene.in_space:
         return None, "there is no derivative yet for robots of limbs"
     walk = prediction(scene, gradient=names)
-    found = [walk.gradient[name] for name in names]
-    if any(np.isfinite(derivative.value).any() for derivative in found):
+    derivatives = [walk.gradient[name] for name in names]
+    if any(np.isfinite(derivative.value).any() for derivative in derivatives):
         return walk, ""
-    return None, found[0].reason
+    return None, derivatives[0].reason
 
 
 def _exact(scene: Scene, name: str, derivative: Derivative, distance: float) -> Iterable[Effect]:

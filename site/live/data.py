@@ -137,7 +137,7 @@ def _chambers(robot: Robot | LimbedRobot) -> list[str]:
 
 
 def _springs(strip: Robot, links: int) -> dict[str, Any]:
-    """What joint_springs makes the springs of a limb's hinges of."""
+    """Numbers of which joint_springs makes the springs of a limb's hinges."""
     overlap = segment_overlap(strip.borders, links) * element_lengths(strip, links)[:, None]
     return {
         "overlap": overlap.tolist(),
@@ -205,7 +205,7 @@ def _of_limbs(scene: Scene) -> dict[str, Any]:
     hinges = [_hinges(model, hinge_prefix(name), numerics) for name in robot.names]
     return written | {
         "pads": edges(pads_of(model, scene)).tolist(), "padRadius": numerics.pad_radius,
-        "twists": numerics.twists, **{key: [each for own in hinges for each in own[key]]
+        "twists": numerics.twists, **{key: [each for limb in hinges for each in limb[key]]
                                       for key in ("hinges", "angles")},
         "links": [[model.body(f"{link_prefix(name)}{i}").id for i in range(numerics.links + 1)]
                   for name in robot.names],

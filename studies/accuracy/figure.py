@@ -71,7 +71,7 @@ def _titled(lines: tuple[str, ...], width: int) -> str:
 
 
 def message(rows: pd.DataFrame) -> tuple[str, ...]:
-    """What a case shows: the cheapest method to the least goal, and what the others cost."""
+    """Statement of a case: the cheapest method to the least goal, and what the others cost."""
     goal = GOALS[-1]
     best = list(cheapest(rows, goal).itertuples())
     if not best:
@@ -121,7 +121,7 @@ def _draw_failures(axes: Axes, rows: pd.DataFrame, level: float) -> None:
 
 
 def _key(rows: pd.DataFrame) -> list[Line2D]:
-    """What marks of any colour mean."""
+    """Legend of marks of any colour."""
 
     def mark(label: str, **looks: Any) -> Line2D:
         return Line2D([], [], **{"ls": "none", "marker": "o", "color": "0.4", **looks}, label=label)

@@ -188,17 +188,17 @@ def test_laws_of_an_installed_package_are_known_by_name_and_imported_when_asked_
 ):
     package(tmp_path, {"firm": "firm:Firm", "gone": "firm:Gone", "other": "firm:Firm"})
     monkeypatch.syspath_prepend(tmp_path)
-    known = Registry("undulator.laws", {"constant": "analytic.friction.laws:ConstantBounds"})
-    assert list(known) == ["constant", "firm", "gone", "other"]
+    laws = Registry("undulator.laws", {"constant": "analytic.friction.laws:ConstantBounds"})
+    assert list(laws) == ["constant", "firm", "gone", "other"]
     assert "firm" not in sys.modules
-    assert known["firm"].name == "firm"
-    assert not known.registered
+    assert laws["firm"].name == "firm"
+    assert not laws.registered
     with pytest.raises(ValueError, match=r"entry point gone = 'firm:Gone' .* cannot be had"):
-        known["gone"]
+        laws["gone"]
     with pytest.raises(ValueError, match="must have that name, got 'firm'"):
-        known["other"]
+        laws["other"]
     with pytest.raises(KeyError):
-        known["no"]
+        laws["no"]
     del sys.modules["firm"]
 
 

@@ -65,26 +65,26 @@ def predicted(
 
 
 def went(walk: Trajectory) -> NDArray[np.float64]:
-    """How far a walk went in its last cycle, ahead and to the left of its trunk [m]."""
+    """Move of a walk in its last cycle, ahead and to the left of its trunk [m]."""
     one, two = walk.ends_of_cycles()[-2:].tolist()
     return walk.moved(one, two)
 
 
 def turned(walk: Trajectory) -> float:
-    """How far it turned to the left in that cycle [rad]."""
+    """Turn to the left in that cycle [rad]."""
     one, two = walk.ends_of_cycles()[-2:].tolist()
     return float(walk.heading[two] - walk.heading[one])
 
 
 def coarsen(monkeypatch: pytest.MonkeyPatch, links: int = 18, states: int = 10) -> None:
     """Make the references of records coarse: few links and states."""
-    values = {"_LINKS": links, "STATES": states, "LIMB_STATES": 8}
+    values = {"_LINKS": links, "_LINKS_A_SEGMENT": links // 3, "STATES": states, "LIMB_STATES": 8}
     for name, value in values.items():
         monkeypatch.setattr(prediction, name, value)
 
 
 def refusal(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:
-    """What `undulator run` says of bad input, having left with its code after one line."""
+    """Line of `undulator run` on bad input, having left with its code."""
     with pytest.raises(SystemExit) as stop:
         run.main(words)
     said = capsys.readouterr().err

@@ -36,9 +36,9 @@ def parsed(words, monkeypatch):
 
     with monkeypatch.context() as patch:
         patch.setattr(module, "parse", stop)
-        with pytest.raises(ParsedError) as found:
+        with pytest.raises(ParsedError) as stopped:
             module.main(rest)
-    return found.value.args[0]
+    return stopped.value.args[0]
 
 
 def check_undulator(words, monkeypatch):
@@ -56,8 +56,8 @@ def check_python(words, monkeypatch):
     if words[0] == "-m":
         name, *_ = words = words[1:]
         if name.split(".")[0] not in OURS:
-            known = name in INSTALLED_FIRST or importlib.util.find_spec(name)
-            assert known, f"there is no module {name}"
+            module = name in INSTALLED_FIRST or importlib.util.find_spec(name)
+            assert module, f"there is no module {name}"
             return
         place = TOP / name.replace(".", "/")
         files = [*place.glob("__main__.py"), *place.parent.glob(f"{place.name}.py")]
@@ -77,8 +77,8 @@ def check_python(words, monkeypatch):
 def check_make(words, monkeypatch):
     for word in words:
         name, _, value = word.partition("=")
-        known = rf"\$\({name}\)" if value else rf"^{re.escape(name)}:"
-        assert re.search(known, MAKEFILE, re.M), f"make has no {word}"
+        pattern = rf"\$\({name}\)" if value else rf"^{re.escape(name)}:"
+        assert re.search(pattern, MAKEFILE, re.M), f"make has no {word}"
 
 
 def check_pip(words, monkeypatch):

@@ -1,4 +1,4 @@
-"""What the pages of the repository show: blocks of code, commands within the text, links."""
+"""Contents of the pages of the repository:blocks of code, commands within the text, links."""
 
 import re
 from dataclasses import dataclass
@@ -27,13 +27,13 @@ class Block:
 
 def blocks(*languages: str) -> list[Block]:
     """Blocks of all pages in these languages."""
-    found = []
+    every = []
     for page in PAGES:
         text = page.read_text("utf-8")
         for match in _FENCE.finditer(text):
             line = text[: match.start()].count("\n") + 1
-            found.append(Block(page, line, match[1], match[2]))
-    return [block for block in found if not languages or block.language in languages]
+            every.append(Block(page, line, match[1], match[2]))
+    return [block for block in every if not languages or block.language in languages]
 
 
 def prose(page: Path) -> str:
@@ -43,12 +43,12 @@ def prose(page: Path) -> str:
 
 def commands() -> list[tuple[str, str]]:
     """Each command that a page shows, and where, in blocks and within the text."""
-    found = []
+    shown = []
     for block in blocks("sh"):
         for line in block.text.replace("\\\n", " ").splitlines():
-            found.append((str(block), line))
+            shown.append((str(block), line))
     for page in PAGES:
         if page.name != "CHANGELOG.md":  # which tells of what was
             name = str(page.relative_to(TOP))
-            found += [(name, " ".join(text.split())) for text in _INLINE.findall(prose(page))]
-    return [(where, line) for where, line in found if line.split("#")[0].strip()]
+            shown += [(name, " ".join(text.split())) for text in _INLINE.findall(prose(page))]
+    return [(where, line) for where, line in shown if line.split("#")[0].strip()]

@@ -128,8 +128,8 @@ def test_nothing_is_both_cheaper_and_more_accurate_than_the_default():
     rows = [row for row in read() if row.case == WALK]
     names = [setting_of(row) for row in rows if row.scene == "felt" and row.status == "ok"]
     both = {name: [row for row in rows if setting_of(row) == name] for name in names}
-    error = {name: max(row.error for row in found) for name, found in both.items()}
-    cost = {name: max(row.cost for row in found) for name, found in both.items()}
+    error = {name: max(row.error for row in walks) for name, walks in both.items()}
+    cost = {name: max(row.cost for row in walks) for name, walks in both.items()}
     usual = next(setting_of(row) for row in rows if figure.is_default(row))
     assert error[usual] < 0.002
     like = [error[name] for name in names

@@ -125,7 +125,8 @@ def test_limbs_on_a_picture_are_found_where_they_were_drawn():
     for limb in range(hub.LIMBS):
         local = place * np.exp(-1j * (np.radians(250) - 0.5 * np.pi * limb)) - 11.0
         picture[(local.real / 5) ** 2 + (local.imag / 2) ** 2 < 1] = 200.0
-    found = outline.limbs(picture, np.array([160.0, 140.0]), np.radians(10))
+    each = outline.limbs(picture, np.array([160.0, 140.0]), np.radians(10))
+    found = np.array([outline.numbers(limb) for limb in each])
     assert found[:, 0] == pytest.approx(np.full(4, 11.0), abs=0.05)
     assert np.degrees(found[:, 1]) % 360 == pytest.approx(np.full(4, 250.0), abs=0.5)
     assert found[:, 2] == pytest.approx(np.full(4, 16.0), abs=0.2)

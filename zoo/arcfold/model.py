@@ -20,7 +20,7 @@ PERIODS = (4.0, 2.0, 1.0, 0.5)  # s
 
 
 def stroke(fold: float) -> float:
-    """How much nearer the stretches come that lie, of panels on sharp hinges that fold [cm]."""
+    """Approach of the stretches that lie, of panels on sharp hinges that fold [cm]."""
     return float(2 * PANEL * (1 - np.cos(np.radians(0.5 * fold))))
 
 

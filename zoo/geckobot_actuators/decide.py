@@ -1,4 +1,4 @@
-"""What would decide on GeckoBot's actuators: `python -m zoo.geckobot_actuators.decide`.
+"""Measurements to decide on GeckoBot's actuators: `python -m zoo.geckobot_actuators.decide`.
 
 A power law c (p - p_0)^n goes through the four published points of each of the six. How they differ
 is what is known of a seventh before it is measured; points at some angles, each to 2 degrees,
@@ -37,7 +37,7 @@ def through(pressure: Array, angle: Array) -> Array:
 
 
 def slopes(numbers: Array, pressure: Array) -> Array:
-    """Of angles by the numbers, (K, 3)."""
+    """Slopes of angles by the numbers, (K, 3)."""
     start, size, power = numbers
     over = np.maximum(pressure - start, _FLAT)
     angle = np.exp(size) * over**power
@@ -59,10 +59,11 @@ def left(angles: Sequence[float], numbers: Array, covariance: Array) -> Array:
 def main() -> None:
     """Print a row per plan."""
     _, pressures, angle = one_robot()
-    known = np.array([through(p, angle) for p in pressures])
-    covariance, middle = np.cov(known, rowvar=False), known.mean(axis=0)
+    parameters = np.array([through(p, angle) for p in pressures])
+    covariance, middle = np.cov(parameters, rowvar=False), parameters.mean(axis=0)
     print(
-        "p_0 [kPa], c, n of the six:", *(f"{a:.1f} {np.exp(b):.2g} {c:.2f};" for a, b, c in known)
+        "p_0 [kPa], c, n of the six:",
+        *(f"{a:.1f} {np.exp(b):.2g} {c:.2f};" for a, b, c in parameters),
     )
     print("| points at [deg] | mean error | at 30 | at 60 |")
     print("|---|---|---|---|")

@@ -16,7 +16,7 @@ from zoo.comparison import Predicted
 def predicted() -> dict[str, Predicted]:
     """The angle at each point that was left out [deg]."""
     names, pressures, angle = one_robot()
-    found = {}
+    predictions = {}
     for left_out in (1, 2):
         kept = np.arange(len(angle)) != left_out
         at = np.array([
@@ -25,5 +25,5 @@ def predicted() -> dict[str, Predicted]:
         ])  # fmt: skip
         spread = float(np.std(at - angle[left_out], ddof=1))
         for name, bend in zip(names, at.tolist(), strict=True):
-            found[f"{name} at {angle[left_out]:g} deg"] = Predicted(bend, spread)
-    return found
+            predictions[f"{name} at {angle[left_out]:g} deg"] = Predicted(bend, spread)
+    return predictions

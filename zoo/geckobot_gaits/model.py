@@ -78,9 +78,13 @@ def cycle(grip: Array, step: Array, steering: Array) -> Cycle:
 def measured() -> Array:
     """Mean turns to the side that is steered to, (step lengths, steering) [deg]."""
     with TURNS.open(encoding="utf-8") as file:
-        known = {(float(row["step [deg]"]), float(row["steering"])): float(row["turn [deg]"])
-                 for row in csv.DictReader(file)}  # fmt: skip
-    return np.array([[0.5 * (known[q1, -q2] - known[q1, q2]) for q2 in STEERING] for q1 in STEPS])
+        mean_turns = {
+            (float(row["step [deg]"]), float(row["steering"])): float(row["turn [deg]"])
+            for row in csv.DictReader(file)
+        }
+    return np.array(
+        [[0.5 * (mean_turns[q1, -q2] - mean_turns[q1, q2]) for q2 in STEERING] for q1 in STEPS]
+    )
 
 
 @cache
@@ -94,30 +98,30 @@ def turns() -> CubicSpline:
 
 def fitted(rows: Sequence[int]) -> float:
     """Logarithm of the stiffness that fits the turns at some step lengths best."""
-    known = measured()[list(rows)]
+    chosen = measured()[list(rows)]
     span = float(np.log(GRIPS[0])), float(np.log(GRIPS[-1]))
-    found = minimize_scalar(lambda x: np.sum((turns()(x)[list(rows)] - known) ** 2), span, span,
+    minimum = minimize_scalar(lambda x: np.sum((turns()(x)[list(rows)] - chosen) ** 2), span, span,
                             method="bounded")  # fmt: skip
-    return float(found.x)
+    return float(minimum.x)
 
 
 def left_out() -> tuple[Array, Array]:
     """Turns at each step length by the other four, and the stiffnesses that those have."""
     every = range(len(STEPS))
     logs = np.array([fitted([other for other in every if other != row]) for row in every])
-    found = np.array([turns()(log)[row] for row, log in enumerate(logs)])
-    return found, np.exp(logs)
+    unseen = np.array([turns()(log)[row] for row, log in enumerate(logs)])
+    return unseen, np.exp(logs)
 
 
 def predicted() -> dict[str, Predicted]:
     """Turns that were left out [deg] and distances of straight gaits [cm] per cycle."""
-    found, _ = left_out()
-    off = float(np.sqrt(np.mean((found - measured()) ** 2)))
+    unseen, _ = left_out()
+    off = float(np.sqrt(np.mean((unseen - measured()) ** 2)))
     far = cycle(GRIPS[-1], np.array(STEPS), np.zeros(len(STEPS))).far
     named = {f"step {q1:g}, straight": Predicted(float(far[i])) for i, q1 in enumerate(STEPS)}
     for i, q1 in enumerate(STEPS):
         for k, q2 in enumerate(STEERING):
-            named[f"step {q1:g}, steered {q2:g}"] = Predicted(float(found[i, k]), off)
+            named[f"step {q1:g}, steered {q2:g}"] = Predicted(float(unseen[i, k]), off)
     return named
 
 
@@ -161,18 +165,18 @@ def draw(rows: list[Row], path: Path) -> None:
 
 def main() -> None:
     """Print the fitted stiffnesses and how far turns that were left out are off."""
-    found, grips = left_out()
+    unseen, grips = left_out()
     whole = fitted(range(len(STEPS)))
-    known = measured()
-    rows = {"all turns fitted": turns()(whole), "each step length left out": found,
+    published = measured()
+    rows = {"all turns fitted": turns()(whole), "each step length left out": unseen,
             "cups as stiff as a leg": turns()(np.log(GRIPS[0])),
             "cups 60 times as stiff": turns()(np.log(GRIPS[-1]))}  # fmt: skip
     print(f"stiffness of a cup over that of a leg: {np.exp(whole):.2f}; with a step length left "
           f"out: {', '.join(f'{grip:.2f}' for grip in grips)}")  # fmt: skip
-    print(f"rms of the turns: {np.sqrt(np.mean(known**2)):.1f} deg")
+    print(f"rms of the turns: {np.sqrt(np.mean(published**2)):.1f} deg")
     for name, value in rows.items():
-        print(f"{name}: off by {np.sqrt(np.mean((value - known) ** 2)):.2f} deg rms, "
-              f"{np.abs(value - known).max():.1f} at most")  # fmt: skip
+        print(f"{name}: off by {np.sqrt(np.mean((value - published) ** 2)):.2f} deg rms, "
+              f"{np.abs(value - published).max():.1f} at most")  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -39,7 +39,7 @@ class Gecko(NamedTuple):
 
 
 class Posture(NamedTuple):
-    """Where robots are.
+    """Places and headings of robots.
 
     Attributes:
         feet: complex places in the order of LEGS, (B, 4) [cm].
@@ -69,7 +69,7 @@ def free(of: Gecko, asked: Array) -> Posture:
 
 
 def stepped(of: Gecko, before: Posture, held: tuple[int, int], asked: Array) -> Posture:
-    """Where robots are once their limbs have been given new angles.
+    """Postures of robots once their limbs have been given new angles.
 
     Args:
         of: the robots.
@@ -134,7 +134,7 @@ class _Line:
         return _posture(self._of, bends, front, ahead, self._asked)
 
     def _left(self, unknown: Array) -> Array:
-        """What is left over: of the rear foot's place and of the cups' moments, (..., B, 3)."""
+        """Residuals of the rear foot's place and of the cups' moments, (..., B, 3)."""
         other, grip = self._held[1], self._of.grip
         _, at, way = self._walk(unknown)
         gap = (at[..., -1] - self._apart) / self._of.leg
@@ -164,7 +164,7 @@ class _Line:
 
 
 def _moment(unknown: Array, place: Array) -> Array:
-    """Of the force about the front foot, at a place from there."""
+    """Moment of the force about the front foot, at a place from there."""
     return np.asarray(unknown[..., 2] * place.real - unknown[..., 1] * place.imag)
 
 

@@ -1,4 +1,4 @@
-"""What would decide on the pneumatic inchworm: `python -m zoo.pneumatic_inchworm.decide`.
+"""Measurements to decide on the pneumatic inchworm: `python -m zoo.pneumatic_inchworm.decide`.
 
 For each measurement that could be made, with the accuracy beside it: what it leaves of the standard
 errors of the robot's numbers and of the speeds at pressures that nobody measured, by the fit's
@@ -22,26 +22,28 @@ def runs_at(
     pressures: tuple[float, ...], frequency: float, materials: tuple[str, ...]
 ) -> inchworm.Runs:
     """Runs at pressures [kPa] and a frequency [Hz] on materials."""
-    known = inchworm.read(RUNS)
-    friction = {name: known.friction[known.material == name][0] for name in materials}
+    measured_runs = inchworm.read(RUNS)
+    friction = {
+        name: measured_runs.friction[measured_runs.material == name][0] for name in materials
+    }
     rows = [(p, frequency, np.nan, name, friction[name]) for p in pressures for name in materials]
     return inchworm.Runs(*(np.array(column) for column in zip(*rows, strict=True)))
 
 
-def measurements(found: inchworm.Fit, table: object) -> list[Measurement]:
-    """What could be measured of the robot, its ground and its speed."""
-    unit = np.eye(len(found.values))
+def measurements(fit: inchworm.Fit, table: object) -> list[Measurement]:
+    """Quantities of robot, ground and speed that could be measured."""
+    unit = np.eye(len(fit.values))
     ground = len(inchworm.ROBOT)
-    paper, glass = (ground + 2 * found.materials.index(name) for name in ("Paper", "Glass"))
+    paper, glass = (ground + 2 * fit.materials.index(name) for name in ("Paper", "Glass"))
 
     def speed(pressure: float, frequency: float, material: str) -> Array:
         runs = runs_at((pressure,), frequency, (material,))
         return np.asarray(approx_fprime(
-            found.values, lambda v: inchworm.speeds(table, found.materials, v, runs)[0], _STEP
+            fit.values, lambda v: inchworm.speeds(table, fit.materials, v, runs)[0], _STEP
         ))  # fmt: skip
 
     return [
-        Measurement("length of the robot, 1 mm", unit[2], 1.0 / np.exp(found.values[2])),
+        Measurement("length of the robot, 1 mm", unit[2], 1.0 / np.exp(fit.values[2])),
         Measurement("weight and rigidity (Gamma), 10 %", unit[0], 0.1),
         Measurement("bend at 100 kPa, free, 5 %", unit[1], 0.05),
         Measurement("friction of the robot on paper, 10 %", unit[paper], 0.1),
@@ -58,21 +60,21 @@ def measurements(found: inchworm.Fit, table: object) -> list[Measurement]:
 def main() -> None:
     """Print a row per measurement."""
     tables = {GAIT: read()}
-    found = inchworm.fit(tables, inchworm.read(RUNS))
-    table, between = tables[found.gait], runs_at(_BETWEEN, inchworm.MIDDLE, found.materials)
+    fit = inchworm.fit(tables, inchworm.read(RUNS))
+    table, between = tables[fit.gait], runs_at(_BETWEEN, inchworm.MIDDLE, fit.materials)
     slopes = approx_fprime(
-        found.values, lambda v: inchworm.speeds(table, found.materials, v, between), _STEP
+        fit.values, lambda v: inchworm.speeds(table, fit.materials, v, between), _STEP
     )
-    robot = np.eye(len(found.values))[: len(inchworm.ROBOT)]
+    robot = np.eye(len(fit.values))[: len(inchworm.ROBOT)]
     print("| measurement | length | Gamma | bend at 100 kPa | speeds between |")
     print("|---|---|---|---|---|")
-    nothing = Measurement("none", np.zeros(len(found.values)), 1.0)
-    for one in (nothing, *measurements(found, table)):
-        after = narrowed(found.covariance, one.slope, one.error)
+    nothing = Measurement("none", np.zeros(len(fit.values)), 1.0)
+    for one in (nothing, *measurements(fit, table)):
+        after = narrowed(fit.covariance, one.slope, one.error)
         load, turn, length = errors(after, robot)
         speed = np.sqrt(np.mean(errors(after, slopes) ** 2))
         print(f"| {one.name} | {length:.1%} | {load:.1%} | {turn:.1%} | {speed:.3f} mm/s |")
-    print("values:", *(f"{np.exp(x):.3g}" for x in found.values[:3]), f"noise {found.noise:.2f}")
+    print("values:", *(f"{np.exp(x):.3g}" for x in fit.values[:3]), f"noise {fit.noise:.2f}")
 
 
 if __name__ == "__main__":

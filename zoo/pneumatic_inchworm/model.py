@@ -25,8 +25,8 @@ def interpolated(runs: inchworm.Runs, column: str) -> Array:
     Outside of the other values the line through the two nearest goes on.
     """
     other = next(name for name in COLUMNS if name != column)
-    found = np.empty(len(runs.speed))
-    for row in range(len(found)):
+    predicted = np.empty(len(runs.speed))
+    for row in range(len(predicted)):
         same = ((runs.material == runs.material[row])
                 & np.isclose(getattr(runs, other), getattr(runs, other)[row], rtol=_ALIKE)
                 & (getattr(runs, column) != getattr(runs, column)[row]))  # fmt: skip
@@ -37,8 +37,8 @@ def interpolated(runs: inchworm.Runs, column: str) -> Array:
                    * (at[low] - getattr(runs, column)[row]) < 0]  # fmt: skip
         high = between[0] if between else high
         part = (getattr(runs, column)[row] - at[low]) / (at[high] - at[low])
-        found[row] = speed[low] + part * (speed[high] - speed[low])
-    return found
+        predicted[row] = speed[low] + part * (speed[high] - speed[low])
+    return predicted
 
 
 def held_out() -> dict[str, tuple[Array, Array, Array]]:
@@ -50,13 +50,13 @@ def held_out() -> dict[str, tuple[Array, Array, Array]]:
 
 def predicted() -> dict[str, Predicted]:
     """Mean speeds at each pressure and frequency that was left out [mm/s]."""
-    runs, found = inchworm.read(RUNS), {}
+    runs, predictions = inchworm.read(RUNS), {}
     for column, (value, _, _) in held_out().items():
         for one in np.unique(getattr(runs, column)):
             here = getattr(runs, column) == one
             off = inchworm.rms(value[here] - runs.speed[here])
-            found[f"{one:g} {COLUMNS[column]}"] = Predicted(float(value[here].mean()), off)
-    return found
+            predictions[f"{one:g} {COLUMNS[column]}"] = Predicted(float(value[here].mean()), off)
+    return predictions
 
 
 def main() -> None:

@@ -18,8 +18,8 @@ def predicted() -> dict[str, Predicted]:
     fits = {name: without_top_third(*points) for name, points in layouts().items()}
     errors = np.array([error for _, error in fits.values()])
     spread = float(np.sqrt(np.mean(errors**2)))
-    found = {}
+    predictions = {}
     for name, (p, _) in list(layouts().items())[::SHOWN]:
-        found[name] = Predicted(float(fits[name][0].bend(p[-1])), spread)
-    found["layouts met within 2 deg"] = Predicted(float((errors <= 2.0).sum()))
-    return found
+        predictions[name] = Predicted(float(fits[name][0].bend(p[-1])), spread)
+    predictions["layouts met within 2 deg"] = Predicted(float((errors <= 2.0).sum()))
+    return predictions

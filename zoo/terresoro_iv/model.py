@@ -11,12 +11,13 @@ past is known (`memory`).
 import csv
 from collections.abc import Sequence
 from itertools import pairwise
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from studies import Array
-from zoo.comparison import Predicted
+from zoo.comparison import Predicted, Row
 from zoo.terresoro_iv.at_once import least_dissipation
 from zoo.terresoro_iv.hub import DATA, Gait, gaits, jackknife, spread_places, turned
 from zoo.terresoro_iv.outline import flat_place
@@ -168,3 +169,10 @@ def predicted() -> dict[str, Predicted]:
         found[f"gait {gait.name}, distance"] = Predicted(value[0], errors[0])
         found[f"gait {gait.name}, turn"] = Predicted(value[1], errors[1])
     return found
+
+
+def draw(rows: list[Row], path: Path) -> None:
+    """Draw the robot and its gaits."""
+    from zoo.terresoro_iv import picture  # which draws limbs, that are laid by this module
+
+    picture.draw(rows, path)

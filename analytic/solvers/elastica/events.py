@@ -54,12 +54,12 @@ class Event:
         begin, end, width = self.before.row, self.after.row, self.width
         halved, self._width = width <= 0.5 * self._width, width
         place = self._estimate()
-        known, self._place = self._place, place
+        previous, self._place = self._place, place
         if place is None or not halved:
             return 0.5 * (begin + end)
         nearer_begin = place - begin < end - place
         distance = min(place - begin, end - place)
-        beyond = _BEYOND * distance if known is None else _SURE * abs(place - known)
+        beyond = _BEYOND * distance if previous is None else _SURE * abs(place - previous)
         beyond = max(beyond, least)
         row = place + (beyond if nearer_begin else -beyond)
         return min(max(row, begin + 0.5 * least), end - 0.5 * least)

@@ -37,7 +37,7 @@ class FixedPoint:
 
     @property
     def at_a_jump(self) -> bool:
-        """Whether bounds are known that result in greater and in smaller ones, and no others."""
+        """Tell whether bounds are known that result in greater and in smaller ones alone."""
         return self.balanced < 1.0 and any(bracket.closed for bracket in self._brackets)
 
     def next(
@@ -103,16 +103,16 @@ class _Bracket:
 
     @property
     def closed(self) -> bool:
-        """Whether some are known of either."""
+        """Tell whether some are known of either."""
         return bool(self._low and self._high)
 
     @property
     def _jumps(self) -> bool:
-        """Whether one of the nearest two is of a tip and the other of a side."""
+        """Tell whether one of the nearest two is of a tip and the other of a side."""
         return self._low[-1].margin * self._high[-1].margin < 0
 
     def held(self, least: float) -> bool:
-        """Whether no bound between those known, so near to each other, results in itself."""
+        """Tell whether no bound between those known, so near to each other, results in itself."""
         if not self.closed:
             return False
         width = self._high[-1].bound - self._low[-1].bound
@@ -149,5 +149,5 @@ def _zero(pair: list[_Try], by: int) -> float | None:
     """Bound at which a value, gap or margin, is 0 by a line through two tries; None if unknown."""
     if len(pair) < 2 or pair[0][by] == pair[1][by]:
         return None
-    before, last = pair
-    return last.bound - last[by] * (last.bound - before.bound) / (last[by] - before[by])
+    before, latest = pair
+    return latest.bound - latest[by] * (latest.bound - before.bound) / (latest[by] - before[by])

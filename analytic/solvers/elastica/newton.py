@@ -76,17 +76,17 @@ class Chain:
         self.force_unit = self._d0 / robot.length**2
         self.length = link_lengths(robot, links) / robot.length
         half = 0.5 * self.length * robot.weight_per_length * robot.length / self.force_unit
-        own = np.zeros(links + 2)
-        own[:-1] += half
-        own[1:] += half
-        self.weight = own + payload_on_nodes(robot, links) / self.force_unit
+        strip_weight = np.zeros(links + 2)
+        strip_weight[:-1] += half
+        strip_weight[1:] += half
+        self.weight = strip_weight + payload_on_nodes(robot, links) / self.force_unit
         # the weight's part downhill adds to the tension of the tractions
         self.hanging = math.sin(slope) * np.cumsum(self.weight)[:-1]
         self.adhesion, self.reach = np.zeros(links + 2), 0.0
         if surface and surface.adhesion:
             self.reach = surface.adhesion_reach / robot.length
             per_weight = surface.press(robot.width) / robot.weight_per_length
-            self.adhesion = per_weight * own
+            self.adhesion = per_weight * strip_weight
         self.weight *= math.cos(slope)
         self.floor = np.zeros(links + 2)
         self.floor[[0, -1]] = np.array(drops(robot.feet)) / robot.length

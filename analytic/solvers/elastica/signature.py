@@ -35,14 +35,14 @@ class Signature(NamedTuple):
         )
 
     def differs(self, before: "Signature") -> bool:
-        """Whether other contacts slide than before, or might have on the way."""
+        """Tell whether other contacts slide than before, or might have on the way."""
         slid = any(self.slips) and any(before.slips) and (
             [slip != 0 for slip in self.slips] != [slip != 0 for slip in before.slips]
         )  # fmt: skip
         return slid or (self.kinds, self.weakest) != (before.kinds, before.weakest)
 
     def turned(self, before: "Signature") -> bool:
-        """Whether a contact that slid before has come to a stop, from where it may slide back."""
+        """Tell whether a contact that slid before has stopped, from where it may slide back."""
         return any(was and now != was for now, was in zip(self.slips, before.slips, strict=False))
 
 

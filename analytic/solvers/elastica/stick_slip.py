@@ -162,9 +162,9 @@ class StickSlip:
         else:
             x = self._places(state) * robot.length
             # slips are of another state until this increment has some
-            known = self._search is not None and len(self.slips) == len(contacts)
+            slips_known = self._search is not None and len(self.slips) == len(contacts)
             under = [
-                self._under(contact, x, sticks=not (known and self.slips[i]))
+                self._under(contact, x, sticks=not (slips_known and self.slips[i]))
                 for i, contact in enumerate(contacts)
             ]
         pairs = list(zip(under, contacts, strict=True))
@@ -207,8 +207,8 @@ class StickSlip:
 
     def _margins(self, contacts: list[StripContact], state: ChainState) -> Array:
         """Length of a side over L, less the height of the node beside a tip at an end, (C,)."""
-        last = len(state.y) - 1
-        beside = {0: float(state.y[1]), last: float(state.y[last - 1])}
+        right_node = len(state.y) - 1
+        beside = {0: float(state.y[1]), right_node: float(state.y[right_node - 1])}
         return np.array([
             contact.length / self._chain.robot.length or -beside.get(contact.nodes[0], 0.0)
             if contact.drag is None else 0.0
@@ -295,8 +295,8 @@ class StickSlip:
             for load, order, lies in zip(self._inwards, (1, -1), flat, strict=True)
         )  # fmt: skip
         if self._friction.contacts == "all":
-            found = self._finder.find(force.tolist(), height.tolist(), (left, right))
-            return found + self._tether.contacts
+            contacts = self._finder.find(force.tolist(), height.tolist(), (left, right))
+            return contacts + self._tether.contacts
         loads = (0.0, 0.0)
         if self._law.needs_load:
             on_left, on_right = end_loads(force[None, :], height[None, :])

@@ -71,13 +71,15 @@ def tractions(
     Returns:
         None if no contact can balance the pull, or no state meets the conditions.
     """
-    found = _increment(gaps, compliance, bounds, viscosity, pull, guess, back, _VANISHING)
-    most = float(np.abs(found.slid).max(initial=0.0)) if found else 0.0
-    if found is None or not _SLIDES < most < _TOLD / _VANISHING or not _any_alike(bounds):
-        return found
+    increment = _increment(gaps, compliance, bounds, viscosity, pull, guess, back, _VANISHING)
+    most = float(np.abs(increment.slid).max(initial=0.0)) if increment else 0.0
+    if increment is None or not _SLIDES < most < _TOLD / _VANISHING or not _any_alike(bounds):
+        return increment
     # of slips so short rounding would decide between the two
-    surer = _increment(gaps, compliance, bounds, viscosity, pull, found.slips, back, _TOLD / most)
-    return surer or found
+    surer = _increment(
+        gaps, compliance, bounds, viscosity, pull, increment.slips, back, _TOLD / most
+    )
+    return surer or increment
 
 
 def _any_alike(bounds: Array) -> bool:
@@ -157,6 +159,6 @@ def _solved(system: list[list[float]]) -> list[float] | None:
                     equation[j] -= factor * head[j]
     solution = [0.0] * size
     for k in reversed(range(size)):
-        known = sum(system[k][j] * solution[j] for j in range(k + 1, size))
-        solution[k] = (system[k][size] - known) / system[k][k]
+        solved_part = sum(system[k][j] * solution[j] for j in range(k + 1, size))
+        solution[k] = (system[k][size] - solved_part) / system[k][k]
     return solution

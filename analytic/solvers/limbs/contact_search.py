@@ -65,7 +65,7 @@ class ContactSearch:
         return self.search(forces, heights, self.bends(pressures).tolist())
 
     def bends(self, pressures: Array) -> NDArray[np.int_]:
-        """How limbs bend at their begin and end, by pressures, (..., L, 2): see ContactState.
+        """Bend of limbs at their begin and end, by pressures, (..., L, 2): see ContactState.
 
         Args:
             pressures: of the chambers, (..., S) [Pa].

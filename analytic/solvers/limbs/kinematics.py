@@ -132,12 +132,12 @@ class Tree:
             # a hinge moves what is beyond it; a twist the edges at the hinge after it too
             before = self.joints[i].start + self.hinge_places[1:] - 1
             movers += [roots[i], roots[i], *before.tolist(), self.joints[i].stop - 1]
-        own = np.concatenate(2 * weight)
-        whole = own + np.concatenate(2 * carried)
+        strip_weight = np.concatenate(2 * weight)
+        whole = strip_weight + np.concatenate(2 * carried)
         self.weight: Array = incline.normal * whole
         self.pull: Array = np.multiply.outer(whole, incline.downhill)
         per_weight = self.press / [limb.strip.weight_per_length for limb in robot.limbs]
-        self.adhesion: Array = own * np.tile(np.repeat(per_weight, per_limb), 2)
+        self.adhesion: Array = strip_weight * np.tile(np.repeat(per_weight, per_limb), 2)
         self.arclength: Array = np.concatenate(2 * arclength)
         # a joint is above another if it is on the way from the trunk to it; and above itself
         self._above = np.eye(count, dtype=bool)

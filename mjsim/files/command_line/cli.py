@@ -7,6 +7,7 @@ import logging
 import math
 import re
 import sys
+import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Annotated, NoReturn, TypeVar
 
@@ -33,6 +34,7 @@ BAD_INPUT, FAILED = 2, 3  # exit codes, beside 0
 ALL = "all"
 _PLAINER = str.maketrans({"Δ": "D", "×": "x", "±": "+-", "°": "deg"})
 _PATIENCE = 2.0  # s before a progress bar shows
+_LONG = 10.0  # s before a command without a bar says that it goes on; chosen
 
 
 _typed: dict[str, TypedOptions] = {}  # of the command of this process, for its messages
@@ -130,6 +132,26 @@ def bar(text: str, total: int) -> Iterator[Callable[[int], None]]:
                 progress.update(steps)
 
         yield advance
+
+
+class LongWork(contextlib.AbstractContextManager["LongWork"]):
+    """A line on stderr, once after 10 s, where that is no terminal and so shows no progress bar."""
+
+    def __init__(self, program: str) -> None:
+        self._doing = ""
+        self._timer = threading.Timer(
+            _LONG, lambda: warn(program, f"{self._doing}: it goes on, and may take minutes")
+        )
+        self._timer.daemon = True
+
+    def does(self, *words: str) -> None:
+        """Name what comes next, with which the line begins; the first one starts the clock."""
+        begins, self._doing = not self._doing, " ".join(words)
+        if begins and not sys.stderr.isatty():
+            self._timer.start()
+
+    def __exit__(self, *_: object) -> None:
+        self._timer.cancel()
 
 
 @contextlib.contextmanager

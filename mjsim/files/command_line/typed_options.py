@@ -82,17 +82,17 @@ class TypedOptions:
         return f"option {option} is unknown{self._meant(option)}"
 
     def _meant(self, option: str) -> str:
-        known = [name for names in self._names() for name in names]
-        if option in _OTHERS and _OTHERS[option] in known:
+        options = [name for names in self._names() for name in names]
+        if option in _OTHERS and _OTHERS[option] in options:
             return f"; did you mean {_OTHERS[option]}?"
-        last = "--" + option.rpartition(".")[2].lstrip("-")
-        begun = [name for name in known if name.startswith(option)]
-        same = [name for name in known if name.rpartition(".")[2] == last.lstrip("-")]
+        key = "--" + option.rpartition(".")[2].lstrip("-")
+        begun = [name for name in options if name.startswith(option)]
+        same = [name for name in options if name.rpartition(".")[2] == key.lstrip("-")]
         if len(option) > 3 and (begun or same):
             return f"; did you mean {' or '.join((begun or same)[:3])}?"
-        ends = {name.rpartition(".")[2]: name for name in known if "." in name}
-        near = get_close_matches(last.lstrip("-"), ends, 1, 0.7)
-        return meant(option, known) or (f"; did you mean {ends[near[0]]}?" if near else "")
+        ends = {name.rpartition(".")[2]: name for name in options if "." in name}
+        near = get_close_matches(key.lstrip("-"), ends, 1, 0.7)
+        return meant(option, options) or (f"; did you mean {ends[near[0]]}?" if near else "")
 
     def _alike(self, typed: str) -> set[str]:
         """All names of an option."""

@@ -244,8 +244,8 @@ class _Samples(NamedTuple):
 
     def _through(self, knots: Array) -> _Fit:
         """Least squares of all samples with corners at given times."""
-        last, size, count = len(knots) - 2, len(knots), self.number
-        index = np.clip(np.searchsorted(knots, self.time, side="right") - 1, 0, last)
+        final_ramp, size, count = len(knots) - 2, len(knots), self.number
+        index = np.clip(np.searchsorted(knots, self.time, side="right") - 1, 0, final_ramp)
         after = (self.time - knots[index]) / (knots[index + 1] - knots[index])
         before = 1 - after
 

@@ -12,8 +12,8 @@ from mjsim.scene.scene import Scene
 def is_file(text: str) -> bool:
     """Tell whether the word for a gait is a file's: by an ending or a folder, or there is one."""
     path = Path(text)
-    known = text in GAITS or text in QUADRUPED_GAITS
-    return bool(path.suffix) or path.name != text or (not known and path.is_file())
+    built_in = text in GAITS or text in QUADRUPED_GAITS
+    return bool(path.suffix) or path.name != text or (not built_in and path.is_file())
 
 
 def is_log(text: str) -> bool:

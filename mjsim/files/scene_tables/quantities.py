@@ -44,10 +44,10 @@ def field_text(name: str) -> str:
     return _first(name, field_docs, f"{key} of the {table}")
 
 
-def _first(name: str, known: Callable[[type], Mapping[str, str]], default: str) -> str:
+def _first(name: str, texts: Callable[[type], Mapping[str, str]], default: str) -> str:
     """Value for a field, of the first of the classes of its table that has one."""
     table, _, key = name.partition(".")
-    return next((known(kind)[key] for kind in KINDS.get(table, ()) if key in known(kind)), default)
+    return next((texts(kind)[key] for kind in KINDS.get(table, ()) if key in texts(kind)), default)
 
 
 def field_value(name: str, value: Any) -> Any:

@@ -226,17 +226,17 @@ def build_gait(table: Table, where: str = "", robot: AnyRobot = _STRIP) -> Gait:
         table.setdefault("name", "custom")
         gait = make(Gait, table, where)
     else:
-        name, known = table.pop("name", "wave"), {**GAITS, **QUADRUPED_GAITS}
+        name, gaits = table.pop("name", "wave"), {**GAITS, **QUADRUPED_GAITS}
         if isinstance(robot, LimbedRobot) and not of_quadruped:
             raise ValueError(f"{where}stages must be given for {', '.join(robot.chambers)}")
-        names = known if of_quadruped else GAITS
+        names = gaits if of_quadruped else GAITS
         if name not in names and not meant(name, names):
             raise ValueError(
                 f"{where}name must be one of {', '.join(names)}, or a file; "
                 f"got {name!r}: no such file"
             )
         one_of(f"{where}name", name, names)
-        gait = replace(known[name], **checked(Gait, table, where)) if table else known[name]
+        gait = replace(gaits[name], **checked(Gait, table, where)) if table else gaits[name]
     if sides and gait.segments != 3:
         raise ValueError(f"{where}{next(iter(sides))} is for gaits of three segments such as "
                          f"{', '.join(GAITS)}, not {gait.name}")  # fmt: skip

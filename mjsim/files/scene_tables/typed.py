@@ -9,7 +9,7 @@ from types import NoneType, UnionType
 from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from analytic.checks import meant, missing, one_of
-from analytic.fields import units
+from analytic.fields import check_keys, units
 from mjsim.files.units import in_unit
 
 Table = dict[str, Any]
@@ -30,6 +30,7 @@ def make(kind: type[Kind], table: Mapping[str, Any], where: str = "", **more: An
         needed = field.default is MISSING and field.default_factory is MISSING
         if needed and field.name not in values:
             raise ValueError(f"{where}{field.name} is missing")
+    check_keys(kind, values, where)
     try:
         return kind(**values)
     except ValueError as error:

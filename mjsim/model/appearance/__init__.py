@@ -1,1 +1,1 @@
-"""What a model looks like: skins, ground, lights, cameras, ruler."""
+"""Looks of a model: skins, ground, lights, cameras, ruler."""

@@ -49,7 +49,7 @@ _ROUNDS = 20  # of a fit at most
 
 
 def refusal(scene: Scene) -> str | None:
-    """What a scene asks for that shoes do not do, None if there is nothing."""
+    """Feature of a scene that shoes do not have, None if there is nothing."""
     ground = scene.ground
     if scene.in_space or scene.body != "chain":
         return "shoes are for strips of body chain"
@@ -98,10 +98,10 @@ def _of_end(scene: Scene, walk: Prediction, end: int, contact: Array) -> SignedL
     strip, surface = scene.strip, scene.ground.at(0.0)
     length, pressure = strip.length, np.abs(walk.pressures) / strip.peak_pressure
     chambers = pressure.shape[1]
-    own = end % chambers
+    chamber = end % chambers
     parts = pressure * _STATES
     regular = (np.abs(parts - np.round(parts)) < _REGULAR).all(axis=1)
-    seen = (pressure[:, own] <= PASSIVE) & (pressure.max(axis=1) > _FLAT) & np.isfinite(contact)
+    seen = (pressure[:, chamber] <= PASSIVE) & (pressure.max(axis=1) > _FLAT) & np.isfinite(contact)
     seen &= regular
     slopes, rest = np.zeros(chambers), 0.5 * length
     if seen.any():
@@ -110,18 +110,18 @@ def _of_end(scene: Scene, walk: Prediction, end: int, contact: Array) -> SignedL
         if surface.shear_strength and surface.tip_force:
             alike = surface.tip_force / (surface.shear_strength * strip.width * length)
             weight = weight + 1.0 / (np.abs(part - alike) + _NEAR)
-        terms = np.column_stack([np.ones(len(part)), -np.delete(pressure[seen], own, axis=1)])
+        terms = np.column_stack([np.ones(len(part)), -np.delete(pressure[seen], chamber, axis=1)])
         counts = part > 0
         for _ in range(_ROUNDS):
             rows = weight[counts, None] * terms[counts]
-            found = np.linalg.lstsq(rows, weight[counts] * part[counts])[0]
-            before, counts = counts, (part > 0) | (terms @ found > 0)
+            coefficients = np.linalg.lstsq(rows, weight[counts] * part[counts])[0]
+            before, counts = counts, (part > 0) | (terms @ coefficients > 0)
             if (counts == before).all():
                 break
-        rest = length * max(float(found[0]), _TAKES_OVER)
-        slopes[np.arange(chambers) != own] = length * found[1:]
+        rest = length * max(float(coefficients[0]), _TAKES_OVER)
+        slopes[np.arange(chambers) != chamber] = length * coefficients[1:]
     # with so much pressure of its own an end is a tip, whatever the others do
-    slopes[own] = (rest + _TAKES_OVER * length) / PASSIVE
+    slopes[chamber] = (rest + _TAKES_OVER * length) / PASSIVE
     return SignedLength(rest, slopes)
 
 

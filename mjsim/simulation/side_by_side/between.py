@@ -1,7 +1,8 @@
 """Friction wherever strips touch the ground, for many scenes at once.
 
-As `mjsim.friction.between_ends` does it: `BoundedContactsBatch` as `BoundedContacts`,
-`ContactFrictionEverywhereBatch` as `ContactFrictionEverywhere`.
+As `mjsim.friction.between_ends` does it: `AnchoredBatch` as `AnchoredContacts`,
+`BoundedContactsBatch` as `BoundedContacts`, `ContactFrictionEverywhereBatch` as
+`ContactFrictionEverywhere`.
 """
 
 from collections.abc import Sequence
@@ -33,20 +34,41 @@ from mjsim.simulation.side_by_side.ends import (
 Array = NDArray[np.float64]
 
 
-class BoundedContactsBatch(BoundedEndsBatch):
+class AnchoredBatch(EndsBatch):
+    """Strips that may be anchored at any node; a law beside it in the bases says at which."""
+
+    def __init__(
+        self, scenes: Sequence[Scene], numerics: Resolved, batch: Batch, model: mujoco.MjModel
+    ) -> None:
+        super().__init__(scenes, numerics, batch, model)
+        self._of_nodes = np.array(node_tendons(model, numerics.links + 2))
+        self._anchors = AnchorRows(self._of_nodes, len(scenes))
+
+    def start(self, rows: Indices) -> None:
+        """See EndsBatch.start."""
+        super().start(rows)
+        self._anchors.start(rows, self._at[rows])
+        self.left_slip[rows] = np.nan
+
+    def after_step(self, rows: Indices, dt: float) -> Array:
+        """See EndsBatch.after_step."""
+        self.drift[rows] = self._anchors.drift(rows, self._rate[rows])
+        return self._anchors.after_step(rows, dt, self._rate[rows], self._at[rows])
+
+
+class BoundedContactsBatch(AnchoredBatch, BoundedEndsBatch):
     """Bounds of all contacts; see BoundedContacts."""
 
     def __init__(
         self, scenes: Sequence[Scene], numerics: Resolved, batch: Batch, model: mujoco.MjModel
     ) -> None:
         super().__init__(scenes, numerics, batch, model)
-        nodes = numerics.links + 2
-        self._of_nodes = np.array(node_tendons(model, nodes))
         self._sites = mean_sites(model).copy()  # of all nodes
-        # places of the sites whose mean position is anchored, of which the first ones are used
-        self._of_mean = model.tendon_adr[self._tendons[2]] + WRAPS - 1 + WRAPS * np.arange(nodes)
+        # places of the sites whose mean is anchored, of which the first ones are used
+        self._of_mean = (
+            model.tendon_adr[self._tendons[2]] + WRAPS - 1 + WRAPS * np.arange(len(self._of_nodes))
+        )
         self._sites_of, self._wraps = batch.expand("wrap_objid"), batch.expand("tendon_num")
-        self._anchors = AnchorRows(self._of_nodes, len(scenes))
         self._strips = strip_rows(scenes, numerics)
 
     def replace(self, rows: Indices, scenes: Sequence[Scene]) -> None:
@@ -58,12 +80,10 @@ class BoundedContactsBatch(BoundedEndsBatch):
     def start(self, rows: Indices) -> None:
         """See EndsBatch.start."""
         super().start(rows)
-        self._anchors.start(rows, self._at[rows])
         self._wraps[rows, self._tendons[2]] = 0
         self._bounds[rows[:, None], self._of_nodes] = 0.0
         self._bounds[rows, self._tendons[2]] = 0.0
         self._drags[rows[:, None], self._of_nodes] = 0.0
-        self.left_slip[rows] = np.nan
 
     def before_step(self, rows: Indices, slopes: Array, may_be_flat: Flags) -> None:
         """See EndsBatch.before_step."""
@@ -74,8 +94,8 @@ class BoundedContactsBatch(BoundedEndsBatch):
         contacts = find(strips, force, height, self._parameters.half[rows][:, None] * sides)
         there, node = contacts.there, contacts.node
         length = np.where(there, contacts.length, 0.0)
-        last = np.maximum(there.sum(1) - 1, 0)
-        self.contact[rows] = np.stack([length[:, 0], length[np.arange(len(rows)), last]], axis=1)
+        right = np.maximum(there.sum(1) - 1, 0)
+        self.contact[rows] = np.stack([length[:, 0], length[np.arange(len(rows)), right]], axis=1)
 
         tendons = self._of_nodes[node]
         rates = np.take_along_axis(self._rate[rows], tendons, 1)
@@ -94,14 +114,14 @@ class BoundedContactsBatch(BoundedEndsBatch):
 
     def after_step(self, rows: Indices, dt: float) -> Array:
         """See EndsBatch.after_step."""
-        drift = self._anchors.drift(rows, self._rate[rows])
-        self.drift[rows] = np.where(self._ground.by_speed[rows], np.nan, drift)
-        return self._anchors.after_step(rows, dt, self._rate[rows], self._at[rows])
+        slips = super().after_step(rows, dt)
+        self.drift[rows[self._ground.by_speed[rows]]] = np.nan
+        return slips
 
     def _ties(
         self, rows: Indices, contacts: ContactRows, bounds: Array, rates: Array, viscous: Flags
     ) -> tuple[Array, Flags]:
-        """What anchors besides the bounds, (R, K) [N], and which contacts are anchored, (R, K).
+        """Forces that anchor besides the bounds, (R, K) [N], and which contacts are anchored.
 
         Where equal bounds leave open how the whole moves the mean of all, by a friction of its own,
         or the contact at the border of what they leave open.
@@ -131,21 +151,8 @@ class BoundedContactsBatch(BoundedEndsBatch):
         self._sites_of[rows[row], self._of_mean[slot]] = self._sites[contacts.node[row, slot]]
 
 
-class ContactFrictionEverywhereBatch(ContactFrictionBatch):
+class ContactFrictionEverywhereBatch(AnchoredBatch, ContactFrictionBatch):
     """Coulomb friction of strips that may be anchored between their ends."""
-
-    def __init__(
-        self, scenes: Sequence[Scene], numerics: Resolved, batch: Batch, model: mujoco.MjModel
-    ) -> None:
-        super().__init__(scenes, numerics, batch, model)
-        nodes = numerics.links + 2
-        self._of_nodes = np.array(node_tendons(model, nodes))
-        self._anchors = AnchorRows(self._of_nodes, len(scenes))
-
-    def start(self, rows: Indices) -> None:
-        """See EndsBatch.start."""
-        super().start(rows)
-        self._anchors.start(rows, self._at[rows])
 
     def before_step(self, rows: Indices, slopes: Array, may_be_flat: Flags) -> None:
         """See EndsBatch.before_step."""
@@ -158,11 +165,6 @@ class ContactFrictionEverywhereBatch(ContactFrictionBatch):
         rates = np.where(pushed, np.abs(self._rate[rows][:, self._of_nodes]), np.inf)
         slowest = pushed & (np.arange(force.shape[1]) == rates.argmin(1)[:, None])
         self._anchors.set(rows, ContactRows(pushed, node, np.zeros(force.shape)), bounds, slowest)
-
-    def after_step(self, rows: Indices, dt: float) -> Array:
-        """See EndsBatch.after_step."""
-        self.drift[rows] = self._anchors.drift(rows, self._rate[rows])
-        return self._anchors.after_step(rows, dt, self._rate[rows], self._at[rows])
 
 
 # by friction and by whether it acts between the ends

@@ -193,7 +193,7 @@ class StripBatch:
     def _loads(
         self, rows: Indices, valves: Array, pressure: Array, acting: Array
     ) -> list[tuple[Array, ...]]:
-        """What pressure does at each step: stiffness and rest angles of the hinges, or controls.
+        """Effects of pressure at each step: stiffness and rest angles of the hinges, or controls.
 
         Args:
             rows: which, (R,).

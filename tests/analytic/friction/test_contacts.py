@@ -67,9 +67,9 @@ def test_an_end_whose_arch_is_as_low_as_the_ground_is_rough_lies_on_its_side(rou
 
 @pytest.mark.parametrize("part", [0.0, 0.03])
 def test_the_contacts_carry_the_whole_weight_and_an_end_with_pressure_is_a_tip(part):
-    found = contacts([1.0, 0.0, part], links=60)
-    assert sum(contact.load for contact in found) == pytest.approx(ROBOT.weight)
-    assert (found[-1].length > 0) == (part == 0)
+    touching = contacts([1.0, 0.0, part], links=60)
+    assert sum(contact.load for contact in touching) == pytest.approx(ROBOT.weight)
+    assert (touching[-1].length > 0) == (part == 0)
 
 
 @pytest.mark.parametrize("gait", [*GAITS.values(), *(gait.reversed() for gait in GAITS.values())])

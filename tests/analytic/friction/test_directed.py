@@ -54,7 +54,7 @@ def test_tractions_between_unlike_bounds_are_those_of_least_complementary_energy
     ahead, back = np.abs(ahead), np.abs(back)
     factor = np.array([data.draw(numbers) for _ in range(count)])
     compliance = factor @ factor.T / count
-    found = tractions(gaps, compliance, ahead, np.zeros(count), back=back)
+    solution = tractions(gaps, compliance, ahead, np.zeros(count), back=back)
     best = minimize(
         lambda t: 0.5 * t @ compliance @ t + gaps @ t, np.zeros(count), method="SLSQP",
         jac=lambda t: compliance @ t + gaps, bounds=list(zip(-ahead, back, strict=True)),
@@ -62,7 +62,7 @@ def test_tractions_between_unlike_bounds_are_those_of_least_complementary_energy
         constraints={"type": "eq", "fun": np.sum, "jac": lambda t: np.ones(len(t))},
     )  # fmt: skip
     assume(best.success)
-    energy = 0.5 * found.traction @ compliance @ found.traction + gaps @ found.traction
+    energy = 0.5 * solution.traction @ compliance @ solution.traction + gaps @ solution.traction
     assert energy == pytest.approx(best.fun, abs=1e-4)
 
 
@@ -119,10 +119,10 @@ def elastic_cycle(stretch, compliance, ahead, back, cycles=2, steps=20):
     for number, part in enumerate(path):
         if number % (2 * steps) == 0:
             starts.append(place.copy())
-        found = tractions(part * stretch - place, compliance, ahead, np.zeros(len(stretch)),
+        solution = tractions(part * stretch - place, compliance, ahead, np.zeros(len(stretch)),
                           guess=slips, back=back)  # fmt: skip
-        place = part * stretch + found.whole + compliance @ found.traction
-        slips = found.slips
+        place = part * stretch + solution.whole + compliance @ solution.traction
+        slips = solution.slips
     return float((place - starts[-1]).mean())
 
 

@@ -48,8 +48,8 @@ def test_no_motion_dissipates_less_by_linear_programming(drawn):
         np.concatenate([[0.0], bounds]), A_ub=rows, b_ub=np.concatenate([-moves, moves]),
         bounds=[(None, None), *[(0, None)] * count],
     )  # fmt: skip
-    found = dissipated(bounds, moves, least_dissipation(bounds, moves))
-    assert found == pytest.approx(exact.fun, abs=1e-9)
+    least = dissipated(bounds, moves, least_dissipation(bounds, moves))
+    assert least == pytest.approx(exact.fun, abs=1e-9)
 
 
 @given(contacts)

@@ -32,7 +32,7 @@ def turned(vectors, angle):
 @given(SEEDS)
 def test_no_other_motion_dissipates_less(seed):
     bounds, places, moves = draw(seed)
-    found = least_dissipation_in_plane(bounds, places, moves)
+    motion = least_dissipation_in_plane(bounds, places, moves)
 
     def slips(at):
         turned = np.column_stack([-places[:, 1], places[:, 0]])
@@ -41,8 +41,8 @@ def test_no_other_motion_dissipates_less(seed):
     def dissipated(at):
         return 1e3 * bounds @ np.hypot(*slips(at).T)
 
-    start = np.append(found.shift * 1e3, found.turn * 1e2)
-    assert slips(start) == pytest.approx(found.slip, rel=1e-9, abs=1e-12)
+    start = np.append(motion.shift * 1e3, motion.turn * 1e2)
+    assert slips(start) == pytest.approx(motion.slip, rel=1e-9, abs=1e-12)
     rng = np.random.default_rng(seed)
     for _ in range(3):
         other = minimize(dissipated, start + rng.standard_normal(3), method="Nelder-Mead",
@@ -54,10 +54,10 @@ def test_no_other_motion_dissipates_less(seed):
 @given(SEEDS)
 def test_forces_of_sliding_contacts_are_balanced_by_what_the_held_ones_can_bear(seed):
     bounds, places, moves = draw(seed)
-    found = least_dissipation_in_plane(bounds, places, moves)
-    size = np.hypot(*found.slip.T)
+    motion = least_dissipation_in_plane(bounds, places, moves)
+    size = np.hypot(*motion.slip.T)
     slides = size > 1e-6 * np.abs(moves).max()
-    force = np.where(slides[:, None], -found.slip / np.maximum(size, 1e-300)[:, None], 0.0)
+    force = np.where(slides[:, None], -motion.slip / np.maximum(size, 1e-300)[:, None], 0.0)
     force *= bounds[:, None]
     held = np.flatnonzero(~slides)
     missing = -np.array([*force.sum(axis=0), np.sum(places[:, 0] * force[:, 1]
@@ -107,27 +107,27 @@ def test_a_mirrored_scene_turns_the_other_way(seed):
 def test_along_a_line_it_is_the_weighted_median(seed):
     bounds, places, moves = draw(seed)
     places[:, 1], moves[:, 1] = 0.0, 0.0
-    found = least_dissipation_in_plane(bounds, places, moves)
-    assert found.turn == pytest.approx(0, abs=1e-9)
-    assert found.shift[0] == pytest.approx(least_dissipation(bounds, moves[:, 0]), abs=1e-8)
-    assert found.shift[1] == pytest.approx(0, abs=1e-9)
+    motion = least_dissipation_in_plane(bounds, places, moves)
+    assert motion.turn == pytest.approx(0, abs=1e-9)
+    assert motion.shift[0] == pytest.approx(least_dissipation(bounds, moves[:, 0]), abs=1e-8)
+    assert motion.shift[1] == pytest.approx(0, abs=1e-9)
 
 
 def test_two_pairs_of_equal_feet_that_part_slide_alike():
     places = np.array([[0.0, 0.02], [0.0, -0.02], [0.13, 0.02], [0.13, -0.02]])
     moves = np.array([[-1e-3, 0.0]] * 2 + [[2e-3, 0.0]] * 2)
-    found = least_dissipation_in_plane(np.full(4, 0.01), places, moves)
-    assert found.shift == pytest.approx([-5e-4, 0.0], abs=1e-9)
-    assert found.turn == pytest.approx(0.0, abs=1e-9)
+    motion = least_dissipation_in_plane(np.full(4, 0.01), places, moves)
+    assert motion.shift == pytest.approx([-5e-4, 0.0], abs=1e-9)
+    assert motion.turn == pytest.approx(0.0, abs=1e-9)
 
 
 def test_a_shape_that_moves_as_a_whole_does_not_move_at_all():
     rng = np.random.default_rng(3)
     places = rng.uniform(-0.1, 0.1, (5, 2))
     moves = np.array([1e-3, -2e-3]) + 0.01 * np.column_stack([-places[:, 1], places[:, 0]])
-    found = least_dissipation_in_plane(rng.random(5) + 0.1, places, moves)
-    assert found.turn == pytest.approx(-0.01, rel=1e-6)
-    assert np.abs(found.slip).max() < 1e-9
+    motion = least_dissipation_in_plane(rng.random(5) + 0.1, places, moves)
+    assert motion.turn == pytest.approx(-0.01, rel=1e-6)
+    assert np.abs(motion.slip).max() < 1e-9
 
 
 def test_about_one_foot_that_holds_it_turns_until_the_others_need_no_moment():
@@ -144,8 +144,8 @@ def test_about_one_foot_that_holds_it_turns_until_the_others_need_no_moment():
 
 def test_without_any_bound_viscosity_decides_and_bad_input_is_named():
     moves = np.array([[1e-3, 0.0], [3e-3, 0.0]])
-    found = least_dissipation_in_plane(np.zeros(2), np.array([[0.0, 0.0], [0.1, 0.0]]), moves)
-    assert found.shift == pytest.approx([-2e-3, 0.0])
+    motion = least_dissipation_in_plane(np.zeros(2), np.array([[0.0, 0.0], [0.1, 0.0]]), moves)
+    assert motion.shift == pytest.approx([-2e-3, 0.0])
     with pytest.raises(ValueError, match="need a place and a move"):
         least_dissipation_in_plane(np.ones(2), np.zeros((2, 3)), np.zeros((2, 2)))
 
@@ -154,7 +154,7 @@ def test_without_any_bound_viscosity_decides_and_bad_input_is_named():
 @given(SEEDS)
 def test_a_film_alone_takes_the_weighted_least_squares_of_the_slips(seed):
     drags, places, moves = draw(seed)
-    found = least_dissipation_in_plane(0 * drags, places, moves, drags)
+    motion = least_dissipation_in_plane(0 * drags, places, moves, drags)
     count = len(drags)
     lever = np.zeros((count, 2, 3))
     lever[:, 0, 0] = lever[:, 1, 1] = 1.0
@@ -163,8 +163,8 @@ def test_a_film_alone_takes_the_weighted_least_squares_of_the_slips(seed):
     exact = np.linalg.lstsq(
         root[:, None] * lever.reshape(-1, 3), -root * moves.ravel(), rcond=None
     )[0]
-    assert found.shift == pytest.approx(exact[:2], abs=1e-8)
-    assert found.turn == pytest.approx(exact[2], abs=1e-7)
+    assert motion.shift == pytest.approx(exact[:2], abs=1e-8)
+    assert motion.turn == pytest.approx(exact[2], abs=1e-7)
 
 
 @settings(max_examples=40, deadline=None)
@@ -172,10 +172,10 @@ def test_a_film_alone_takes_the_weighted_least_squares_of_the_slips(seed):
 def test_a_film_beside_dry_friction_balances_its_forces(seed):
     bounds, places, moves = draw(seed)
     drags = np.random.default_rng(seed + 1).uniform(0.0, 1e3, len(bounds))
-    found = least_dissipation_in_plane(bounds, places, moves, drags)
-    pace = np.hypot(*found.slip.T)
+    motion = least_dissipation_in_plane(bounds, places, moves, drags)
+    pace = np.hypot(*motion.slip.T)
     assume((pace >= 1e-7).all())  # what holds bears any force within its bound
-    force = (bounds / pace + drags)[:, None] * found.slip
+    force = (bounds / pace + drags)[:, None] * motion.slip
     moment = places[:, 0] * force[:, 1] - places[:, 1] * force[:, 0]
     assert force.sum(axis=0) == pytest.approx([0, 0], abs=1e-5)
     assert moment.sum() == pytest.approx(0, abs=1e-6)
@@ -203,14 +203,14 @@ def test_no_other_motion_dissipates_less_on_naps(seed):
     bounds, places, moves = draw(seed)
     naps = draw_naps(seed, len(bounds))
     strongest, nap = nap_of(*naps)
-    found = least_dissipation_in_plane(strongest, places, moves, nap=nap)
+    motion = least_dissipation_in_plane(strongest, places, moves, nap=nap)
 
     def dissipated(at):
         turned = np.column_stack([-places[:, 1], places[:, 0]])
         slips = moves * 1e3 + at[:2] + at[2] * 10 * turned
         return dissipated_on_naps(slips, *naps)
 
-    start = np.append(found.shift * 1e3, found.turn * 1e2)
+    start = np.append(motion.shift * 1e3, motion.turn * 1e2)
     rng = np.random.default_rng(seed)
     for _ in range(3):
         other = minimize(dissipated, start + rng.standard_normal(3), method="Nelder-Mead",

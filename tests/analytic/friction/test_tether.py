@@ -31,18 +31,18 @@ def walk(tether, gait=ARCH, ground=TIPS, friction=BENDS, cycles=1, **robot):
     return predict(strip, gait, ground, friction=friction, states_per_ramp=10, cycles=cycles)
 
 
-def place(found, at):
+def place(walked, at):
     """x of a material point along a walk, over L."""
-    return (found.locomotion.left + found.shapes.curve(np.array([at * LENGTH]))[0][:, 0]) / LENGTH
+    return (walked.locomotion.left + walked.shapes.curve(np.array([at * LENGTH]))[0][:, 0]) / LENGTH
 
 
 @pytest.mark.parametrize("contacts", ["ends", "all"])
 @pytest.mark.parametrize("at", [0.0, 0.37, 0.5, 1.0])
 def test_a_strip_without_other_friction_turns_about_its_tether(at, contacts):
-    found = walk(Tether(at, drag=0.001), GAITS["wave"], Surface("ice", shear_strength=1e-6),
+    walked = walk(Tether(at, drag=0.001), GAITS["wave"], Surface("ice", shear_strength=1e-6),
                  replace(BENDS, contacts=contacts))  # fmt: skip
-    assert place(found, at) == pytest.approx(at, abs=1e-5)
-    assert np.ptp(found.locomotion.left) > 0.01 * LENGTH or at == 0
+    assert place(walked, at) == pytest.approx(at, abs=1e-5)
+    assert np.ptp(walked.locomotion.left) > 0.01 * LENGTH or at == 0
 
 
 @pytest.mark.parametrize("at", [0.0, 0.6])
@@ -50,18 +50,18 @@ def test_a_strip_without_other_friction_turns_about_its_tether(at, contacts):
 def test_a_drag_above_all_bounds_stops_the_robot(ground, at):
     """A side of the whole strip and two tips hold less."""
     most = ground.shear_strength * Robot().width * LENGTH + 2 * ground.tip_force
-    found = walk(Tether(at, drag=1.01 * most), GAITS["wave"], ground)
-    assert place(found, at) == pytest.approx(at, abs=1e-5)
-    assert abs(found.locomotion.per_cycle) < 1e-6 * LENGTH
+    walked = walk(Tether(at, drag=1.01 * most), GAITS["wave"], ground)
+    assert place(walked, at) == pytest.approx(at, abs=1e-5)
+    assert abs(walked.locomotion.per_cycle) < 1e-6 * LENGTH
 
 
 @pytest.mark.parametrize(("drag", "anchored"), [(0.0098, 0.0), (0.0102, 1.0)])
 def test_a_tether_and_a_tip_hold_together_against_the_other_tip(drag, anchored):
     """Left tip 20 mN; right tip 10 mN and the drag: the end that holds more stays."""
-    found = walk(Tether(1.0, drag=drag), feet=[Foot(0, 0.01, grip=2.0)])
-    still = place(found, anchored)[1:-1]
+    walked = walk(Tether(1.0, drag=drag), feet=[Foot(0, 0.01, grip=2.0)])
+    still = place(walked, anchored)[1:-1]
     assert np.ptp(still) < 1e-5
-    assert np.ptp(place(found, 1.0 - anchored)[1:-1]) > 0.01
+    assert np.ptp(place(walked, 1.0 - anchored)[1:-1]) > 0.01
 
 
 @pytest.mark.parametrize("ground", SURFACES.values(), ids=lambda surface: surface.name)
@@ -91,12 +91,12 @@ def test_a_spring_stops_a_crawler_where_its_feet_hold_no_more():
     feet = [Foot(end, end + 0.01, grip=0.5, grip_back=2.0) for end in (0.0, 0.99)]
     ground, stops = replace(TIPS, shear_strength=100.0), 0.9
     tether = Tether(0.0, stiffness=0.015 / (stops * LENGTH))
-    found, free = (
+    held, free = (
         walk(tied, ground=ground, cycles=5, feet=feet).by_cycle / LENGTH for tied in (tether, None)
     )
-    assert found.sum() == pytest.approx(stops, abs=1e-5)
-    assert found[:2] == pytest.approx(free[:2], rel=0.1)
-    assert np.abs(found[3:]).max() < 1e-5
+    assert held.sum() == pytest.approx(stops, abs=1e-5)
+    assert held[:2] == pytest.approx(free[:2], rel=0.1)
+    assert np.abs(held[3:]).max() < 1e-5
 
 
 def test_what_it_carries_of_a_tether_is_a_payload():

@@ -41,8 +41,9 @@ def test_a_flat_robot_lies_where_its_plan_says(robot):
         assert middle[vertices][[0, -1], :2] == pytest.approx(np.array([begin, end]), abs=1e-12)
 
 
-def limbs(**last):
-    return Limb("a", STRIP), Limb("b", STRIP, "a"), Limb("c", **{"strip": STRIP, "on": "a", **last})
+def limbs(**changes):
+    third = Limb("c", **{"strip": STRIP, "on": "a", **changes})
+    return Limb("a", STRIP), Limb("b", STRIP, "a"), third
 
 
 @pytest.mark.parametrize(

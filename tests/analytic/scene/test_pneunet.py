@@ -48,9 +48,9 @@ def test_filled_volume_5_is_the_ring_sector_at_the_natural_curvature(robot, pres
 def test_sealed_moment_is_the_slope_of_energy_6(robot, pressure, part):
     kappa = float(pneunet.natural_curvature(robot, pressure))
     at = part * kappa
-    found = slope(lambda k: float(pneunet.sealed_energy(robot, pressure, k)), at, 1e-2 * kappa)
+    moment = slope(lambda k: float(pneunet.sealed_energy(robot, pressure, k)), at, 1e-2 * kappa)
     expected = float(pneunet.sealed_moment(robot, pressure, at))
-    assert found == pytest.approx(expected, abs=1e-7 * pneunet.base_rigidity(robot) * kappa)
+    assert moment == pytest.approx(expected, abs=1e-7 * pneunet.base_rigidity(robot) * kappa)
 
 
 @given(robots, pressures)
@@ -67,10 +67,10 @@ def test_tangent_rigidity_8_is_the_curvature_of_energy_6_at_no_moment(robot, pre
 @given(robots, pressures, st.floats(0.3, 2.0))
 def test_sealed_rigidity_is_the_slope_of_the_sealed_moment(robot, pressure, part):
     kappa = float(pneunet.natural_curvature(robot, pressure))
-    found = slope(
+    stiffness = slope(
         lambda k: float(pneunet.sealed_moment(robot, pressure, k)), part * kappa, 1e-2 * kappa
     )
-    assert found == pytest.approx(
+    assert stiffness == pytest.approx(
         float(pneunet.sealed_rigidity(robot, pressure, part * kappa)), rel=1e-6
     )
 

@@ -75,9 +75,9 @@ def test_contact_length_and_separation_converge_with_elements(fraction):
     exact = solve_modes(robot, state)
     contact, separation = [], []
     for elements in (15, 240):
-        found = solve_obstacle(robot, state, elements=elements)
-        contact.append(abs(found.contact_right[0] - exact.contact_right[0]) / robot.length)
-        separation.append(abs(found.separation[0] - exact.separation[0]) / robot.length)
+        shapes = solve_obstacle(robot, state, elements=elements)
+        contact.append(abs(shapes.contact_right[0] - exact.contact_right[0]) / robot.length)
+        separation.append(abs(shapes.separation[0] - exact.separation[0]) / robot.length)
     assert contact[0] > 16 * contact[1]
     assert separation[0] > 16 * separation[1]
     assert contact[0] < 2e-3

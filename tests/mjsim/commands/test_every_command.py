@@ -57,7 +57,7 @@ links = 2
 timestep = 0.04
 """
 LEG = 'length = "45 mm"\nwidth = "14 mm"\nmass = "5 g"\nat = "end"\non = "body"'
-THREE_LEGS = f"""
+ONE_LEG = f"""
 [robot]
 peak_pressure = "40 kPa"
 [[robot.limbs]]
@@ -69,6 +69,8 @@ mass = "8 g"
 name = "left"
 angle_deg = 120
 {LEG}
+"""
+THREE_LEGS = f"""{ONE_LEG}
 [[robot.limbs]]
 name = "right"
 angle_deg = -120
@@ -85,6 +87,13 @@ surface = "felt"
 [numerics]
 links = 2
 timestep = 0.04
+"""
+BODY_AND_LEG = f"""{ONE_LEG}
+[gait]
+stages = [[0, 0], [0, 1], [1, 1], [0, 0]]
+ramp_time = "1 s"
+[ground]
+surface = "gelatin"
 """
 ROBOTS = {"strip": STRIP, "quadruped": QUADRUPED, "three-legs": THREE_LEGS}
 
@@ -109,7 +118,10 @@ class Case(NamedTuple):
     row: dict
 
 
-@pytest.fixture(scope="module", params=list(ROBOTS))
+@pytest.fixture(
+    scope="module",
+    params=["strip", "quadruped", pytest.param("three-legs", marks=pytest.mark.slow)],
+)
 def case(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp(request.param)
     path = folder / "scene.toml"
@@ -248,15 +260,15 @@ def test_a_search_counts_the_distance_of_its_own_walks(case):
 
 
 @pytest.mark.slow
-def test_the_best_gait_of_a_quadruped_is_confirmed(tmp_path, capsys):
+def test_the_best_gait_of_limbs_is_confirmed(tmp_path, capsys):
     path = tmp_path / "scene.toml"
-    path.write_text(QUADRUPED.replace("left = 0.7\n", ""))
+    path.write_text(BODY_AND_LEG)
     words = ["--scene", path, "--evaluations", 16, "--out", tmp_path]
     record = said(optimise, words, capsys)
     assert record["model"] == "mujoco"
     assert {row["surface"] for row in record["surfaces"]} >= {"felt", "gelatin"}
     best, _ = build(merged(read_tables(path), {"gait": {"file": str(tmp_path / "best.toml")}}))
-    assert best.gait.segments == 5
+    assert best.gait.segments == 2
 
 
 def test_a_file_that_walks_by_itself_has_a_control_per_chamber(case, tmp_path):

@@ -149,9 +149,9 @@ def test_the_last_line_names_the_law_and_what_the_file_goes(tmp_path, capsys):
     words = ["--robot.mass", "0.02", "--out", str(tmp_path)]
     for law, friction in (("constant bounds", []), ("by load (mu N)", ["--friction", "coulomb"])):
         assert export.main([*words, *friction]) == 0
-        last = capsys.readouterr().err.splitlines()[-1]
-        assert law in last
-        assert re.search(r"[+-]0\.\d{3} L at 2 s per ramp, [+-]0\.\d{3} L at 8 s per ramp", last)
+        line = capsys.readouterr().err.splitlines()[-1]
+        assert law in line
+        assert re.search(r"[+-]0\.\d{3} L at 2 s per ramp, [+-]0\.\d{3} L at 8 s per ramp", line)
 
 
 @pytest.fixture

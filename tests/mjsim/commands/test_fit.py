@@ -38,9 +38,9 @@ def test_runs_give_back_the_modulus_they_were_made_with_and_a_scene_that_walks(
     out = tmp_path / "fitted"
     code = fit.main([str(runs), "--free", "robot.modulus", "--links", "12", "--timestep", "0.02",
                      "--out", str(out), "--json"])  # fmt: skip
-    found = json.loads(capsys.readouterr().out)
+    record = json.loads(capsys.readouterr().out)
     assert code == 0
-    (one,) = found["parameters"]
+    (one,) = record["parameters"]
     assert one["value"] == pytest.approx(2e6, rel=1e-3)
     assert one["low_95"] <= one["value"] <= one["high_95"]
     scene, numerics = build(tomllib.loads((out / "fit.toml").read_text()))
@@ -66,11 +66,11 @@ def test_a_law_that_misses_the_data_withholds_intervals_with_exit_code_3(tmp_pat
     rows = "".join(f"{p},{0.02 * p**2}\n" for p in pressure)
     path.write_text("pressure [kPa],angle [deg]\n" + rows)
     code = fit.main([str(path), "--free", "robot.modulus", "--out", str(tmp_path), "--json"])
-    found = json.loads(capsys.readouterr().out)
+    record = json.loads(capsys.readouterr().out)
     assert code == 3
-    (one,) = found["parameters"]
+    (one,) = record["parameters"]
     assert (one["interval"], one["low_95"], one["high_95"]) == ("withheld", None, None)
-    assert "the model misses something" in found["notes"][0]
+    assert "the model misses something" in record["notes"][0]
 
 
 def test_the_log_of_a_bench_gives_its_zero_and_a_scene_that_may_not_walk(tmp_path, capsys):

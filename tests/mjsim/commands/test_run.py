@@ -163,3 +163,23 @@ def test_the_command_runs_as_a_module_from_anywhere(tmp_path):
     assert json.loads(result.stdout)["status"] == "ok"
     assert len(list((tmp_path / "videos").glob("felt-*.nc"))) == 1
     assert result.stderr == ""
+
+
+@pytest.mark.parametrize(
+    ("words", "doing"),
+    [(["--tolerance", "0.02"], "gelatin, by "),
+     (["--body", "auto", "--no-video"], "simulating gelatin ever finer")],
+)  # fmt: skip
+def test_long_work_that_shows_no_bar_says_once_what_it_does(
+    tmp_path, capsys, monkeypatch, words, doing
+):
+    monkeypatch.setattr(cli, "_LONG", 0.01)
+    run.main([*words, "--surface", "gelatin", "--contacts", "all", "--out", str(tmp_path)])
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"undulator run: {doing}")
+    assert line.endswith("it goes on, and may take minutes")
+
+
+def test_quick_work_says_nothing(tmp_path, capsys):
+    run.main(["--body", "auto", "--no-video", "--out", str(tmp_path)])
+    assert capsys.readouterr().err == ""

@@ -118,6 +118,7 @@ def test_what_may_be_meant_is_asked(capsys, words, meant):
         (["--robot.feet", "0..1.2 grip=2"], "--robot.feet, number 1: end of a foot must"),
         (["--robot.payload", "0.5 mass=5g mass=6g"], "--robot.payload: key 'mass' stands twice"),
         (["--robot.tether", "0 drag=5"], "--robot.tether: drag must be one for a robot of"),
+        (["--robot.feet", "0..0.1"], "--robot.feet, number 1: a foot must say what it does: give"),
         (["--robot.feet", "0..0.1 hold=50"], "--robot.feet: hold must be one for a robot of"),
         (["--robot.feet", "0..0 drop=1m"], "--robot.feet: drop must be at most"),
     ],

@@ -53,8 +53,8 @@ def test_a_strip_that_falls_ends_its_episode_as_gymnasiums_does():
 
 
 def test_one_line_tells_a_dm_control_that_does_not_know_the_mujoco_beside_it(monkeypatch):
-    monkeypatch.delitem(sys.modules, "mjsim.env.dm")
-    monkeypatch.delitem(sys.modules, "mjsim.env.dm_binding")
+    monkeypatch.delitem(sys.modules, "mjsim.env.dm", raising=False)
+    monkeypatch.delitem(sys.modules, "mjsim.env.dm_binding", raising=False)
     monkeypatch.setitem(sizes.array_sizes["mjmodel"], "field_of_another_version", ("nq",))
     with pytest.raises(ImportError, match=r"does not know MuJoCo \d") as told:
         mjsim.env.load("gelatin")

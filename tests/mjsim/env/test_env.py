@@ -76,7 +76,7 @@ WAYS = pytest.mark.parametrize("way", [copy.deepcopy, lambda env: pickle.loads(p
 
 
 def steps(env, actions):
-    """What is felt and what is paid, of either library's environment."""
+    """Observations and rewards of either library's environment."""
     seen = []
     for action in actions:
         felt = env.step(action)
@@ -162,10 +162,10 @@ def test_scenes_are_drawn_within_their_ranges_and_by_the_seed():
 
 
 def test_friction_acts_at_all_contacts_and_chambers_fill_in_time_unless_the_base_says_else():
-    usual, own = Settings(), Settings(base={"valves": {"fill_time": 0.2}})
+    usual, valved = Settings(), Settings(base={"valves": {"fill_time": 0.2}})
     assert usual.scene({}).between
     assert usual.scene({}).valves.time_constant == 0.5
-    assert own.scene({}).valves.time_constant == 0.2
+    assert valved.scene({}).valves.time_constant == 0.2
     drawn = Settings(randomise={"valves.fill_time": (0.3, 0.4)}).draw(np.random.default_rng(0))
     assert 0.3 <= drawn.valves.time_constant <= 0.4
 
@@ -303,7 +303,7 @@ def test_a_trained_rhythm_earns_what_a_finer_model_pays_for_it():
     from studies.control.rhythm import press, train
 
     envs = WalkVectorEnv(num_envs=8, surfaces=("gelatin",))
-    trained = train(envs, generations=3, seed=0)
+    trained = train(envs, generations=2, seed=0)
 
     def went(actions, numerics=None):
         env = WalkEnv(surfaces=("gelatin",), numerics=numerics)
@@ -357,8 +357,8 @@ def test_two_chambers_on_and_off_by_turns_earn_what_a_finer_model_pays_for_it():
 def test_what_searches_for_reward_found_is_paid_by_a_finer_model_but_for_one_policy():
     rows = adversary.stored()
     for ground in adversary.GROUNDS:
-        found = {(row.seed, row.search) for row in rows if row.ground == ground}
-        assert {(2, search) for search in adversary.SEARCHES} <= found
+        searches = {(row.seed, row.search) for row in rows if row.ground == ground}
+        assert {(2, search) for search in adversary.SEARCHES} <= searches
     fooled = [row for row in rows if not row.holds]
     assert [(row.ground, row.cycle) for row in fooled] == [("felt", "XX0 XX0 000 000")]
     assert abs(fooled[0].earned - fooled[0].finer) < 0.008

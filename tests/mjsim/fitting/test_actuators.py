@@ -27,14 +27,14 @@ def test_a_bench_gives_curve_hysteresis_and_zero_and_what_the_affine_law_misses(
     file = log(tmp_path / "bench.csv", zero=3.0)
     words = [file, "--free", "robot.actuator", "--zero", "angle", "--out", str(tmp_path)]
     assert fit.main([*words, "--json"]) == 0
-    (found,) = json.loads(capsys.readouterr().out)["actuators"]
-    numbers = {number["name"]: number for number in found["numbers"]}
+    (actuator,) = json.loads(capsys.readouterr().out)["actuators"]
+    numbers = {number["name"]: number for number in actuator["numbers"]}
     true = {"slope at rest": np.radians(1.4e-3), "play 1": 8e3, "share 1": 0.3,
             "zero of bench.csv": np.radians(3.0)}  # fmt: skip
     for name, value in true.items():
         assert numbers[name]["low_95"] <= value <= numbers[name]["high_95"]
-    assert found["rms"] == pytest.approx(np.radians(0.2), rel=0.2)
-    assert found["affine_largest"] > 5 * found["rms"]
+    assert actuator["rms"] == pytest.approx(np.radians(0.2), rel=0.2)
+    assert actuator["affine_largest"] > 5 * actuator["rms"]
     scene, _ = build(read_tables(tmp_path / "fit.toml"))
     (curve, *_) = scene.robot.actuators
     length = scene.robot.length / 3

@@ -19,7 +19,7 @@ SCENE = Scene()
 
 
 def predicted(surface, strength=1.0, gait=SCENE.gait):
-    """By the elastica, bent by friction so many times as strong as the surface's."""
+    """Distance by the elastica, bent by friction so many times as strong as the surface's."""
     friction = Friction("coulomb", 1.0 if strength else 0.0)
     return walks.predicted(Robot(), gait, surface.scaled(strength or 1.0), friction)
 
@@ -28,9 +28,9 @@ def predicted(surface, strength=1.0, gait=SCENE.gait):
 @pytest.mark.parametrize("strength", [1.0, 2.0])
 def test_the_distance_is_that_of_the_elastica_bent_by_the_same_friction(surface, strength):
     ground = SURFACES[surface].scaled(strength)
-    found = measured(ground, ramp_time=SLOW, friction="coulomb")
+    numbers = measured(ground, ramp_time=SLOW, friction="coulomb")
     exact = predicted(SURFACES[surface], strength)
-    assert found.displacement == pytest.approx(exact, rel=0.02, abs=0.002)
+    assert numbers.displacement == pytest.approx(exact, rel=0.02, abs=0.002)
 
 
 @pytest.mark.slow
@@ -51,19 +51,21 @@ def test_weak_friction_needs_a_slower_gait_and_firmer_contacts():
 @pytest.mark.parametrize("reverse", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_other_gaits_meet_it_too(gait, reverse):
     result = walk("gelatin", gait, ramp_time=SLOW, reverse=reverse, friction="coulomb", links=12)
-    found = measured("gelatin", gait, ramp_time=SLOW, reverse=reverse, friction="coulomb", links=12)
+    numbers = measured(
+        "gelatin", gait, ramp_time=SLOW, reverse=reverse, friction="coulomb", links=12
+    )
     exact = predicted(SURFACES["gelatin"], gait=result.scene.gait)
-    assert found.displacement == pytest.approx(exact, rel=0.05, abs=0.002)
+    assert numbers.displacement == pytest.approx(exact, rel=0.05, abs=0.002)
 
 
 @pytest.mark.parametrize("body", registry.names())
 def test_every_body_meets_it(body):
-    found = measured("gelatin", ramp_time=SLOW, friction="coulomb", links=12, body=body)
-    assert found.displacement == pytest.approx(predicted(SURFACES["gelatin"]), rel=0.03)
+    numbers = measured("gelatin", ramp_time=SLOW, friction="coulomb", links=12, body=body)
+    assert numbers.displacement == pytest.approx(predicted(SURFACES["gelatin"]), rel=0.03)
 
 
 def anchor_creep(impratio):
-    """How far the left tip, the heavier one, is dragged while the right one slides, over L."""
+    """Way that the left tip, the heavier one, is dragged while the right one slides, over L."""
     result = walk("gelatin", ramp_time=SLOW, friction="coulomb", impratio=impratio)
     x, _ = result.nodes()
     held = (result.time > 12.0) & (result.time <= 16.0)

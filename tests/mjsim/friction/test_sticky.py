@@ -18,8 +18,8 @@ SLOW = replace(GAITS["wave"], ramp_time=8.0)
 def test_a_robot_on_sticky_ground_goes_as_far_as_theory_says(surface, adhesion):
     ground = replace(SURFACES[surface], adhesion=adhesion)
     theory = predict(Robot(), SLOW, ground, friction=Friction(tension=1.0)).locomotion.per_cycle
-    found = measure(simulate(Scene(gait=SLOW, ground=ground), Numerics(links=48)))
-    assert found.displacement == pytest.approx(theory / Robot().length, rel=0.03)
+    numbers = measure(simulate(Scene(gait=SLOW, ground=ground), Numerics(links=48)))
+    assert numbers.displacement == pytest.approx(theory / Robot().length, rel=0.03)
 
 
 def test_the_ground_pushes_as_much_as_weight_and_adhesion_pull():

@@ -81,7 +81,8 @@ def test_what_does_not_know_feet_says_so():
 
 @pytest.mark.parametrize(("ground", "contacts", "feet"), [
     ("polyethylene", "ends", (Foot(0, 0, hold=0.005),)),
-    ("gelatin", "all", (Foot(0, 0.2, hold=0.01), Foot(0.4, 0.6, hold=0.02))),
+    pytest.param("gelatin", "all", (Foot(0, 0.2, hold=0.01), Foot(0.4, 0.6, hold=0.02)),
+                 marks=pytest.mark.slow),
 ])  # fmt: skip
 def test_under_mu_n_what_a_foot_holds_by_adds_to_the_load(ground, contacts, feet):
     slow = replace(GAITS["wave"], ramp_time=8.0)

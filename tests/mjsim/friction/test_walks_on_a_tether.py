@@ -72,7 +72,7 @@ def test_a_spring_stops_a_crawler_where_its_feet_hold_no_more():
     assert expected.by_cycle.sum() == pytest.approx(stops, rel=0.02)
 
 
-@pytest.mark.parametrize("body", ["cable", "rod"])
+@pytest.mark.parametrize("body", [pytest.param("cable", marks=pytest.mark.slow), "rod"])
 def test_other_bodies_drag_it_too(body):
     scene = tied(Tether(0.37, drag=0.002), "gelatin", body=body)
     planar = measure(simulate(replace(scene, body="chain"))).displacement

@@ -52,8 +52,11 @@ def test_slow_walks_over_a_nap_come_near_the_theory(name, ahead, back, law):
 
 
 @pytest.mark.parametrize("law", ["constant", "coulomb"])
-@pytest.mark.parametrize("contacts", ["ends", "all"])
-@pytest.mark.parametrize("down", [-1.0, 1.0])
+@pytest.mark.parametrize(
+    ("contacts", "down"),
+    [("ends", -1.0), ("all", 1.0), pytest.param("ends", 1.0, marks=pytest.mark.slow),
+     pytest.param("all", -1.0, marks=pytest.mark.slow)],
+)  # fmt: skip
 def test_a_flat_strip_slides_down_a_slope_only_beyond_the_bound_that_way(law, contacts, down):
     """Its weight's part along the slope against tau by its area, or against mu N."""
     robot, ground = Scene().robot, napped("felt", 0.8, 1.2).scaled(0.25)

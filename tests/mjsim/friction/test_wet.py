@@ -31,17 +31,17 @@ def test_a_strip_lying_on_a_wet_slope_slides_at_the_speed_of_its_film():
 def test_wet_ground_turns_a_slow_robot_round_as_theory_says(ramp_time):
     gait = replace(GAITS["wave"], ramp_time=ramp_time)
     theory = predict(Robot(), gait, WET, friction=Friction(tension=1.0)).locomotion.per_cycle
-    found = measure(simulate(Scene(gait=gait, ground=WET)))
-    assert found.displacement == pytest.approx(theory / Robot().length, abs=0.001)
-    assert math.isnan(found.unexplained)  # no end is an anchor there
+    numbers = measure(simulate(Scene(gait=gait, ground=WET)))
+    assert numbers.displacement == pytest.approx(theory / Robot().length, abs=0.001)
+    assert math.isnan(numbers.unexplained)  # no end is an anchor there
 
 
 def test_sides_of_static_friction_hold_as_those_of_felt():
     """Tips have none, so that nothing ties, and a side that holds never slides."""
     felt = SURFACES["felt"]
     stiction = replace(felt, static_ratio=1.5, stribeck_speed=1e-3)
-    found, plain = (measure(simulate(Scene(ground=ground))) for ground in (stiction, felt))
-    assert found.displacement == pytest.approx(plain.displacement, abs=1e-3)
+    sticking, plain = (measure(simulate(Scene(ground=ground))) for ground in (stiction, felt))
+    assert sticking.displacement == pytest.approx(plain.displacement, abs=1e-3)
 
 
 def test_friction_by_load_and_by_speed_do_not_go_together():

@@ -59,13 +59,13 @@ def test_a_walk_by_weak_friction_is_of_second_order_in_its_increments():
     """Tips that resist viscously, on which all stands, so that nothing jumps."""
     robot = shod(quadruped(), Foot(0, 1, grip=0.0, damping=1.0), limbs=quadruped().outer)
     ends = robot.peak_pressure * np.array([[0.0, 0.8, 0.9, 0.9, 0.9], [0.0, 1.0, 0.9, 0.7, 1.0]])
-    found = []
+    speeds = []
     for count in (1, 2, 4, 8, 64):
         pressures = np.linspace(*ends, count + 1)
         tree, rests = shapes(robot, pressures, 4, twists=0)
         path = follow(tree, rests, pressures, SMOOTH, times=np.linspace(0, 1, count + 1))
-        found.append([*path.place[-1] / robot.length, path.heading[-1]])
-    errors = np.abs(np.array(found[:-1]) - found[-1]).max(axis=1)
+        speeds.append([*path.place[-1] / robot.length, path.heading[-1]])
+    errors = np.abs(np.array(speeds[:-1]) - speeds[-1]).max(axis=1)
     assert errors[0] < 2e-4
     assert (errors[:-1] / errors[1:] > 3.0).all(), errors
 

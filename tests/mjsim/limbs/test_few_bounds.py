@@ -64,7 +64,7 @@ def test_an_underside_between_two_tips_resists_by_nothing_and_the_strip_s_distan
 
 @pytest.mark.slow
 def test_a_light_strip_as_a_tree_loses_what_lies_flat_within_two_elements_behind_a_tip():
-    """A strip's finder takes it for a side from the second node on; see docs/quadruped.md."""
+    """A strip's finder takes it for a side from the second node on; see docs/limbs.md."""
     strip = Robot(weight_per_length=2.0)
     gaits = [Gait("outer-first", tuple(map(tuple, stages)), 8.0)
              for stages in (STAGES, STAGES[:, [1, 0, 2]])]  # fmt: skip
@@ -106,9 +106,9 @@ def test_the_last_vertex_of_a_limb_is_at_its_length_to_the_last_digit():
 def test_on_a_film_alone_the_reference_does_not_know_how_slow_the_gait_is(ramp):
     film = Surface("film", viscosity=100.0)
     gait = replace(undulation(), ramp_time=ramp)
-    found = quasi_static(quadruped(), gait, film, 8, 4)
+    theory = quasi_static(quadruped(), gait, film, 8, 4)
     felt = quasi_static(quadruped(), undulation(), FELT, 8, 4)  # where tips hold nothing either
-    assert found.displacement[0] == pytest.approx(felt.displacement[0], rel=0.02)
+    assert theory.displacement[0] == pytest.approx(felt.displacement[0], rel=0.02)
 
 
 def test_a_heavy_torso_between_four_tips_goes_as_far_as_the_reference():
@@ -117,9 +117,9 @@ def test_a_heavy_torso_between_four_tips_goes_as_far_as_the_reference():
     robot = LimbedRobot((heavy, *legs))
     stages = np.array([[0, 0, 0, 0, 0], [0, 1, 1, 0, 0], [0, 1, 1, 1, 1], [0, 0, 0, 1, 1], [0] * 5])
     gait = Gait("legs", tuple(map(tuple, stages.astype(float))), 8.0)
-    found = quasi_static(robot, gait, FELT, 8, 4)
+    theory = quasi_static(robot, gait, FELT, 8, 4)
     walk = simulate(Scene(robot, gait, FELT), Numerics(timestep=0.02, links=4))
-    assert went(walk)[0] == pytest.approx(found.displacement[0], abs=5e-4 * LENGTH)
+    assert went(walk)[0] == pytest.approx(theory.displacement[0], abs=5e-4 * LENGTH)
 
 
 @pytest.mark.parametrize(
@@ -128,10 +128,10 @@ def test_a_heavy_torso_between_four_tips_goes_as_far_as_the_reference():
 )
 def test_on_a_film_alone_a_robot_of_little_mass_goes_as_far_as_the_reference(viscosity, states):
     film = Surface("film", viscosity=viscosity)
-    found = quasi_static(quadruped(), undulation(), film, states, 4)
+    theory = quasi_static(quadruped(), undulation(), film, states, 4)
     light = Scene(quadruped(), ground=film, gravity=98.1)  # its mass is a tenth
     walk = simulate(light, Numerics(links=4))
-    assert went(walk)[0] == pytest.approx(found.displacement[0], rel=0.06)
+    assert went(walk)[0] == pytest.approx(theory.displacement[0], rel=0.06)
 
 
 @pytest.mark.parametrize("angle", [0.5 * np.pi, pytest.param(-2.0, marks=pytest.mark.slow)])

@@ -30,10 +30,9 @@ GROUNDS = [
 ]
 
 
-def scene(ground=SURFACES["gelatin"]):
-    return Scene(
-        quadruped(), gait=replace(undulation("wave", left=0.7), ramp_time=1.0), ground=ground
-    )
+def scene(ground=SURFACES["gelatin"], ramp_time=1.0):
+    gait = replace(undulation("wave", left=0.7), ramp_time=ramp_time)
+    return Scene(quadruped(), gait=gait, ground=ground)
 
 
 @pytest.mark.parametrize("ground", GROUNDS, ids=lambda ground: ground.name)
@@ -83,7 +82,7 @@ def test_a_middle_line_is_as_long_as_its_limb_in_every_state():
 @pytest.mark.slow
 @pytest.mark.skipif(gl.find_backend() is None, reason="nothing here renders")
 def test_a_saved_walk_is_drawn_again(tmp_path):
-    simulate(scene(), NUMERICS).save(tmp_path / "walk.nc")
+    simulate(scene(ramp_time=0.2), NUMERICS).save(tmp_path / "walk.nc")
     assert replay.main([str(tmp_path / "walk.nc")]) == 0
     assert (tmp_path / "walk.mp4").stat().st_size > 10_000
 

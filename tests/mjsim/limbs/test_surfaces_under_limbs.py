@@ -22,7 +22,7 @@ AREA = STRIP.width * STRIP.length
 
 
 def places(ground, slope, friction="constant", steps=100):
-    """Where a limb without pressure is after each step on a slope [m]."""
+    """Place of a limb without pressure after each step on a slope [m]."""
     simulation = Simulation(Scene(SOLO, GAITS["wave"], ground, slope=slope, friction=friction))
     at = []
     for _ in range(steps):
@@ -41,9 +41,9 @@ def test_a_limb_breaks_away_at_static_ratio_times_its_bound_and_slides_against_t
     assert np.ptp(at[20:]) < 1e-5
     at, gravity = places(ground, 1.05 * limit)
     expected = gravity * (math.sin(1.05 * limit) - bound / STRIP.weight)
-    found = -float(np.diff(at, 2)[-30:].mean()) / STEP**2
+    deceleration = -float(np.diff(at, 2)[-30:].mean()) / STEP**2
     viscous = 0.005 * gravity * bound / STRIP.weight  # what decides between equal bounds, at most
-    assert expected - 1.1 * viscous < found < 1.01 * expected
+    assert expected - 1.1 * viscous < deceleration < 1.01 * expected
 
 
 def test_by_load_adhesion_holds_a_limb_as_weight_does():

@@ -36,9 +36,9 @@ def tied(tether, on="torso", robot=QUADRUPED):
 ])  # fmt: skip
 def test_mujoco_goes_as_far_as_the_reference(tether, on, ground):
     scene = Scene(tied(tether, on), ground=ground)
-    expected, found = reference(scene), measure(simulate(scene))
-    assert found.displacement == pytest.approx(expected.displacement[0], abs=0.003)
-    assert np.degrees(found.heading) == pytest.approx(np.degrees(expected.turn), abs=0.4)
+    expected, numbers = reference(scene), measure(simulate(scene))
+    assert numbers.displacement == pytest.approx(expected.displacement[0], abs=0.003)
+    assert np.degrees(numbers.heading) == pytest.approx(np.degrees(expected.turn), abs=0.4)
 
 
 def test_a_drag_above_all_bounds_stops_it():
@@ -56,7 +56,7 @@ def test_on_ice_the_place_of_the_tether_stays(bent):
     assert np.abs(torso - torso[0]).max() < 1e-4 * QUADRUPED.length
 
 
-@pytest.mark.parametrize("ground", ["felt", "gelatin"])
+@pytest.mark.parametrize("ground", ["felt", pytest.param("gelatin", marks=pytest.mark.slow)])
 def test_limbs_in_one_line_drag_it_as_the_strip_does(ground):
     gait, strip = GAITS["wave"], Robot()
     by_limb = replace(gait, stages=tuple((b, a, c) for a, b, c in gait.stages))

@@ -71,7 +71,7 @@ def test_a_limb_in_mujoco_twists_by_its_length_over_gj():
         assert damping / stiffness == pytest.approx(Numerics().damping_time)
 
 
-@pytest.mark.parametrize("name", ["felt", "gelatin"])
+@pytest.mark.parametrize("name", ["felt", pytest.param("gelatin", marks=pytest.mark.slow)])
 def test_limbs_that_twist_go_as_far_as_the_reference(name, tmp_path):
     walk = simulate(scene(name, left=0.7), NUMERICS)
     assert walk.status is Status.OK

@@ -36,9 +36,9 @@ def walks():
 
 @pytest.mark.parametrize("name", ["felt", "gelatin"])
 def test_it_goes_as_far_as_the_quasi_static_reference(walks, name):
-    found = quasi_static(quadruped(), undulation("wave"), SURFACES[name], 8, 4)
-    off = np.hypot(*(went(walks[name]) - found.displacement))
-    assert off < max(0.05 * abs(found.displacement[0]), 0.002 * LENGTH)
+    theory = quasi_static(quadruped(), undulation("wave"), SURFACES[name], 8, 4)
+    off = np.hypot(*(went(walks[name]) - theory.displacement))
+    assert off < max(0.05 * abs(theory.displacement[0]), 0.002 * LENGTH)
 
 
 def test_pairs_that_press_alike_keep_it_straight(walks):
@@ -59,20 +59,20 @@ def test_left_and_right_swapped_it_goes_the_mirrored_way():
 @pytest.mark.slow
 def test_less_pressure_on_the_left_turns_it_as_in_theory():
     walk = simulate(scene("gelatin", left=0.7), NUMERICS)
-    found = quasi_static(quadruped(), undulation("wave", left=0.7), SURFACES["gelatin"], 12, 4)
-    assert np.degrees(turned(walk)) == pytest.approx(np.degrees(found.turn), abs=0.2)
+    theory = quasi_static(quadruped(), undulation("wave", left=0.7), SURFACES["gelatin"], 12, 4)
+    assert np.degrees(turned(walk)) == pytest.approx(np.degrees(theory.turn), abs=0.2)
 
 
 def test_at_rest_it_has_the_shape_of_the_statics():
-    own = Scene(quadruped(), ground=SURFACES["felt"].scaled(0.01))  # which bends nothing
+    weak = Scene(quadruped(), ground=SURFACES["felt"].scaled(0.01))  # which bends nothing
     numerics = replace(NUMERICS, timestep=0.005)  # it sinks in by the square of that
-    simulation = Simulation(own, numerics)
-    pressures = own.robot.peak_pressure * np.array([0.3, 0.8, 0.5, 0.0, 0.0])
+    simulation = Simulation(weak, numerics)
+    pressures = weak.robot.peak_pressure * np.array([0.3, 0.8, 0.5, 0.0, 0.0])
     for part in np.linspace(0, 1, 600):
         simulation.step(part * pressures)
     for _ in range(200):
         simulation.step(pressures)
-    tree = Tree(own.robot, NUMERICS.links, NUMERICS.links // 2)
+    tree = Tree(weak.robot, NUMERICS.links, NUMERICS.links // 2)
     statics, rest = Statics(tree), Statics(tree).flat()
     for part in np.linspace(0, 1, 9):
         rest = statics.equilibrium(part * pressures, rest)
@@ -112,14 +112,14 @@ def test_every_place_resists_by_its_bound_at_most(monkeypatch):
 
 
 def test_steps_of_a_controller_are_those_of_the_gait():
-    own = scene(ramp=1.0)
+    quick = scene(ramp=1.0)
     numerics = Numerics(timestep=0.02, links=4)
-    peak = own.robot.peak_pressure
-    simulation = Simulation(own, numerics)
+    peak = quick.robot.peak_pressure
+    simulation = Simulation(quick, numerics)
     by_gait = simulation.run()
 
-    time = numerics.timestep * np.arange(1.0, round(own.gait.period / numerics.timestep) + 1)
-    rows = peak * own.gait.fractions(time)
+    time = numerics.timestep * np.arange(1.0, round(quick.gait.period / numerics.timestep) + 1)
+    rows = peak * quick.gait.fractions(time)
 
     def policy(observation):
         return rows[round(observation.time / numerics.timestep)]
@@ -148,13 +148,13 @@ def test_what_cannot_be_is_refused_in_one_line():
 def test_where_a_contact_lets_go_it_snaps_but_is_not_thrown():
     # legs that unbend on a ground that only tips feel, under friction by load
     gait = replace(undulation("full-wave", left=0.5), ramp_time=8.0)
-    own = Scene(quadruped(), gait=gait, ground=SURFACES["gelatin"], friction="coulomb")
-    found = quasi_static(quadruped(), gait, own.ground, 12, 4, law="coulomb")
+    by_load = Scene(quadruped(), gait=gait, ground=SURFACES["gelatin"], friction="coulomb")
+    theory = quasi_static(quadruped(), gait, by_load.ground, 12, 4, law="coulomb")
     for timestep in (0.02, 0.04):
-        walk = simulate(own, Numerics(timestep=timestep, links=4))
-        off = np.hypot(*(went(walk) - found.displacement))
-        assert off < 0.1 * np.hypot(*found.displacement)
-        assert np.degrees(turned(walk)) == pytest.approx(np.degrees(found.turn), abs=0.5)
+        walk = simulate(by_load, Numerics(timestep=timestep, links=4))
+        off = np.hypot(*(went(walk) - theory.displacement))
+        assert off < 0.1 * np.hypot(*theory.displacement)
+        assert np.degrees(turned(walk)) == pytest.approx(np.degrees(theory.turn), abs=0.5)
 
 
 @pytest.mark.slow
@@ -170,15 +170,15 @@ def test_a_gait_of_two_seconds_a_ramp_goes_as_far_as_a_slow_one():
 
 @pytest.mark.parametrize("elements", [4, 6])
 def test_it_sinks_in_by_a_quarter_of_its_ripples_at_the_longest_step(elements):
-    own = scene("felt")
-    longest = longest_step(own, resolved(own, Numerics(links=elements)))
-    simulation = Simulation(own, Numerics(links=elements, timestep=longest))
+    on_felt = scene("felt")
+    longest = longest_step(on_felt, resolved(on_felt, Numerics(links=elements)))
+    simulation = Simulation(on_felt, Numerics(links=elements, timestep=longest))
     for _ in range(100):
         simulation.step(np.zeros(5))
     radius = simulation.numerics.pad_radius
     pads = simulation.model.geom_size[:, 0] == radius
     deepest = radius - simulation.data.geom_xpos[pads, 2].min()
-    least = min(ripple(limb.strip, elements) for limb in own.robot.limbs)
+    least = min(ripple(limb.strip, elements) for limb in on_felt.robot.limbs)
     assert 0.15 * least < deepest < 0.4 * least
 
 
@@ -190,10 +190,10 @@ SEAM = Patches("seam", (0.03,), (SURFACES["felt"], SURFACES["polyethylene"]))
 @pytest.mark.slow
 @pytest.mark.parametrize("ground", [WET, STICKY, SEAM], ids=lambda ground: ground.name)
 def test_on_wet_ground_and_over_a_seam_it_goes_and_turns_as_in_theory(ground):
-    own = replace(scene("felt", left=0.8), ground=ground)
+    on_ground = replace(scene("felt", left=0.8), ground=ground)
     twists = 0 if ground is SEAM else 3  # with twist they part by 0.005 L aside over the seam
-    walk = simulate(own, Numerics(timestep=0.03, twists=twists))
-    found = quasi_static(own.robot, own.gait, ground, 16, 6, twists=twists)
-    off = np.hypot(*(went(walk) - found.displacement))
-    assert off < max(0.05 * np.hypot(*found.displacement), 0.004 * LENGTH)
-    assert np.degrees(turned(walk)) == pytest.approx(np.degrees(found.turn), abs=0.5)
+    walk = simulate(on_ground, Numerics(timestep=0.03, twists=twists))
+    theory = quasi_static(on_ground.robot, on_ground.gait, ground, 16, 6, twists=twists)
+    off = np.hypot(*(went(walk) - theory.displacement))
+    assert off < max(0.05 * np.hypot(*theory.displacement), 0.004 * LENGTH)
+    assert np.degrees(turned(walk)) == pytest.approx(np.degrees(theory.turn), abs=0.5)

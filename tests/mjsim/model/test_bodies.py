@@ -54,9 +54,9 @@ def test_the_rod_comes_near_with_smaller_steps(surface):
 @pytest.mark.parametrize("body", BODIES)
 @pytest.mark.parametrize("surface", list(SURFACES))
 def test_the_robot_keeps_its_heading_and_its_plane(surface, body):
-    found = measured(surface, links=12, body=body)
-    assert abs(found.heading) < 1e-4
-    assert found.sideways < 1e-4
+    numbers = measured(surface, links=12, body=body)
+    assert abs(numbers.heading) < 1e-4
+    assert numbers.sideways < 1e-4
 
 
 def knocked_over(monkeypatch, body):

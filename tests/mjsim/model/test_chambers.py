@@ -27,12 +27,14 @@ def follow(valves, commands):
 
 def test_filling_and_venting_are_exponentials_of_their_own():
     commands = np.concatenate([np.full((300, 2), PEAK), np.zeros((300, 2))])
-    found = follow(Valves(fill_time=(0.1, 0.3), vent_time=(0.5, 0.2)), commands)
+    pressures = follow(Valves(fill_time=(0.1, 0.3), vent_time=(0.5, 0.2)), commands)
     time = DT * np.arange(1, 301)
     for segment, (fill, vent) in enumerate([(0.1, 0.5), (0.3, 0.2)]):
-        assert found[:300, segment] == pytest.approx(PEAK * (1 - np.exp(-time / fill)), rel=1e-9)
-        full = found[299, segment]
-        assert found[300:, segment] == pytest.approx(full * np.exp(-time / vent), rel=1e-9)
+        assert pressures[:300, segment] == pytest.approx(
+            PEAK * (1 - np.exp(-time / fill)), rel=1e-9
+        )
+        full = pressures[299, segment]
+        assert pressures[300:, segment] == pytest.approx(full * np.exp(-time / vent), rel=1e-9)
 
 
 def test_dead_time_only_delays():
@@ -45,9 +47,9 @@ def test_dead_time_only_delays():
 
 
 def test_a_flow_limit_makes_a_straight_ramp():
-    found = follow(Valves(flow_limit=2e5), np.full((50, 1), PEAK))
+    pressures = follow(Valves(flow_limit=2e5), np.full((50, 1), PEAK))
     time = DT * np.arange(1, 51)
-    assert found[:, 0] == pytest.approx(np.minimum(2e5 * time, PEAK), rel=1e-9)
+    assert pressures[:, 0] == pytest.approx(np.minimum(2e5 * time, PEAK), rel=1e-9)
 
 
 @settings(max_examples=25, deadline=None)
@@ -56,8 +58,8 @@ def test_what_follows_does_not_depend_on_how_commands_are_cut(cuts, seed):
     commands = np.random.default_rng(seed).uniform(0, PEAK, (sum(cuts), 3))
     whole, parts = ChamberPressures(UNLIKE, 3, DT), ChamberPressures(UNLIKE, 3, DT)
     pieces = np.split(commands, np.cumsum(cuts)[:-1])
-    found = np.concatenate([parts.follow(piece) for piece in pieces])
-    assert np.array_equal(found, whole.follow(commands))
+    pressures = np.concatenate([parts.follow(piece) for piece in pieces])
+    assert np.array_equal(pressures, whole.follow(commands))
 
 
 @pytest.mark.slow

@@ -65,9 +65,9 @@ def test_the_moment_of_gain_and_input_is_that_of_the_law(pressure, turn, chamber
 def test_chambers_follow_a_step_of_the_valve_exponentially():
     scene, numerics = replace(BASE, valves=Valves(0.3)), Numerics(timestep=0.01)
     step = np.ones((200, 3)) * 5e4
-    found = ChamberPressures(scene.valves, 3, numerics.timestep).follow(step)
+    pressures = ChamberPressures(scene.valves, 3, numerics.timestep).follow(step)
     time = 0.01 * np.arange(1, 201)
-    assert found[:, 0] == pytest.approx(5e4 * (1 - np.exp(-time / 0.3)), rel=1e-9)
+    assert pressures[:, 0] == pytest.approx(5e4 * (1 - np.exp(-time / 0.3)), rel=1e-9)
 
 
 def test_mujoco_s_filters_hold_the_pressure_and_its_square():

@@ -30,12 +30,12 @@ def test_valves_that_are_told_these_times_give_the_gait_back(tmp_path):
          for column in np.array(gait.stages).T], axis=1,
     )  # fmt: skip
     for chamber, column in zip(Robot().chambers, fractions.T, strict=True):
-        own = [row for row in rows if row["chamber"] == chamber]
-        ends = [float(row[key]) for row in own for key in ("begin [s]", "end [s]")]
-        levels = [float(row[key]) for row in own for key in ("from [kPa]", "to [kPa]")]
+        of_chamber = [row for row in rows if row["chamber"] == chamber]
+        ends = [float(row[key]) for row in of_chamber for key in ("begin [s]", "end [s]")]
+        levels = [float(row[key]) for row in of_chamber for key in ("from [kPa]", "to [kPa]")]
         assert np.interp(time, ends, levels) == pytest.approx(1e-3 * PEAK * column, rel=1e-5)
         assert all((row["valve"] == "fill") == (float(row["to [kPa]"]) > float(row["from [kPa]"]))
-                   for row in own)  # fmt: skip
+                   for row in of_chamber)  # fmt: skip
 
 
 def test_a_ramp_over_two_stages_is_one_opening_of_the_valve():
@@ -59,7 +59,7 @@ def test_no_chamber_changes_faster_than_the_supply_lets_it(limit):
 
 
 def test_the_worst_of_what_is_not_known_counts():
-    """The same by predictions of every combination, one by one."""
+    """Predictions of every combination, one by one."""
     base = merged({"ground": {"surface": "gelatin"}})
     others = optimise._corners("surface.tip_force=20%,robot.modulus=10%", [base])
     gelatin = SURFACES["gelatin"]

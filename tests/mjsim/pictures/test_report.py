@@ -35,6 +35,13 @@ def saved(tmp_path_factory, coarse_references):
 @pytest.fixture(scope="module")
 def written(saved):
     out = saved.parent / "page.html"
+    assert commanded([saved, "--out", out, "--no-video"]) == 0
+    return out
+
+
+@pytest.fixture(scope="module")
+def with_video(saved):
+    out = saved.parent / "film.html"
     assert commanded([saved, "--out", out]) == 0
     return out
 
@@ -72,7 +79,7 @@ def test_nothing_in_it_is_fetched(written):
 @pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed")
 @pytest.mark.parametrize(("scheme", "size"), [("light", (1000, 900)), ("dark", (390, 844))])
 @pytest.mark.slow
-def test_a_browser_shows_charts_and_plays_the_video_without_a_complaint(written, scheme, size):
+def test_a_browser_shows_charts_and_plays_the_video_without_a_complaint(with_video, scheme, size):
     playwright = pytest.importorskip("playwright.sync_api")
     flags = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
     with playwright.sync_playwright() as play:
@@ -85,7 +92,7 @@ def test_a_browser_shows_charts_and_plays_the_video_without_a_complaint(written,
         tab.on("console", lambda message: said.append(message.text))
         tab.on("pageerror", lambda error: said.append(str(error)))
         tab.on("request", lambda request: asked.append(request.url))
-        tab.goto(written.as_uri())
+        tab.goto(with_video.as_uri())
         tab.wait_for_function("document.querySelectorAll('.main-svg').length >= 4")
         drawn = tab.locator(".js-plotly-plot .scatterlayer .trace path.js-line").count()
         played = tab.evaluate(
@@ -107,7 +114,7 @@ def test_a_browser_shows_charts_and_plays_the_video_without_a_complaint(written,
         paper = tab.evaluate("getComputedStyle(document.body).backgroundColor")
         browser.close()
     assert said == []
-    assert [url for url in asked if not url.startswith(("data:", "blob:"))] == [written.as_uri()]
+    assert [url for url in asked if not url.startswith(("data:", "blob:"))] == [with_video.as_uri()]
     assert drawn >= 8
     assert played[0] > 0.3
     assert played[1] == 1280

@@ -30,15 +30,15 @@ def written(folder, text):
 
 
 def test_a_gait_is_read_from_a_file(tmp_path):
-    found = build_gait({"file": written(tmp_path, GALLOP)})
-    assert found == Gait("gallop", ((0, 0), (1, 0.5), (0, 1), (0, 0)), (2.0, 3.0, 1.5))
+    gait = build_gait({"file": written(tmp_path, GALLOP)})
+    assert gait == Gait("gallop", ((0, 0), (1, 0.5), (0, 1), (0, 0)), (2.0, 3.0, 1.5))
 
 
 def test_name_and_ramp_time_may_be_left_out(tmp_path):
     path = written(tmp_path, "stages = [[0, 0, 0], [1, 1, 1], [0, 0, 0]]")
-    found = build_gait({"file": path})
-    assert found.name == "gait"
-    assert found.period == 4.0
+    gait = build_gait({"file": path})
+    assert gait.name == "gait"
+    assert gait.period == 4.0
     path = written(tmp_path, "ramp_time = 3\nstages = [[0], [1], [0]]")
     one = build_gait({"file": path})
     assert one.ramp_times == (3.0, 3.0)

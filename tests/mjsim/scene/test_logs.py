@@ -2,12 +2,13 @@
 
 import datetime
 import logging
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 
-from analytic import GAITS, Gait
+from analytic import GAITS, SURFACES, Gait
 from analytic.scene.robot import PSI
 from mjsim import measure, reference, simulate
 from mjsim.commands.run import main
@@ -118,10 +119,10 @@ def test_corners_smaller_than_the_noise_of_a_sample_are_found(noise, seed):
     ramps = rng.uniform(0.4, 2.5, len(stages) - 1)
     truth = Gait("it", tuple(map(tuple, stages.tolist())), tuple(ramps.tolist()), repeats=False)
     time = np.arange(0, truth.period, 0.01)
-    found, highest = as_gait("it", Series(time, noisy(clean(time, truth), noise, 100 + seed)))
-    assert found.ramps == truth.ramps
-    along = np.linspace(0, found.period, 1_000, endpoint=False)
-    off = highest * found.fractions(along) - clean(along, truth)
+    gait, highest = as_gait("it", Series(time, noisy(clean(time, truth), noise, 100 + seed)))
+    assert gait.ramps == truth.ramps
+    along = np.linspace(0, gait.period, 1_000, endpoint=False)
+    off = highest * gait.fractions(along) - clean(along, truth)
     # a corner's value is the mean of many samples
     assert np.abs(off).max() < 0.6 * noise * PEAK
 
@@ -130,20 +131,19 @@ def test_a_straight_ramp_has_no_corners_whatever_the_noise():
     for seed in range(5):
         time = even(100)
         pressure = PEAK * np.stack([time, 0 * time, time.max() - time], axis=1) / time.max()
-        found, _ = as_gait("it", Series(time, noisy(pressure, 0.05, seed)))
-        assert found.ramps == 1
+        gait, _ = as_gait("it", Series(time, noisy(pressure, 0.05, seed)))
+        assert gait.ramps == 1
 
 
 @pytest.mark.slow
 def test_a_log_of_30_khz_walks_as_far_as_the_gait(tmp_path):
     time = even(30_000)
     path = written(tmp_path / "log.csv", time, noisy(clean(time), 0.03))
+    scene, _ = build({"gait": {"file": str(path)}})
+    assert scene.gait.ramps == WAVE.ramps
     for ground in ("felt", "gelatin"):
-        scene, _ = build({"gait": {"file": str(path)}, "ground": {"surface": ground}})
-        assert scene.gait.ramps == WAVE.ramps
-        assert measure(simulate(scene, COARSE)).displacement == pytest.approx(
-            distance(ground), abs=4e-4
-        )
+        walk = simulate(replace(scene, ground=SURFACES[ground]), COARSE)
+        assert measure(walk).displacement == pytest.approx(distance(ground), abs=4e-4)
 
 
 def held(rate=None):
@@ -175,17 +175,17 @@ def test_mergers_keep_the_path_and_change_it_by_no_more_than_they_say():
         time = np.cumsum(rng.choice([1e-3, 4e-3, 0.3, 0.5], 12))
         pressure = PEAK * rng.choice([0.0, 0.01, 0.5, 1.0], (12, 3))
         try:
-            found = merged(time, pressure, 0.02, 0.005 * PEAK)
+            corners = merged(time, pressure, 0.02, 0.005 * PEAK)
         except ValueError:
             continue
         done += 1
-        assert np.diff(found.time).min() >= 0.02
-        assert found.moved <= 0.05
-        along = np.linspace(found.time[0], found.time[-1], 20_000)
-        path = np.stack([np.interp(along, found.time, column) for column in found.pressure.T])
+        assert np.diff(corners.time).min() >= 0.02
+        assert corners.moved <= 0.05
+        along = np.linspace(corners.time[0], corners.time[-1], 20_000)
+        path = np.stack([np.interp(along, corners.time, column) for column in corners.pressure.T])
         for corner in pressure:
             nearest = np.abs(path.T - corner).max(axis=1).min()
-            assert nearest <= found.changed + 0.006 * PEAK
+            assert nearest <= corners.changed + 0.006 * PEAK
     assert done > 20
 
 

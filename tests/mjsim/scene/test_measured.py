@@ -20,8 +20,8 @@ PEAK = 7 * PSI
 def recorded(gait, samples, noise, seed=0, until=1.0):
     """Samples at uneven times, with white noise [Pa]."""
     rng = np.random.default_rng(seed)
-    last = until * gait.period
-    time = np.sort(np.append([0.0, last], rng.uniform(0, last, samples - 2)))
+    end = until * gait.period
+    time = np.sort(np.append([0.0, end], rng.uniform(0, end, samples - 2)))
     pressure = PEAK * gait.fractions(np.minimum(time, gait.period * (1 - 1e-12)))
     return Series(time, pressure + rng.normal(0, noise, pressure.shape))
 
@@ -40,9 +40,9 @@ def test_a_noisy_record_of_a_gait_walks_as_the_gait(tmp_path, ground):
     path = written(tmp_path / "walk.csv", recorded(GAITS["wave"], 200, 300.0))
     scene, _ = build({"gait": {"file": str(path)}, "ground": {"surface": ground}})
     plain, _ = build({"ground": {"surface": ground}})
-    found, known = (record(simulate(s, Numerics(links=12, timestep=0.02))) for s in (scene, plain))
+    row, expected = (record(simulate(s, Numerics(links=12, timestep=0.02))) for s in (scene, plain))
     for name in ("displacement_over_L", "predicted_displacement_over_L"):
-        assert found[name] == pytest.approx(known[name], abs=5e-4)
+        assert row[name] == pytest.approx(expected[name], abs=5e-4)
 
 
 def test_bars_between_cells_or_around_them_are_read_as_commas_are(tmp_path):
@@ -90,10 +90,12 @@ def test_ramps_stay_within_the_noise_of_what_was_recorded(stages, seed):
 def test_without_noise_the_corners_are_the_stages():
     gait = GAITS["wave"]
     time = np.linspace(0, 10, 101)
-    found, highest = as_gait("it", Series(time, PEAK * gait.fractions(np.minimum(time, 9.999999))))
+    recorded, highest = as_gait(
+        "it", Series(time, PEAK * gait.fractions(np.minimum(time, 9.999999)))
+    )
     assert highest == pytest.approx(PEAK, rel=1e-6)
-    assert found.ramp_times == pytest.approx(gait.ramp_times, rel=1e-3)
-    assert np.array(found.stages) == pytest.approx(np.array(gait.stages), abs=1e-5)
+    assert recorded.ramp_times == pytest.approx(gait.ramp_times, rel=1e-3)
+    assert np.array(recorded.stages) == pytest.approx(np.array(gait.stages), abs=1e-5)
 
 
 @pytest.mark.parametrize(

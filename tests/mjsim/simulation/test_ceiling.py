@@ -82,10 +82,10 @@ def test_a_ceiling_with_friction_holds_by_its_coefficient_times_what_it_presses(
 def test_the_ground_carries_the_weight_and_what_the_ceiling_presses_down():
     scene = Scene(gait=Gait("rise", ((0, 0, 0), (1, 1, 0)), 2.0, repeats=False), ceiling="20 mm")
     walk = simulate(scene, forces=True)
-    last = slice(-20, None)
-    pushed = walk.ceiling_force[last].mean()
+    final = slice(-20, None)
+    pushed = walk.ceiling_force[final].mean()
     assert pushed > 0.3 * scene.robot.weight
-    assert walk.forces.normal[last].sum(axis=1).mean() == pytest.approx(
+    assert walk.forces.normal[final].sum(axis=1).mean() == pytest.approx(
         scene.robot.weight + pushed, rel=5e-3
     )
 

@@ -28,18 +28,18 @@ FOUR = Scene(
 )
 @pytest.mark.slow
 def test_the_distance_is_that_of_fine_numerics_within_the_tolerance(scene):
-    found = walk_checked(scene, 0.02)
+    check = walk_checked(scene, 0.02)
     fine = measure(simulate(scene, Numerics(links=48, timestep=0.001))).displacement
-    assert found.agreed
-    assert measure(found.walk).displacement == pytest.approx(fine, rel=0.02, abs=0.001)
+    assert check.agreed
+    assert measure(check.walk).displacement == pytest.approx(fine, rel=0.02, abs=0.001)
 
 
 def test_a_robot_that_falls_is_said_to_fall_by_two_fine_walks():
     heavy = Scene(Robot(weight_per_length=2.0, chamber_height=4.1e-3, peak_pressure=80e3))
-    found = walk_checked(heavy, 0.02)
-    assert found.walk.status == "toppled"
-    assert found.agreed
-    assert found.tried[-1].timestep <= 0.005
+    check = walk_checked(heavy, 0.02)
+    assert check.walk.status == "toppled"
+    assert check.agreed
+    assert check.tried[-1].timestep <= 0.005
 
 
 def test_each_walk_is_finer_than_the_one_before_and_steps_follow_the_ramps():
@@ -61,10 +61,10 @@ def test_a_looser_tolerance_never_costs_more():
 
 
 def test_walks_that_agree_are_closer_than_the_tolerance_since_coarse_ones_err_alike():
-    found = walk_checked(HIGH, 0.02)
-    shift = measure(found.walk).displacement
-    assert found.walk.numerics.timestep > 0.002
-    assert found.error <= 0.4 * allowed(shift, 0.02)
+    check = walk_checked(HIGH, 0.02)
+    shift = measure(check.walk).displacement
+    assert check.walk.numerics.timestep > 0.002
+    assert check.error <= 0.4 * allowed(shift, 0.02)
 
 
 def test_two_levels_in_a_row_differ_in_links_as_well_as_in_steps():
@@ -112,5 +112,5 @@ def test_coarse_walks_are_not_believed_where_momentum_decides():
 @pytest.mark.parametrize("tolerance", [0.1, 0.02])
 @pytest.mark.parametrize("ground", GROUNDS[WALK])
 def test_auto_meets_its_tolerance_on_the_benchmark_scene(ground, tolerance):
-    found = walk_checked(scene_of(WALK, ground), tolerance)
-    assert measure(found.walk).displacement == pytest.approx(exact(WALK, ground), rel=tolerance)
+    check = walk_checked(scene_of(WALK, ground), tolerance)
+    assert measure(check.walk).displacement == pytest.approx(exact(WALK, ground), rel=tolerance)

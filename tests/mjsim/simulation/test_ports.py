@@ -133,9 +133,9 @@ class Beyond:
 
 def test_what_a_ground_of_ones_own_is_where_the_robot_does_not_begin_counts_as_on_patches():
     wet = replace(SURFACES["felt"], name="wet", viscosity=60.0)
-    own, patches = Beyond(0.065, wet), Patches("p", (0.065,), (SURFACES["felt"], wet))
+    beyond, patches = Beyond(0.065, wet), Patches("p", (0.065,), (SURFACES["felt"], wet))
     # what a field is over a stretch is sampled, of patches it is exact
-    assert displacement(Scene(ground=own)) == pytest.approx(
+    assert displacement(Scene(ground=beyond)) == pytest.approx(
         displacement(Scene(ground=patches)), abs=5e-4
     )
     assert displacement(Scene(ground=patches)) == pytest.approx(0.0324, abs=1e-3)
@@ -143,7 +143,7 @@ def test_what_a_ground_of_ones_own_is_where_the_robot_does_not_begin_counts_as_o
     friction, solver = laws.Friction(tension=1.0), Elastica(24)
     one, two = (
         predict(robot, gait, ground, solver, 20, friction=friction).locomotion.per_cycle
-        for ground in (own, patches)
+        for ground in (beyond, patches)
     )
     assert one == pytest.approx(two, abs=5e-4 * robot.length)
 

@@ -23,15 +23,15 @@ def predicted(surface, gait="wave", reverse=False, links=36):
 @pytest.mark.parametrize("gait", list(GAITS))
 @pytest.mark.parametrize("surface", list(SURFACES))
 def test_the_direction_is_the_theory_s(surface, gait, reverse):
-    found = measured(surface, gait, reverse=reverse)
-    assert found.direction == direction(predicted(surface, gait, reverse, links=24), 1.0)
+    numbers = measured(surface, gait, reverse=reverse)
+    assert numbers.direction == direction(predicted(surface, gait, reverse, links=24), 1.0)
 
 
 @pytest.mark.parametrize("surface", ["felt", "gelatin"])
 @pytest.mark.parametrize(("links", "timestep"), [(24, 0.005), (12, 0.020), (48, 0.010)])
 def test_the_distance_is_the_elastica_s_within_2_percent(surface, links, timestep):
-    found = measured(surface, links=links, timestep=timestep).displacement
-    assert found == pytest.approx(predicted(surface), rel=0.02)
+    shift = measured(surface, links=links, timestep=timestep).displacement
+    assert shift == pytest.approx(predicted(surface), rel=0.02)
 
 
 def test_polyethylene_is_the_elastica_s_within_a_thousandth_of_the_length():
@@ -114,10 +114,10 @@ def test_side_contact_follows_the_elastica_along_the_whole_cycle(surface):
     result, cycle, shapes = beside_the_elastica(surface)
     flat = shapes.contact_left + shapes.contact_right > 0.99 * Robot().length
     assert flat.sum() < 0.02 * len(flat)
-    for found, exact in (
+    for shift, exact in (
         (result.contact_left, shapes.contact_left), (result.contact_right, shapes.contact_right),
     ):  # fmt: skip
-        gap = np.abs(found[cycle] - exact)[~flat] / Robot().length
+        gap = np.abs(shift[cycle] - exact)[~flat] / Robot().length
         assert np.median(gap) < 0.001
         assert np.quantile(gap, 0.95) < 0.01  # a fifth of the pads' distance
 

@@ -65,8 +65,8 @@ PLAN = {"grid": {"robot.length": {"from": 0.1, "to": 0.2, "count": 4000}}}
 
 
 def rows(plan, numbers):
-    found = [{"id": n, "status": "ok", "displacement_over_L": 1e-3 * n} for n in numbers]
-    return found, {n: plan.point(n) for n in numbers}
+    records = [{"id": n, "status": "ok", "displacement_over_L": 1e-3 * n} for n in numbers]
+    return records, {n: plan.point(n) for n in numbers}
 
 
 def test_a_full_disk_leaves_whole_rows_and_the_reason(tmp_path, limited):

@@ -59,8 +59,8 @@ def until(what, running):
 
 def workers_of(driver):
     """Processes of the pool, the forkserver's children."""
-    found = psutil.Process(driver.pid).children(recursive=True)
-    return [p for p in found if p.parent().pid != driver.pid]
+    processes = psutil.Process(driver.pid).children(recursive=True)
+    return [p for p in processes if p.parent().pid != driver.pid]
 
 
 def end(*processes):
@@ -73,9 +73,9 @@ def end(*processes):
 
 
 def check_whole(folder, count=48):
-    found = rows(folder)
-    assert [number for number, _, _ in found] == list(range(count))
-    assert {status for _, status, _ in found} == {"ok"}
+    scenes = rows(folder)
+    assert [number for number, _, _ in scenes] == list(range(count))
+    assert {status for _, status, _ in scenes} == {"ok"}
 
 
 @pytest.mark.slow

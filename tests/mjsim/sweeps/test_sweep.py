@@ -39,9 +39,9 @@ SMALL = {
 
 def select(path, query):
     with sqlite3.connect(path) as base:
-        found = base.execute(query).fetchall()
+        table = base.execute(query).fetchall()
     base.close()
-    return found
+    return table
 
 
 def test_rows_are_what_the_models_say(tmp_path):

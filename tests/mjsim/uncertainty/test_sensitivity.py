@@ -48,11 +48,11 @@ def test_differences_have_the_derivative_within_their_error(gelatin, name):
 
 def test_where_there_is_no_derivative_differences_and_the_reason_are_told():
     scene = Scene(ground=SURFACES["felt"], friction="coulomb")
-    found = sensitivity(scene, fields=["surface.friction", "gait.stages"])
-    friction, stages = sorted(found.effects, key=lambda effect: effect.field, reverse=True)
+    effects = sensitivity(scene, fields=["surface.friction", "gait.stages"])
+    friction, stages = sorted(effects.effects, key=lambda effect: effect.field, reverse=True)
     assert friction.how == DIFFERENCES
     assert "friction by load" in friction.note
-    assert found.distance == pytest.approx(
+    assert effects.distance == pytest.approx(
         reference(scene).displacement[0] * scene.robot.length, abs=1e-12
     )
     assert stages.distance is None
@@ -60,9 +60,9 @@ def test_where_there_is_no_derivative_differences_and_the_reason_are_told():
 
 
 def test_of_a_distance_of_next_to_nothing_no_part_is_told():
-    found = sensitivity(Scene(ground=SURFACES["polyethylene"]), fields=["robot.length"])
-    assert found.effects[0].part is None
-    assert abs(found.effects[0].distance) > 1e-4
+    effects = sensitivity(Scene(ground=SURFACES["polyethylene"]), fields=["robot.length"])
+    assert effects.effects[0].part is None
+    assert abs(effects.effects[0].distance) > 1e-4
 
 
 def test_what_one_per_cent_of_nothing_does_is_not_told():
@@ -109,13 +109,13 @@ def test_it_is_told_where_nothing_brakes_the_robot(capsys):
 @pytest.mark.slow
 def test_all_limbs_are_made_stiffer_alike():
     scene = Scene("quadruped", ground="felt")
-    found = sensitivity(scene, fields=["robot.modulus"])
-    (effect,) = found.effects
+    effects = sensitivity(scene, fields=["robot.modulus"])
+    (effect,) = effects.effects
     stiffer = [replace(limb, strip=replace(limb.strip, modulus=1.01 * limb.strip.modulus))
                for limb in scene.robot.limbs]  # fmt: skip
     robot = replace(scene.robot, limbs=tuple(stiffer))
     ahead = reference(replace(scene, robot=robot)).displacement[0] * robot.length
-    assert effect.distance == pytest.approx(ahead - found.distance, abs=effect.error + 1e-9)
+    assert effect.distance == pytest.approx(ahead - effects.distance, abs=effect.error + 1e-9)
 
 
 @pytest.mark.parametrize(

@@ -58,8 +58,8 @@ def test_the_ground_pushes_as_much_as_weight_and_adhesion_pull():
     ground, shapes = inflated_end(0.2, 3e-4)
     pull = ground.press(LIGHT.width) * LIGHT.length
     assert shapes.force[0].sum() == pytest.approx(LIGHT.weight + pull)
-    known = np.isfinite(shapes.residual)
-    assert shapes.residual[known].max() < 1e-6
+    solved = np.isfinite(shapes.residual)
+    assert shapes.residual[solved].max() < 1e-6
 
 
 def test_without_adhesion_its_reach_is_of_no_account():

@@ -101,9 +101,9 @@ def test_where_the_ground_cannot_hold_the_weight_there_is_no_number():
     """Two tips hold 2 V0 V_t; here the weight's part downhill is more."""
     steep = Friction(tension=1.0, slope=0.3)
     assert steep.downhill(ROBOT) > 2 * GROUND.tip_force
-    found = predict(ROBOT, GAITS["wave"], GROUND, friction=steep)
-    assert Flag.BRANCH_END in found.flags
-    assert np.isnan(found.locomotion.per_cycle)
+    walked = predict(ROBOT, GAITS["wave"], GROUND, friction=steep)
+    assert Flag.BRANCH_END in walked.flags
+    assert np.isnan(walked.locomotion.per_cycle)
 
 
 def test_forces_of_the_ground_are_those_of_the_tilted_weight():

@@ -38,12 +38,12 @@ def cantilever_tip(load):
     s = np.linspace(0, 1, 200)
     u = np.array([-1.3 * s, s - 1, s, -s])
     for part in np.linspace(0.05, 1, 20) * load:
-        found = solve_bvp(
+        solution = solve_bvp(
             lambda s, u, g=part: np.array([u[1], g * (1 - s) * np.cos(u[0]), np.cos(u[0]),
                                            np.sin(u[0])]),
             lambda a, b: np.array([a[0], b[1], a[2], a[3]]), s, u, tol=1e-9, max_nodes=20000,
         )  # fmt: skip
-        s, u = found.x, found.y
+        s, u = solution.x, solution.y
     return u[2:, -1]
 
 
@@ -164,11 +164,11 @@ def test_the_lift_off_point_is_the_closed_form_s_at_small_slopes():
     small = 0.3
     robot = Robot(weight_per_length=2 * small, peak_pressure=small * Robot().peak_pressure)
     p = np.linspace(0.3, 1, 8)[:, None] * np.array([1.0, 0, 0]) * robot.peak_pressure
-    exact, found = solve_modes(robot, p), solve_elastica(robot, p, links=240)
+    exact, elastica = solve_modes(robot, p), solve_elastica(robot, p, links=240)
     assert (exact.status == Flag.OK).all()
     assert (exact.contact_right > 0).all()
-    assert np.abs(found.contact_right - exact.contact_right).max() < 0.003 * robot.length
-    assert (found.contact_left == 0).all()
+    assert np.abs(elastica.contact_right - exact.contact_right).max() < 0.003 * robot.length
+    assert (elastica.contact_left == 0).all()
 
 
 @pytest.mark.parametrize("fraction", [(1, 0, 0), (1, 1, 0), (0.5, 1, 0.5), (0, 0.4, 0), (1, 0, 1)])

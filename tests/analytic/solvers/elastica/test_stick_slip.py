@@ -171,15 +171,15 @@ def test_an_increment_is_the_least_energy_and_dissipation_that_an_optimiser_find
     for stage in ([0.9, 0.0, 0.0], [1.0, 0.1, 0.0], [1.0, 0.3, 0.0]):
         chain.load_at(np.array(stage) * ROBOT.peak_pressure)
         grip.begin(state)
-        found = chain.equilibrium(state, grip)
+        equilibrium = chain.equilibrium(state, grip)
         ends = np.array([state.left, state.left + separation(chain, state)])
         bounds = grip.bounds
         start = np.concatenate([state.theta, [state.y[0], state.left], np.zeros(4)])
         best = by_optimiser(chain, ends, bounds, start)
-        assert best.x[: chain.links + 1] == pytest.approx(found.theta, abs=1e-7)
+        assert best.x[: chain.links + 1] == pytest.approx(equilibrium.theta, abs=1e-7)
         if bounds[0] != bounds[1]:  # a tie is decided by less than energy
-            assert best.x[chain.links + 2] == pytest.approx(found.left, abs=1e-7)
-        state = found
+            assert best.x[chain.links + 2] == pytest.approx(equilibrium.left, abs=1e-7)
+        state = equilibrium
 
 
 def test_between_two_anchors_the_thrust_is_that_of_the_shallow_arch():
@@ -264,7 +264,7 @@ def test_the_work_of_the_pressure_in_a_cycle_is_what_friction_dissipates():
 @pytest.mark.slow
 def test_every_strength_has_an_answer_or_says_so(surface, phi):
     ground = SURFACES[surface].scaled(max(phi, 1e-6) / PHI)
-    walked = predict(ROBOT, GAITS["wave"], ground, Elastica(30), 25, BENT)
+    walked = predict(ROBOT, GAITS["wave"], ground, Elastica(18), 12, BENT)
     assert np.isfinite(walked.locomotion.per_cycle) or Flag.BRANCH_END in walked.flags
     if phi <= 15:
         assert not walked.flags

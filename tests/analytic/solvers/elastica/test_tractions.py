@@ -26,7 +26,7 @@ def bodies(draw, most=5):
 def test_the_tractions_are_those_of_least_complementary_energy(body):
     """min t K t / 2 + g t over |t| <= V with sum t = 0, by sequential quadratic programming."""
     gaps, compliance, bounds = body
-    found = tractions(gaps, compliance, bounds, np.zeros(len(gaps)))
+    solution = tractions(gaps, compliance, bounds, np.zeros(len(gaps)))
 
     def energy(t):
         return 0.5 * t @ compliance @ t + gaps @ t
@@ -37,18 +37,18 @@ def test_the_tractions_are_those_of_least_complementary_energy(body):
         constraints={"type": "eq", "fun": np.sum, "jac": lambda t: np.ones(len(t))},
     )  # fmt: skip
     assume(best.success)
-    assert energy(found.traction) == pytest.approx(best.fun, abs=1e-4)
+    assert energy(solution.traction) == pytest.approx(best.fun, abs=1e-4)
 
 
 @given(bodies())
 def test_each_contact_sticks_below_its_bound_or_slides_against_it(body):
     gaps, compliance, bounds = body
-    found = tractions(gaps, compliance, bounds, np.zeros(len(gaps)))
-    slips = gaps + found.whole + compliance @ found.traction
-    assert abs(found.traction.sum()) < 1e-9
-    assert (np.abs(found.traction) <= bounds + 1e-5).all()
+    solution = tractions(gaps, compliance, bounds, np.zeros(len(gaps)))
+    slips = gaps + solution.whole + compliance @ solution.traction
+    assert abs(solution.traction.sum()) < 1e-9
+    assert (np.abs(solution.traction) <= bounds + 1e-5).all()
     moving = np.abs(slips) > 1e-6
-    held = found.traction + np.sign(slips) * bounds
+    held = solution.traction + np.sign(slips) * bounds
     assert np.abs(held[moving]).max(initial=0.0) < 1e-4
 
 
@@ -56,15 +56,15 @@ def test_each_contact_sticks_below_its_bound_or_slides_against_it(body):
 def test_on_a_stiff_body_it_is_least_dissipation(drawn):
     moves, bounds = drawn[:, 0], np.abs(drawn[:, 1])
     count = len(moves)
-    found = tractions(moves, np.zeros((count, count)), bounds, np.zeros(count))
-    assert found.whole == pytest.approx(least_dissipation(bounds, moves), abs=1e-5)
+    solution = tractions(moves, np.zeros((count, count)), bounds, np.zeros(count))
+    assert solution.whole == pytest.approx(least_dissipation(bounds, moves), abs=1e-5)
 
 
 def test_viscous_contacts_share_a_motion_by_their_resistance():
     moves, drag = np.array([0.0, 1.0]), np.array([1.0, 3.0])
-    found = tractions(moves, np.zeros((2, 2)), np.zeros(2), drag)
-    assert found.whole == pytest.approx(-0.75)
-    assert found.traction == pytest.approx([0.75, -0.75])
+    solution = tractions(moves, np.zeros((2, 2)), np.zeros(2), drag)
+    assert solution.whole == pytest.approx(-0.75)
+    assert solution.traction == pytest.approx([0.75, -0.75])
 
 
 def test_a_pull_beyond_all_bounds_has_no_answer_and_a_viscous_one_a_speed():

@@ -20,13 +20,13 @@ def test_states_on_their_contacts_are_those_of_least_energy_and_dissipation(
     name, left, twists, monkeypatch
 ):
     gait, ground = undulation("wave", left), SURFACES[name]
-    found = walk(QUADRUPED, gait, ground, 6, 4, twists=twists)
+    path = walk(QUADRUPED, gait, ground, 6, 4, twists=twists)
     monkeypatch.setattr(statics, "on_contacts", lambda *_: None)
     least = walk(QUADRUPED, gait, ground, 6, 4, twists=twists)
-    assert found.converged
+    assert path.converged
     assert least.converged
-    assert found.displacement == pytest.approx(least.displacement, abs=1e-4 * QUADRUPED.length)
-    assert found.turn == pytest.approx(least.turn, abs=np.radians(0.05))
+    assert path.displacement == pytest.approx(least.displacement, abs=1e-4 * QUADRUPED.length)
+    assert path.turn == pytest.approx(least.turn, abs=np.radians(0.05))
 
 
 def test_on_the_way_every_node_pushes_up_and_none_is_below_the_ground():

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from analytic import GAITS, SURFACES, Elastica, Friction, Gait, Patches, Robot, Surface, predict
 from analytic.friction.contact_length import PASSIVE, flat_pressures
@@ -29,7 +30,7 @@ def by_limb(gait):
 
 
 def stays(ground, slope, law="constant"):
-    """Whether a limb without pressure stays where it lies on a slope [rad]."""
+    """Tell whether a limb without pressure stays where it lies on a slope [rad]."""
     path = walk(SOLO, GAITS["wave"], ground, law=law, path=np.zeros((3, 3)),
                 times=np.arange(3.0), incline=Incline(slope))  # fmt: skip
     return path.converged and bool(np.abs(path.place).max() < 1e-4 * STRIP.length)
@@ -105,14 +106,21 @@ def test_what_holds_as_it_is_stronger_at_rest_is_left_behind_by_a_stronger_tip_t
 def test_a_limb_peels_at_the_curvature_of_the_closed_form(adhesion):
     """D kappa^2 = 128/9 gamma q, see test_adhesion of the elastica."""
     ground = Surface("sticky", adhesion=adhesion)
-    part = np.linspace(0, 0.8, 81)
-    pressures = LIGHT.peak_pressure * part[:, None] * np.array([0.0, 1.0, 0.0])
-    _, rests = shapes(as_strip(LIGHT), pressures, 40, surface=ground)
-    heights = np.array([rest.nodes[:, 2].max() for rest in rests])
-    pressure = float(pressures[int((heights > 2 * ground.adhesion_reach).argmax()), 1])
-    kappa = float(pneunet.natural_curvature(LIGHT, pressure))
-    bent = float(pneunet.rigidity(LIGHT, pressure)) * kappa**2
-    assert bent == pytest.approx(128 / 9 * adhesion * LIGHT.width, rel=0.1)
+
+    def strength(pressure):
+        """D kappa^2 over that of the closed form."""
+        kappa = float(pneunet.natural_curvature(LIGHT, pressure))
+        bent = float(pneunet.rigidity(LIGHT, pressure)) * kappa**2
+        return bent / (128 / 9 * adhesion * LIGHT.width)
+
+    def pressure_of(part):
+        return brentq(lambda pressure: strength(pressure) - part, 0, LIGHT.peak_pressure)
+
+    under, over = pressure_of(0.9), pressure_of(1.1)
+    pressures = np.append(np.linspace(0, under, 4), over)[:, None] * [0.0, 1.0, 0.0]
+    _, rests = shapes(as_strip(LIGHT), pressures, 24, surface=ground)
+    peeled = [rest.nodes[:, 2].max() > 2 * ground.adhesion_reach for rest in rests]
+    assert peeled == [False] * 4 + [True]
 
 
 def test_the_ground_pushes_as_much_as_weight_and_adhesion_pull():

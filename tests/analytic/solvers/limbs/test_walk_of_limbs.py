@@ -27,7 +27,7 @@ def by_limb(gait):
     return np.array(gait.path(16)[0])[:, [1, 0, 2]]
 
 
-@pytest.mark.parametrize("name", ["wave", "pulse"])
+@pytest.mark.parametrize("name", ["wave", pytest.param("pulse", marks=pytest.mark.slow)])
 def test_the_strip_as_a_tree_goes_as_far_as_the_strip(name):
     robot, gait = Robot(), GAITS[name]
     pressures = robot.peak_pressure * by_limb(gait)

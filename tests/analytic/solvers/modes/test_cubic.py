@@ -13,21 +13,21 @@ def test_three_real_roots_are_found(roots, leading):
     if np.diff(roots).min() < 1e-2:
         return
     _, b, c, d = leading * np.poly(roots)
-    found = np.sort(real_cubic_roots(leading, b, c, d))
-    assert np.allclose(found, roots, atol=1e-8)
+    solved = np.sort(real_cubic_roots(leading, b, c, d))
+    assert np.allclose(solved, roots, atol=1e-8)
 
 
 @given(numbers, numbers, st.floats(0.1, 10), st.floats(0.1, 10))
 def test_a_lone_real_root_comes_first(root, middle, gap, leading):
     quadratic = np.array([1, -2 * middle, middle**2 + gap])
     a, b, c, d = leading * np.polymul([1, -root], quadratic)
-    found = real_cubic_roots(a, b, c, d)
-    assert np.isclose(found[0], root, atol=1e-7)
-    assert np.isnan(found[1:]).all()
+    roots = real_cubic_roots(a, b, c, d)
+    assert np.isclose(roots[0], root, atol=1e-7)
+    assert np.isnan(roots[1:]).all()
 
 
 def test_a_triple_root_and_a_batch_keep_their_shapes():
-    found = real_cubic_roots(np.ones((2, 3)), 0.0, 0.0, -8 * np.ones((2, 3)))
-    assert found.shape == (2, 3, 3)
-    assert np.allclose(found[..., 0], 2)
+    roots = real_cubic_roots(np.ones((2, 3)), 0.0, 0.0, -8 * np.ones((2, 3)))
+    assert roots.shape == (2, 3, 3)
+    assert np.allclose(roots[..., 0], 2)
     assert np.isclose(real_cubic_roots(1.0, -3.0, 3.0, -1.0)[0], 1.0)
