@@ -7,7 +7,7 @@ import pytest
 
 from analytic.friction.dissipation_in_plane import least_dissipation_in_plane
 from mjsim import build, read_tables
-from zoo.terresoro_iv import blue, fit, hub, limbs, model, outline, scenes, tracks
+from zoo.terresoro_iv import blue, fit, hub, limbs, model, outline, scenes, steps, tracks
 from zoo.terresoro_iv.at_once import SHARPEST, least_dissipation
 from zoo.terresoro_iv.forms import FORMS
 from zoo.terresoro_iv.outline import flat_place
@@ -75,15 +75,35 @@ def test_runs_are_cut_where_motion_begins_though_a_track_drifts():
     assert np.abs(found - true).max() <= 1
 
 
-def test_a_track_that_loses_two_transitions_is_found_out():
+@pytest.mark.parametrize("lost", [2, -1])
+def test_a_track_that_loses_transitions_or_has_one_too_many_is_found_out(lost):
     random = np.random.default_rng(1)
     orders = np.array([random.permutation(np.tile(np.arange(8), 10)) for _ in range(5)])
     vectors = random.normal(size=(8, 8, 3)) * [0.8, 0.8, 5.0]
     moves = [vectors[order[:-1], order[1:]] for order in orders]
-    moves[3] = np.concatenate([moves[3][:30], moves[3][32:], np.zeros((2, 3))])
+    if lost > 0:
+        moves[3] = np.concatenate([moves[3][:30], moves[3][30 + lost :], np.zeros((lost, 3))])
+    else:
+        moves[3] = np.concatenate([moves[3][:30], np.zeros((-lost, 3)), moves[3][30:lost]])
     found = tracks.lost(moves, orders)
-    assert found[3].tolist() == [0, 0, 0, 2, 2, 2, 2]
+    assert found[3].tolist() == [0, 0, 0, lost, lost, lost, lost]
     assert not found[[0, 1, 2, 4]].any()
+
+
+def test_errors_by_kinds_of_a_mean_are_those_of_the_sums_of_its_kinds():
+    random = np.random.default_rng(4)
+    kinds = np.repeat(np.arange(6), 5)
+    values = random.normal(size=6)[kinds]  # alike within a kind: six values, not thirty
+    found = hub.clustered(np.ones((30, 1)), values - values.mean(), kinds)
+    assert found.item() == pytest.approx(values[::5].var(ddof=1) / 6)
+
+
+def test_steps_that_differ_by_their_axes_alone_are_the_same():
+    random = np.random.default_rng(2)
+    one = random.normal(size=(3, 3))
+    other = np.column_stack([hub.turned(one[:, :2], 2.0), one[:, 2]])
+    assert steps.apart(one, other) == pytest.approx((0, 0), abs=1e-12)
+    assert steps.apart(one, other + np.array([0, 0, 1.5]))[1] == pytest.approx(1.5)
 
 
 def test_means_that_are_cut_anew_are_of_the_same_transitions():

@@ -219,3 +219,20 @@ def jackknife(values: Array) -> Array:
     """Standard errors from values with a part left out each, (folds, ...)."""
     folds = len(values)
     return np.asarray(np.sqrt((folds - 1) / folds * ((values - values.mean(axis=0)) ** 2).sum(0)))
+
+
+def clustered(slopes: Array, left: Array, kinds: Array) -> Array:
+    """Covariance of fitted numbers where errors of rows of one kind share a cause, (F, F).
+
+    The sandwich by clusters, which needs no choice of parts to leave out (Liang, Zeger 1986).
+
+    Args:
+        slopes: of what is fitted by the numbers, (N, F).
+        left: what is left of each row, (N,).
+        kinds: 0 to K - 1, (N,).
+    """
+    count = int(kinds.max()) + 1
+    pulls = np.array([slopes[kinds == k].T @ left[kinds == k] for k in range(count)])
+    bread = np.linalg.inv(slopes.T @ slopes)
+    few = count / (count - slopes.shape[1])
+    return np.asarray(few * bread @ (pulls.T @ pulls) @ bread)

@@ -8,6 +8,7 @@ last. Without FOLDER the gaits of what was fitted are printed, and what they cha
 
 import csv
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -20,10 +21,12 @@ from zoo.terresoro_iv.forms import FORMS
 from zoo.terresoro_iv.hub import (
     DATA,
     by_friction,
+    clustered,
     fitted,
     gaits,
     jackknife,
     measured_cycles,
+    smallest,
     transitions,
 )
 from zoo.terresoro_iv.hub import cycle as cycle_of_pairs
@@ -44,6 +47,7 @@ START = (7.5, 4.9, 0.9, 0.7, -0.35, 0.7, 0.2)
 SCALE = (1.0, 0.1, 0.3, 0.3, 0.3, 0.3, 0.1)
 _MORE = {"free flat contact": (1.0, 0.1)}  # scales of further values; 0.1 of others
 STEP, _MOST = 3e-3, 15  # of differences, over a number; evaluations with slopes
+_WIDE = 0.02  # of differences over a scale, where no fit goes on
 
 
 def fit(name: str, found: Runs, rows: NDArray[np.intp], start: Array) -> Array:
@@ -66,6 +70,35 @@ def folds_of(found: Runs) -> Array:
     text = [["".join(map(str, state)) for state in states]
             for states in (found.past[:, -1], found.after)]  # fmt: skip
     return np.array([known[pair] for pair in zip(*text, strict=True)])
+
+
+def kinds_of(found: Runs) -> Array:
+    """Of which kind each run is: transitions that are alike by quarter turns are of one."""
+    text = [["".join(map(str, state)) for state in states]
+            for states in (found.past[:, -1], found.after)]  # fmt: skip
+    alike = [smallest(pair)[0] for pair in zip(*text, strict=True)]
+    each = {kind: number for number, kind in enumerate(sorted(set(alike)))}
+    return np.array([each[kind] for kind in alike])
+
+
+def slopes(function: Callable[[Array], Array], at: Array) -> Array:
+    """Central differences of the values of a function by the seven numbers, (..., 7)."""
+    steps = _WIDE * np.diag(SCALE)
+    return np.stack([(function(at + step) - function(at - step)) / (2 * step.max())
+                     for step in steps], axis=-1)  # fmt: skip
+
+
+def tell_errors(found: Runs, values: Array) -> None:
+    """Print standard errors of the numbers and of the gaits by kinds of transitions."""
+    spread, law = found.motion.std(axis=0), FORMS[FORM].law
+    by_number = slopes(lambda at: law(at, found.past, found.after) / spread, values)
+    left = (law(values, found.past, found.after) - found.motion) / spread
+    kinds = np.repeat(kinds_of(found), left.shape[1])
+    covariance = clustered(by_number.reshape(-1, len(values)), left.ravel(), kinds)
+    print("errors by kinds:", np.sqrt(np.diag(covariance)).round(3))
+    of_gaits = slopes(lambda at: gaits_of(FORM, at), values)
+    square = np.einsum("gwi,ij,gwj->wg", of_gaits, covariance, of_gaits)
+    print("errors of the gaits by kinds [cm, deg]:", np.sqrt(square).round(3).tolist())
 
 
 def noise(found: Runs) -> Array:
@@ -98,11 +131,14 @@ def fit_all(folder: Path) -> None:
     spread, lagged = found.motion.std(axis=0), np.array(START)
     print(f"{len(every)} runs; of their variance runs of one transition differ by",
           noise(found).round(3), noise(found).mean().round(4))  # fmt: skip
+    kinds = kinds_of(found)
     for name in (FORM, *(name for name in FORMS if name != FORM)):
         form = FORMS[name]
         values = fit(name, found, every, np.array(START) if name == FORM else
                      start_of(name, lagged))  # fmt: skip
-        lagged = values if name == FORM else lagged
+        if name == FORM:
+            lagged = values
+            tell_errors(found, values)
         held_out, fits = np.empty_like(found.motion), [values]
         for k in range(FOLDS):
             here = fold == k
@@ -111,13 +147,16 @@ def fit_all(folder: Path) -> None:
         lines += [(name, number - 1, " ".join(f"{x:.6g}" for x in row))
                   for number, row in enumerate(fits)]  # fmt: skip
         share = (((held_out - found.motion) / spread) ** 2).mean(axis=1)
-        misses[name] = np.array([share[fold == k].mean() for k in range(FOLDS)])
+        misses[name] = share
         less = misses[FORM] - misses[name]
+        by_fold = np.array([less[fold == k].mean() for k in range(FOLDS)])
+        by_kind = clustered(np.ones((len(less), 1)), less - less.mean(), kinds)
         r2, seen = (" ".join(f"{x:.2f}" for x in explained(one, found.motion))
                     for one in (form.law(values, found.past, found.after), held_out))  # fmt: skip
         print(
             f"| {name}, {form.numbers} numbers | {r2} | {seen} | {share.mean():.4f} | "
-            f"{-less.mean():+.4f} ± {less.std(ddof=1) / FOLDS**0.5:.4f} |",
+            f"{-by_fold.mean():+.4f} ± {by_fold.std(ddof=1) / FOLDS**0.5:.4f} |"
+            f" by kinds ± {by_kind.item() ** 0.5:.4f}",
             flush=True,
         )
         with (DATA / "remembered.csv").open("w", newline="", encoding="utf-8") as file:

@@ -3,9 +3,9 @@
 FOLDER is demos/data/visualtracking of clfreeman7/Path_Planning (commit b9acea9), which states no
 licence: it is read where it lies. Five tours go through all 240 transitions, one after the other,
 so each run has a known past. Runs are cut where the robot starts to move, which is found in each
-track; a tour whose track has lost transitions is set right by the other four, and axes are those of
-the hub, which was placed otherwise in each tour. Prints what was found and writes the means,
-recut.csv and recut_gaits.csv.
+track; a tour whose track has lost transitions, or has one too many, is set right by the other four,
+and axes are those of the hub, which was placed otherwise in each tour. Prints what was found and
+writes the means, recut.csv, recut_blue.csv and recut_gaits.csv.
 """
 
 import csv
@@ -47,7 +47,7 @@ AGAIN = {"B": 28}
 CYCLES, PAST = 30, 4
 _HEAD = ("dx [cm]", "dx_sd [cm]", "dy [cm]", "dy_sd [cm]", "turn [deg]", "turn_sd [deg]")
 _BLOCK = 10  # transitions whose start is found together, and whose place in the tour is
-_MOST_LOST, _NEAR = 3, 6.0  # transitions, frames
+_SKIPS, _NEAR = range(-3, 4), 6.0  # transitions, frames
 _SCALE = np.array([0.8, 0.8, 5.0])  # cm, cm, degrees: what transitions differ by; chosen
 _TURN_COUNTS = 8.0  # cm per radian, so that turning counts as motion
 
@@ -94,7 +94,7 @@ def axes(folder: Path, of: Experiment = ORANGE) -> Array:
     """By how much the hub was turned when each tour began, (5,) [rad].
 
     Over the mean of the orange robot's tours. Headings count from a tour's first frame, in which
-    the hub was placed by hand. Its eight markers are on a circle, nearly at equal angles.
+    the hub was placed by hand. Its eight markers are at nearly equal angles.
     """
     each, orange = (
         np.array([axis(markers(loadmat(folder / f"Euler {tour}.mat")["all_pt"][0]))
@@ -140,7 +140,8 @@ def motions(of: Track, frames: Array) -> Array:
 def lost(moves: list[Array], orders: Array) -> Array:
     """How many transitions each tour's track has lost before each block, (5, blocks).
 
-    The number with which a block's motions are most like the medians of all tours.
+    The number with which a block's motions are most like the medians of all tours; negative where
+    the track has more of them than the order.
     """
     count = len(moves[0])
     known: dict[tuple[int, int], list[Array]] = {}
@@ -153,11 +154,11 @@ def lost(moves: list[Array], orders: Array) -> Array:
         for block in range(count // _BLOCK):
             here = np.arange(block * _BLOCK, (block + 1) * _BLOCK)
             misses = []
-            for skip in range(_MOST_LOST + 1):
-                rows = here[here + skip < count]
+            for skip in _SKIPS:
+                rows = here[(here + skip >= 0) & (here + skip < count)]
                 like = np.array([usual[tuple(order[k + skip : k + skip + 2])] for k in rows])
                 misses.append(float((np.abs(moved[rows] - like) / _SCALE).mean()))
-            found[tour, block] = int(np.argmin(misses))
+            found[tour, block] = _SKIPS[int(np.argmin(misses))]
     return found
 
 
@@ -177,26 +178,42 @@ def runs(folder: Path, of: Experiment = ORANGE) -> Runs:
         for number in range(1, len(order) - 1):
             block = number // _BLOCK
             skip = skips[tour, block]
-            if skip != skips[tour, max(block - 1, 0)] or number + skip + 1 >= len(order):
+            known = 0 < number + skip < len(order) - 1
+            if skip != skips[tour, max(block - 1, 0)] or not known:
                 continue
             at = number + skip
             past = states[np.maximum(np.arange(at - PAST, at + 1), 0)]
             rows.append((past, states[at + 1], moves[tour][number], tour))
     for tour, row in zip(of.first, skips, strict=True):
-        if row.any():
-            print(f"tour {tour} has lost {row.max()} transitions from number "
-                  f"{_BLOCK * int(np.flatnonzero(row)[0])} on")  # fmt: skip
+        last = row[-1]
+        if last:
+            begin = _BLOCK * (1 + int(np.flatnonzero(row != last)[-1]))
+            print(
+                f"tour {tour}: its track has {abs(last)} transitions "
+                f"{'fewer' if last > 0 else 'more'} than its order from number {begin} on"
+            )
     past, after, motion, tours = (np.array(column) for column in zip(*rows, strict=True))
     return Runs(past, after, motion, tours)
 
 
 def gait(folder: Path, name: str) -> Array:
     """Cycles of a gait but the first, from the state that its name begins with, (29, 3)."""
+    of, frames, states = _cut(folder, name)
+    return motions(of, frames[::states])[1:]
+
+
+def gait_steps(folder: Path, name: str) -> Array:
+    """Transitions of the same cycles, (29, T, 3)."""
+    of, frames, states = _cut(folder, name)
+    return motions(of, frames).reshape(CYCLES, states, 3)[1:]
+
+
+def _cut(folder: Path, name: str) -> tuple[Track, Array, int]:
+    """A gait's track, the frames at which its transitions begin, and how many a cycle has."""
     first, states = GAITS[name]
     of = track(folder / f"Gait {name}.mat")
     begin = first + FRAMES - 1.5 + FRAMES * AGAIN.get(name, 0)
-    frames = starts(of, begin, CYCLES * states, 2 * states)
-    return motions(of, frames[::states])[1:]
+    return of, starts(of, begin, CYCLES * states, 2 * states), states
 
 
 def write_means(of: Runs, path: Path) -> None:
