@@ -2,8 +2,8 @@
 
 The tracks are those of TerreSoRo-IV (`zoo.terresoro_iv.tracks`), which state no licence: they are
 read where they lie, and nothing of them is kept but what is fitted. Numbers are fitted to the
-transitions of the tours alone, with intervals by leaving an eighth of the transitions out at a time
-(jackknife); the tracks of the gaits are only looked at to be laid beside what is predicted.
+transitions of the tours alone, with intervals by kinds of transitions, which are alike by quarter
+turns; the tracks of the gaits are only looked at to be laid beside what is predicted.
 """
 
 import base64
@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy import stats
 
 from mjsim import pictures
 from mjsim.files.command_line.cli import fail
@@ -23,11 +22,10 @@ from studies import Array
 from zoo.comparison import Row, draw
 from zoo.deciding import errors, narrowed
 from zoo.terresoro_iv import decide
-from zoo.terresoro_iv.fit import FOLDS
-from zoo.terresoro_iv.hub import Gait, gaits, jackknife, measured_cycles
+from zoo.terresoro_iv.hub import Gait, gaits, measured_cycles
 from zoo.terresoro_iv.limbs import lay
-from zoo.terresoro_iv.memory import START, fit, folds_of
-from zoo.terresoro_iv.model import FORM, Lagged, cycle, steady
+from zoo.terresoro_iv.memory import START, covariance_of, fit
+from zoo.terresoro_iv.model import FORM, Lagged, cycles, slopes, steady
 from zoo.terresoro_iv.scenes import scene, stages
 from zoo.terresoro_iv.tracks import GAITS, ORANGE, gait, runs
 
@@ -36,7 +34,7 @@ SOURCE = "tracks of TerreSoRo-IV: C. Freeman, A. Mahendran, V. Vikas, IEEE T-RO 
 _STYLE = Path(pictures.__file__).parent / "page" / "style.css"
 _CYCLES = 2  # of a scene
 _BEST = 5  # measurements that the page tells
-_WIDE = float(stats.t.ppf(0.975, FOLDS - 1))  # standard errors of a 95 % interval
+_WIDE = 2.0  # standard errors of a 95 % interval, by some sixty kinds
 
 
 class Shown(NamedTuple):
@@ -59,15 +57,13 @@ NUMBERS = (
 
 
 def fitted(folder: Path) -> tuple[Array, Array]:
-    """Numbers fitted to all transitions of the tours, (7,), and with parts left out, (8, 7)."""
+    """Numbers fitted to all transitions of the tours, (7,), and their covariance, (7, 7)."""
     tours = runs(folder)
-    fold = folds_of(tours)
-    values = fit(FORM, tours, np.arange(len(fold)), np.array(START))
-    return values, np.array([fit(FORM, tours, np.flatnonzero(fold != k), values)
-                             for k in range(FOLDS)])  # fmt: skip
+    values = fit(FORM, tours, np.arange(len(tours.tour)), np.array(START))
+    return values, covariance_of(tours, values)
 
 
-def beside(folder: Path, values: Array, left_out: Array) -> list[Row]:
+def beside(folder: Path, values: Array, covariance: Array) -> list[Row]:
     """Distance and turn of each gait, predicted by the numbers, beside what its track shows."""
     walked = []
     for gait_of_hub in gaits():
@@ -75,21 +71,21 @@ def beside(folder: Path, values: Array, left_out: Array) -> list[Row]:
         walked.append(Gait(gait_of_hub.name, gait_of_hub.states, len(motion), motion.mean(axis=0),
                            motion.std(axis=0, ddof=1)))  # fmt: skip
     rows, asked = [], (("distance", "cm"), ("turn", "deg"))
-    for one, mean, error in zip(walked, *measured_cycles(walked), strict=True):
-        value, *others = (cycle(one.states, Lagged(*row)) for row in (values, *left_out))
-        unsure = jackknife(np.array(others))
+    unsure = errors(covariance, slopes(cycles, values).reshape(-1, len(values))).reshape(-1, 2)
+    for one, mean, error, value, off in zip(walked, *measured_cycles(walked), cycles(values),
+                                            unsure, strict=True):  # fmt: skip
         rows += [Row("tracks", f"gait {one.name}, {what}", unit, mean[k], error[k], value[k],
-                     unsure[k], math.nan, SOURCE)
+                     off[k], math.nan, SOURCE)
                  for k, (what, unit) in enumerate(asked)]  # fmt: skip
     return rows
 
 
-def numbers(values: Array, left_out: Array) -> list[tuple[str, str, str, str]]:
+def numbers(values: Array, covariance: Array) -> list[tuple[str, str, str, str]]:
     """Words, value, 95 % interval and unit of each fitted number."""
-    errors = _WIDE * jackknife(left_out)
+    half = _WIDE * np.sqrt(np.diag(covariance))
     return [(shown.words, f"{shown.value(value):.3g}",
              f"{shown.value(value - error):.3g} to {shown.value(value + error):.3g}", shown.unit)
-            for shown, value, error in zip(NUMBERS, values, errors, strict=True)]  # fmt: skip
+            for shown, value, error in zip(NUMBERS, values, half, strict=True)]  # fmt: skip
 
 
 def scenes(numbers: Lagged) -> dict[str, str]:
@@ -100,15 +96,14 @@ def scenes(numbers: Lagged) -> dict[str, str]:
             for one in gaits()}  # fmt: skip
 
 
-def deciding(values: Array, left_out: Array) -> list[tuple[str, str]]:
+def deciding(values: Array, spread: Array) -> list[tuple[str, str]]:
     """Measurements that narrow the gaits' distances most, and the error that each leaves."""
-    at, spread = Lagged(*values), decide.covariance(left_out)
-    gradient = decide.slopes(decide.distances, at)
+    gradient = slopes(decide.distances, values)
 
     def error(covariance: Array) -> float:
         return float(np.sqrt(np.mean(errors(covariance, gradient) ** 2)))
 
-    after = {one.name: error(narrowed(spread, decide.slopes(one.value, at), one.error))
+    after = {one.name: error(narrowed(spread, decide.slope(one, values), one.error))
              for one in decide.MEASUREMENTS}  # fmt: skip
     best = sorted(after, key=lambda name: after[name])[:_BEST]
     return [(name, f"{left_error:.3f} cm") for name, left_error in
@@ -173,16 +168,16 @@ def main(folder: Path, out: Path) -> list[tuple[str, dict[str, Any]]]:
         Names of gaits, and what is predicted and measured, in words ("text") and numbers.
     """
     try:
-        values, left_out = fitted(checked(folder))
+        values, covariance = fitted(checked(folder))
         check_folder(out)
-        rows = beside(folder, values, left_out)
+        rows = beside(folder, values, covariance)
     except (ValueError, KeyError, OSError) as error:
         fail("from_tracks", str(error))
-    shown = numbers(values, left_out)
+    shown = numbers(values, covariance)
     print(*(f"{words}: {value} ({between}) {unit}".rstrip() for words, value, between, unit
             in shown), sep="\n")  # fmt: skip
     draw(rows, out / "gaits.png")
-    told = page(shown, rows, deciding(values, left_out), (out / "gaits.png").read_bytes())
+    told = page(shown, rows, deciding(values, covariance), (out / "gaits.png").read_bytes())
     files = {"page.html": told, **scenes(Lagged(*values))}
     for name, text in files.items():
         with whole(out / name) as part:

@@ -61,12 +61,12 @@ def test_tracks_give_back_the_numbers_and_the_gaits_that_made_them(tmp_path, cap
         later = tracks.FRAMES * (1 + tracks.AGAIN.get(gait.name, 0))
         film(tmp_path / f"Gait {gait.name}.mat", motions[: count * tracks.CYCLES + 1],
              first + later - 1.5)  # fmt: skip
-    values, left_out = from_tracks.fitted(tmp_path)
-    monkeypatch.setattr(from_tracks, "fitted", lambda _: (values, left_out))
+    values, covariance = from_tracks.fitted(tmp_path)
+    monkeypatch.setattr(from_tracks, "fitted", lambda _: (values, covariance))
     told = from_tracks.main(tmp_path, tmp_path / "out")
     assert values == pytest.approx(np.array(TRUE), rel=0.02)
-    assert np.abs(left_out - values).max() < 0.1
-    for row in from_tracks.beside(tmp_path, values, left_out):
+    assert np.sqrt(np.diag(covariance)).max() < 0.1
+    for row in from_tracks.beside(tmp_path, values, covariance):
         assert row.predicted == pytest.approx(row.measured, rel=0.02, abs=0.02)
     assert [name for name, _ in told][::2] == [f"gait {name}, distance" for name in "ABCDE"]
     assert "part of a curl that lacks" in capsys.readouterr().out

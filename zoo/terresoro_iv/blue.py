@@ -15,8 +15,8 @@ from scipy.optimize import least_squares
 from studies import Array
 from zoo.terresoro_iv.fit import FOLDS, explained
 from zoo.terresoro_iv.hub import jackknife
-from zoo.terresoro_iv.memory import SCALE, STEP, folds_of, noise
-from zoo.terresoro_iv.model import Lagged, motions, remembered
+from zoo.terresoro_iv.memory import STEP, folds_of, noise
+from zoo.terresoro_iv.model import SCALE, Lagged, motions, remembered
 from zoo.terresoro_iv.tracks import BLUE, Runs, runs
 
 FREED = {

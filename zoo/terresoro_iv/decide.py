@@ -2,8 +2,8 @@
 
 For each measurement that could be made, with the accuracy that is written beside it: how sure the
 fit is of it already, and by how much it narrows the errors of the five gaits' distances, by the
-information matrix of the fit. Its covariance is that of the jackknife, since errors of transitions
-that share a cause are no chance. And the gaits that tell forms of memory apart.
+information matrix of the fit. Its covariance is by kinds of transitions, since errors of those that
+share a cause are no chance. And the gaits that tell forms of memory apart.
 """
 
 from collections.abc import Callable
@@ -16,11 +16,10 @@ import numpy as np
 from studies import Array
 from zoo.deciding import errors, narrowed
 from zoo.terresoro_iv.best import cycles, reach, reaches
-from zoo.terresoro_iv.hub import gaits, jackknife
-from zoo.terresoro_iv.model import FORM, Lagged, cycle, motions, remembered, steady
+from zoo.terresoro_iv.hub import jackknife
+from zoo.terresoro_iv.model import FORM, Lagged, covariance, motions, remembered, slopes, steady
+from zoo.terresoro_iv.model import cycles as cycles_of_gaits
 
-_STEP = 0.02  # of differences; wide, since laws have kinks
-_LENGTHS = (0,)  # numbers that are lengths, whose steps go with them
 FORMS = ("no memory", FORM, "free flat contact", "load", "order of curling")
 
 
@@ -71,41 +70,28 @@ MEASUREMENTS = (
 )
 
 
-def slopes(function: Callable[[Lagged], Array | float], at: Lagged) -> Array:
-    """Central differences by the numbers, (..., 7)."""
-    columns = []
-    for k in range(len(at)):
-        step = np.zeros(len(at))
-        step[k] = _STEP * (abs(at[k]) if k in _LENGTHS else 1.0)
-        ahead, back = (np.asarray(function(Lagged(*(np.array(at) + sign * step))))
-                       for sign in (1, -1))  # fmt: skip
-        columns.append((ahead - back) / (2 * step[k]))
-    return np.stack(columns, axis=-1)
-
-
-def covariance(left_out: Array) -> Array:
-    """Covariance of the numbers by the jackknife, (F, F)."""
-    folds = len(left_out)
-    return np.asarray((folds - 1) ** 2 / folds * np.cov(left_out, rowvar=False))
-
-
-def distances(numbers: Lagged) -> Array:
+def distances(values: Array) -> Array:
     """Distances of the five gaits, (5,) [cm]."""
-    return np.array([cycle(gait.states, numbers)[0] for gait in gaits()])
+    return cycles_of_gaits(values)[:, 0]
+
+
+def slope(measurement: Measurement, values: Array) -> Array:
+    """Slope of what a measurement shows by the numbers, (7,)."""
+    return slopes(lambda at: np.asarray(measurement.value(Lagged(*at))), values)
 
 
 def main() -> None:
     """Print a row per measurement, and the gaits that tell forms apart."""
-    values, left_out = remembered()
-    numbers, spread = Lagged(*values), covariance(left_out)
-    gradient = slopes(distances, numbers)
+    values, _ = remembered()
+    numbers, spread = Lagged(*values), covariance()
+    gradient = slopes(distances, values)
     print("| measurement | the fit says | after it | gaits' error left |")
     print("|---|---|---|---|")
     print(f"| none | | | {_error(gradient, spread):.3f} cm |")
     for measurement in MEASUREMENTS:
-        slope = slopes(measurement.value, numbers)
-        after = narrowed(spread, slope, measurement.error)
-        before, then = (float(np.sqrt(slope @ s @ slope)) for s in (spread, after))
+        shows = slope(measurement, values)
+        after = narrowed(spread, shows, measurement.error)
+        before, then = (float(np.sqrt(shows @ s @ shows)) for s in (spread, after))
         shown = f"{measurement.value(numbers):.2f} ± {before:.2f} | ± {then:.2f}"
         print(f"| {measurement.name} | {shown} | {_error(gradient, after):.3f} cm |")
     every, far, wide = list(cycles()), {}, {}

@@ -8,7 +8,6 @@ last. Without FOLDER the gaits of what was fitted are printed, and what they cha
 
 import csv
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from studies import Array
+from zoo.deciding import errors
 from zoo.terresoro_iv.fit import FOLDS, explained, folds, wrong_order
 from zoo.terresoro_iv.forms import FORMS
 from zoo.terresoro_iv.hub import (
@@ -33,21 +33,22 @@ from zoo.terresoro_iv.hub import cycle as cycle_of_pairs
 from zoo.terresoro_iv.hub import together as measured_together
 from zoo.terresoro_iv.model import (
     FORM,
+    SCALE,
     Lagged,
     cycle,
+    cycles,
     recut,
     recut_gaits,
     remembered,
+    slopes,
     steady,
     together,
 )  # fmt: skip
 from zoo.terresoro_iv.tracks import Runs, runs
 
 START = (7.5, 4.9, 0.9, 0.7, -0.35, 0.7, 0.2)
-SCALE = (1.0, 0.1, 0.3, 0.3, 0.3, 0.3, 0.1)
 _MORE = {"free flat contact": (1.0, 0.1)}  # scales of further values; 0.1 of others
 STEP, _MOST = 3e-3, 15  # of differences, over a number; evaluations with slopes
-_WIDE = 0.02  # of differences over a scale, where no fit goes on
 
 
 def fit(name: str, found: Runs, rows: NDArray[np.intp], start: Array) -> Array:
@@ -81,24 +82,25 @@ def kinds_of(found: Runs) -> Array:
     return np.array([each[kind] for kind in alike])
 
 
-def slopes(function: Callable[[Array], Array], at: Array) -> Array:
-    """Central differences of the values of a function by the seven numbers, (..., 7)."""
-    steps = _WIDE * np.diag(SCALE)
-    return np.stack([(function(at + step) - function(at - step)) / (2 * step.max())
-                     for step in steps], axis=-1)  # fmt: skip
-
-
-def tell_errors(found: Runs, values: Array) -> None:
-    """Print standard errors of the numbers and of the gaits by kinds of transitions."""
+def covariance_of(found: Runs, values: Array) -> Array:
+    """Covariance of the fitted numbers by kinds of transitions, (7, 7)."""
     spread, law = found.motion.std(axis=0), FORMS[FORM].law
     by_number = slopes(lambda at: law(at, found.past, found.after) / spread, values)
     left = (law(values, found.past, found.after) - found.motion) / spread
     kinds = np.repeat(kinds_of(found), left.shape[1])
-    covariance = clustered(by_number.reshape(-1, len(values)), left.ravel(), kinds)
+    return clustered(by_number.reshape(-1, len(values)), left.ravel(), kinds)
+
+
+def keep_errors(found: Runs, values: Array) -> None:
+    """Write the covariance by kinds and print standard errors of numbers and gaits."""
+    covariance = covariance_of(found, values)
+    with (DATA / "covariance.csv").open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(Lagged._fields)
+        writer.writerows([f"{x:.5g}" for x in row] for row in covariance)
     print("errors by kinds:", np.sqrt(np.diag(covariance)).round(3))
-    of_gaits = slopes(lambda at: gaits_of(FORM, at), values)
-    square = np.einsum("gwi,ij,gwj->wg", of_gaits, covariance, of_gaits)
-    print("errors of the gaits by kinds [cm, deg]:", np.sqrt(square).round(3).tolist())
+    of_gaits = errors(covariance, slopes(cycles, values).reshape(-1, len(values)))
+    print("errors of the gaits by kinds [cm, deg]:", of_gaits.reshape(-1, 2).round(3).T.tolist())
 
 
 def noise(found: Runs) -> Array:
@@ -138,7 +140,7 @@ def fit_all(folder: Path) -> None:
                      start_of(name, lagged))  # fmt: skip
         if name == FORM:
             lagged = values
-            tell_errors(found, values)
+            keep_errors(found, values)
         held_out, fits = np.empty_like(found.motion), [values]
         for k in range(FOLDS):
             here = fold == k
