@@ -5,7 +5,7 @@ gradient is that of friction at the two ends on the ground that counts, see anal
 is accepted is better by the whole objective. Where there is no gradient an ascent ends.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from typing import NamedTuple
@@ -49,26 +49,24 @@ def known_gaits(objective: Objective, space: Space) -> list[Gait]:
     both = {(gait.stages, gait.ramp_times): gait
             for one_way in (scene.gait, space.gait(space.middle()), *named) if one_way.repeats
             for gait in (one_way, one_way.reversed())}  # fmt: skip
-    return [within_supply(gait, scene.strip, scene.valves) for gait in both.values()]
+    return [within_supply(gait, scene.robot, scene.valves) for gait in both.values()]
 
 
 def ascents(
-    objective: Objective, space: Space, evaluations: int, pool: ProcessPoolExecutor | None = None
-) -> Iterator[Ascent]:
-    """Ascents from the best of the known gaits, after one that has tried these.
+    objective: Objective, gaits: Sequence[Gait], values: Sequence[float], evaluations: int,
+    pool: ProcessPoolExecutor | None = None,
+) -> Iterator[Ascent]:  # fmt: skip
+    """Ascents from the best of some gaits.
 
     Args:
         objective: to be maximised, see Objective.has_gradient.
-        space: whose period the gaits with names take.
+        gaits, values: known ones, see known_gaits, and their objectives.
         evaluations: number at most.
         pool: processes, if there are any.
     """
-    gaits = known_gaits(objective, space)[:evaluations]
     run = pool.map if pool else map
-    values = list(run(objective, gaits))
     order = np.argsort(-np.array(values), kind="stable")
-    yield Ascent(gaits[order[0]], values, len(values))
-    each = min(EVALUATIONS, (evaluations - len(values)) // ASCENTS)
+    each = min(EVALUATIONS, evaluations // ASCENTS)
     chosen = [i for i in order[:ASCENTS] if np.isfinite(values[i])] if each > 1 else []
     yield from run(_ascend, [objective] * len(chosen), [gaits[i] for i in chosen],
                    [values[i] for i in chosen], [each] * len(chosen))  # fmt: skip

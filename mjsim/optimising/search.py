@@ -1,4 +1,4 @@
-"""Search by the gradient where there is one, then by CMA-ES (Hansen 2016), on all cores.
+"""Search from known gaits, by the gradient where there is one, then by CMA-ES (Hansen 2016).
 
 Ascents from known gaits find a hill's top in few evaluations, CMA-ES the hills that none leads to.
 """
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from analytic.scene.gait import Gait
 from mjsim.files.extras import optional
-from mjsim.optimising.ascent import ascents
+from mjsim.optimising.ascent import ascents, known_gaits
 from mjsim.optimising.objective import Objective
 from mjsim.optimising.space import Space
 from mjsim.optimising.valve_times import within_supply
@@ -25,7 +25,7 @@ _FAILED = 1e6  # loss of a gait whose objective is minus infinity
 
 
 class Generation(NamedTuple):
-    """Result of a generation, or of an ascent along the gradient.
+    """Result of the known gaits, of a generation, or of an ascent along the gradient.
 
     Attributes:
         evaluations: number so far.
@@ -48,7 +48,7 @@ def search(
     pool: ProcessPoolExecutor | None = None,
     begin: Iterable[Array] = (),
 ) -> Iterator[Generation]:
-    """Look for the best gait: by the gradient if there is one, then by CMA-ES.
+    """Look for the best gait: known ones, by the gradient if there is one, then by CMA-ES.
 
     Args:
         objective: to be maximised.
@@ -62,9 +62,13 @@ def search(
         ModuleNotFoundError: cma is not installed.
     """
     optional("cma", "the search")
-    best = Generation(0, objective.scene.gait, -np.inf, -np.inf)
+    gaits = known_gaits(objective, space)[:evaluations]
+    values = list((pool.map if pool else map)(objective, gaits))
+    top = int(np.argmax(values))
+    best = Generation(len(values), gaits[top], values[top], float(np.median(values)))
+    yield best
     if objective.has_gradient:
-        for ascent in ascents(objective, space, evaluations, pool):
+        for ascent in ascents(objective, gaits, values, evaluations - len(values), pool):
             count, value = best.evaluations + ascent.evaluations, max(ascent.values)
             gait = best.best if best.value > value else ascent.best
             best = Generation(count, gait, max(value, best.value), float(np.median(ascent.values)))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from analytic.scene.gait import GAITS, Gait
+from analytic.scene.limbs import quadruped
 from analytic.scene.surface import SURFACES
 from mjsim.optimising.ascent import EVALUATIONS, _ascend, known_gaits
 from mjsim.optimising.objective import Objective
@@ -100,3 +101,15 @@ def test_a_search_begins_with_what_is_known_and_keeps_to_its_number():
     course = list(search(_of("gelatin"), SPACE, 8, 0))
     assert course[-1].evaluations == 8
     assert course[-1].value == pytest.approx(_of("gelatin")(GAITS["wave"].reversed()), abs=1e-9)
+
+
+def test_a_search_for_a_robot_of_limbs_is_no_worse_than_its_own_gait_both_ways(monkeypatch):
+    pytest.importorskip("cma")
+    scene = Scene(quadruped())
+    own = {scene.gait.stages: 0.3, scene.gait.reversed().stages: -0.3}
+    monkeypatch.setattr(Objective, "__call__", lambda _, gait: own.get(gait.stages, 0.1))
+    objective = Objective(scene, (SURFACES["felt"],), model="mujoco")
+    assert not objective.has_gradient
+    course = list(search(objective, Space(5, 10.0), 4, 0))
+    assert course[0].evaluations == course[-1].evaluations == 4
+    assert (course[-1].value, course[-1].best.stages) == (0.3, scene.gait.stages)
