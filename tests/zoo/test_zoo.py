@@ -25,7 +25,8 @@ from zoo.terresoro_iv import best, fit
 from zoo.terresoro_iv import hub as terresoro
 from zoo.terresoro_iv import model as lagged
 
-SLOW = {"piezo_inchworm", "pneumatic_inchworm"}
+SLOW = {"piezo_inchworm", "pneumatic_inchworm", "geckobot_gaits", "arcfold"}
+LONG = {"terresoro_iv"}  # walks
 
 
 def cells(lines):
@@ -43,7 +44,10 @@ def test_a_robot_is_met_within_the_misfit_that_it_states_and_the_page_has_its_ro
         assert cell in page
 
 
-@pytest.mark.parametrize("scene", sorted(path.parent.name for path in HERE.glob("*/scene.toml")))
+@pytest.mark.parametrize("scene", [
+    pytest.param(name, marks=[pytest.mark.slow] * (name in LONG))
+    for name in sorted(path.parent.name for path in HERE.glob("*/scene.toml"))
+])  # fmt: skip
 def test_each_scene_walks(scene):
     built, numerics = build(read_tables(HERE / scene / "scene.toml"))
     walk = simulate(replace(built, cycles=1), numerics)
@@ -91,6 +95,7 @@ def test_a_panel_of_arcfold_makes_its_stroke():
     assert arcfold.distance() == pytest.approx(arcfold.stroke(90), rel=0.05)  # hinges have a width
 
 
+@pytest.mark.slow
 def test_ten_limbs_of_twice_the_links_go_as_far():
     (_, _, hub), (_, tips, finer) = wheels.slips(), wheels.slips(2)
     assert hub[-1] == pytest.approx(finer[-1], rel=0.02)
