@@ -87,7 +87,7 @@ def test_a_claw_on_one_leg_adds_its_hold_to_the_legs_share_by_its_chamber():
         assert bound == 0.5 * GROUND.tip_force + 0.05 * part
 
 
-@pytest.mark.parametrize("chamber", [None, "left"])
+@pytest.mark.parametrize("chamber", [pytest.param(None, marks=pytest.mark.slow), "left"])
 def test_a_strip_on_feet_described_as_limbs_goes_as_far_as_the_strip(chamber):
     """In the limit of weak friction; the rear leg runs back from the torso."""
     strip = Robot()

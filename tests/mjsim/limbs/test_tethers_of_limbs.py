@@ -31,7 +31,7 @@ def tied(tether, on="torso", robot=QUADRUPED):
 
 @pytest.mark.parametrize(("tether", "on", "ground"), [
     (Tether(0.5, drag=0.002), "torso", "felt"),
-    (Tether(0.0, drag=0.02, mass=0.005), "torso", "gelatin"),
+    pytest.param(Tether(0.0, drag=0.02, mass=0.005), "torso", "gelatin", marks=pytest.mark.slow),
     pytest.param(Tether(1.0, drag=0.005), "front-left", "gelatin", marks=pytest.mark.slow),
 ])  # fmt: skip
 def test_mujoco_goes_as_far_as_the_reference(tether, on, ground):
