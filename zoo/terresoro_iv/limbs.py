@@ -22,9 +22,8 @@ from analytic.solvers.limbs.kinematics import Tree
 from analytic.solvers.limbs.rest import Rest
 from analytic.solvers.limbs.statics import Statics
 from studies import Array
-from zoo.terresoro_iv.at_once import least_dissipation
 from zoo.terresoro_iv.hub import LIMBS, turned
-from zoo.terresoro_iv.model import Lagged, amounts, steady, together
+from zoo.terresoro_iv.model import Lagged, amounts, steady, through, together
 
 PEAK = 10e3  # Pa, chosen: a tendon has none
 LENGTH = 0.13  # m, of a limb on photographs, from where it leaves the hub to its tip
@@ -208,16 +207,8 @@ class Walker:
             [self._tips(curled) for curled in one + parts * (other - one)]
             for one, other in zip(begin, end, strict=True)
         ])  # fmt: skip
-        viscous = numbers.factors(past[:, -1], after) * np.exp(numbers.viscous) * steps
-        shift, turn = np.zeros((len(tips), 2)), np.zeros(len(tips))
-        for at, to in zip(tips[:, :-1].swapaxes(0, 1), tips[:, 1:].swapaxes(0, 1), strict=True):
-            motion = least_dissipation(np.ones_like(viscous), viscous, 0.5 * (at + to), to - at)
-            angle = turn + 0.5 * motion[:, 2]
-            c, s = np.cos(angle), np.sin(angle)
-            shift[:, 0] += c * motion[:, 0] - s * motion[:, 1]
-            shift[:, 1] += s * motion[:, 0] + c * motion[:, 1]
-            turn += motion[:, 2]
-        return np.column_stack([shift, np.degrees(turn)])
+        viscous = numbers.factors(past[:, -1], after) * np.exp(numbers.viscous)
+        return through(list(tips.swapaxes(0, 1)), np.ones_like(viscous), viscous)
 
     def cycle(self, states: Sequence[str], steps: int = STEPS) -> Array:
         """Distance [cm] and turn [deg] of a cycle of a gait that goes on and on."""

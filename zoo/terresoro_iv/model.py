@@ -88,10 +88,19 @@ def moved(
         places: of contacts of flat and of curled limbs, (4, 2) each [cm].
     """
     flat, bent = places
-    film = viscous * (len(curled) - 1)
-    along = [flat + (bent - flat) * one[..., None] for one in curled]
+    return through([flat + (bent - flat) * one[..., None] for one in curled], dry, viscous)
+
+
+def through(places: Sequence[Array], dry: Array, viscous: Array) -> Array:
+    """Motions of hubs whose contacts go through places at equal times, (N, 3) [cm, cm, deg].
+
+    Args:
+        places: of the contacts in the frame of the hub, two or more, (N, 4, 2) each [cm].
+        dry, viscous: see `moved`.
+    """
+    film = viscous * (len(places) - 1)
     shift, turn = np.zeros((len(dry), 2)), np.zeros(len(dry))
-    for at, to in pairwise(along):
+    for at, to in pairwise(places):
         motion = least_dissipation(dry, film, 0.5 * (at + to), to - at)
         angle = turn + 0.5 * motion[:, 2]
         c, s = np.cos(angle), np.sin(angle)
